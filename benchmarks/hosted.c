@@ -76,7 +76,7 @@ static SUNErrCode next_step(SUNAdaptController controller, sunrealtype h, int p,
 {
     (void)controller, (void)p, (void)error;
     if (h >= host.goal * (1.0 - LAST_STEP) || host.proposed < h) host.goal = host.proposed;
-    host.goal = fmin(host.goal, longest_step(host.in->model, host.next));
+    host.goal = fmin(host.goal, cage_longest_step(host.in->model, host.next->film));
     const double left = host.t_stop - (host.in->s->t + h);
     *h_next = (left > 0.0 ? step_length(host.goal, left) : host.goal) / HALF;
     return SUN_SUCCESS;
@@ -113,7 +113,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     if (host.in != in && !host_create(in)) return -1;
     weigh_orbit(in);
     host.now = &s->now, host.next = &in->trial;
-    host.goal = fmin(s->h, longest_step(in->model, host.now)), host.t_stop = t_stop;
+    host.goal = fmin(s->h, cage_longest_step(in->model, host.now->film)), host.t_stop = t_stop;
     memcpy(data(host.y), s->now.y, sizeof s->now.y);
     const double first = step_length(host.goal, t_stop - s->t);
     if (ARKodeReset(host.arkode, s->t, host.y) != ARK_SUCCESS) return -1;

@@ -1,8 +1,8 @@
 // Compiled once per instruction set, like the kernels.
 #include "kernel_loops.h"
 
+#include "cage/cage.h"
 #include "cage/common/cage_joint.h"
-#include "cage/common/pocket.h"
 #include "physics/ball.h"
 #include "physics/drag.h"
 #include "physics/land_film.h"
@@ -43,12 +43,12 @@ void element_times(const Model *model, const double *y, int rounds, Work *w, dou
     rhs(model, 0.0, y, y_dot, w);
     TIME(0, ball_kinematics(y, w));
     TIME(1, race_contact_force(model, w));
-    TIME(2, pocket_force(model, w));
+    TIME(2, cage_pockets(model, w));
     TIME(3, drag_force(model, w));
     TIME(4, land_film_force(model, w));
     TIME(5, drag_cage(model, w));
     TIME(6, cage_joint_kinematics(model, w));
-    TIME(7, cage_joint_force(model, y, w));
+    TIME(7, two_half_joints(model, y, w));
     TIME(8, ball_acceleration(model, w, y_dot));
     TIME(9, ring_acceleration(model, w, y_dot));
 }

@@ -133,20 +133,19 @@ static void diagonal_rates(Integrator *in)
     }
     for (int h = 0; h < 2; h++) {
         const double x = (h == 0 ? -p->cage.land_x : p->cage.land_x) - d->com_x[h], xx = x * x;
-        in->rates[Y_CAGE_V_Y + h] = w->film_yy[h] / p->cage.m;
-        in->rates[Y_CAGE_V_Z + h] = w->film_zz[h] / p->cage.m;
-        in->rates[Y_CAGE_BETA_DOT + h] = xx * w->film_zz[h] / p->cage.J_t;
-        in->rates[Y_CAGE_GAMMA_DOT + h] = xx * w->film_yy[h] / p->cage.J_t;
-        in->rates[Y_CAGE_S + h] = w->film_spin[h] / p->cage.J_p;
+        in->rates[Y_CAGE_V_Y + h] = w->film[h].yy / p->cage.m;
+        in->rates[Y_CAGE_V_Z + h] = w->film[h].zz / p->cage.m;
+        in->rates[Y_CAGE_BETA_DOT + h] = xx * w->film[h].zz / p->cage.J_t;
+        in->rates[Y_CAGE_GAMMA_DOT + h] = xx * w->film[h].yy / p->cage.J_t;
+        in->rates[Y_CAGE_S + h] = w->film[h].spin / p->cage.J_p;
     }
-    const double dT = cage_joint_prying(in->model, w);
     for (int k = 0; k < Z; k++) {
         const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu;
         const double floor = p->joint.F_floor;
         in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] =
-            speed * d->k_plate_t / (mu * (w->N_plate[k] + dT) + floor);
+            speed * d->k_plate_t / (mu * w->two_half.N_plate[k] + floor);
         in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] =
-            speed * d->k_head / (mu * (w->T[k] + dT) + floor);
+            speed * d->k_head / (mu * w->two_half.rivet[0][k] + floor);
     }
 }
 
@@ -475,9 +474,9 @@ void integrator_destroy(Integrator *in)
 }
 
 // States are not saved here.
-bool integrator_state_is_valid(const IntegratorState *state, bool elastic)
+bool integrator_state_is_valid(const IntegratorState *state, const Parameters *p)
 {
-    (void)state, (void)elastic;
+    (void)state, (void)p;
     return false;
 }
 

@@ -14,7 +14,6 @@ V.
 import numpy as np
 
 from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, law_load
-from bearing_model.cage.two_half.half_path import bolt_group
 from bearing_model.rivet.rivet_table import HalfData
 
 from . import half_shape, splines
@@ -147,6 +146,22 @@ def rigid_inertia(elastic):
         turn = np.kron(np.eye(2), np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]))
         I += turn @ pitch @ turn.T
     return I
+
+
+def bolt_group(d_m, wrench, c, s):
+    """Rigid share: N, V_y, V_z at each rivet [N] of the wrench (F_x, F_y, F_z, M_x, M_y, M_z) [N, N.m] on the +x half
+    at the circle's centre.
+
+    c, s: cosine and sine of the rivets' angles.  Rigid halves on a circle of equal elastic rivets, whose own bending
+    stiffness is neglected.
+
+    >>> bolt_group(2.0, [9.0, 0, 0, 0, 0, 0], np.ones(9), np.zeros(9))[0][0]
+    np.float64(1.0)
+    """
+    c, s, Z, R = np.asarray(c), np.asarray(s), len(c), 0.5 * d_m
+    shear = wrench[3] / (Z * R)
+    N = wrench[0] / Z + 2.0 * (wrench[4] * s - wrench[5] * c) / (Z * R)
+    return N, wrench[1] / Z - shear * s, wrench[2] / Z + shear * c
 
 
 def rigid_rows(elastic, place):

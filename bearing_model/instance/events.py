@@ -14,7 +14,6 @@ stresses.
 
 import numpy as np
 
-from bearing_model.generated.variables import CageModel
 from bearing_model.numbers.vec import vec, vec_dot, vec_local, vec_to_global
 from bearing_model.physics.hertz import hertz_pressure
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
@@ -63,7 +62,6 @@ def event_outputs(model, w):
     def count(value, limit):
         return np.sum(value > limit, axis=-1).astype(float)
 
-    rigid = p.scene.cage == CageModel.RIGID
     return {
         "event.land_contact": count(*lands(model, w)),
         "event.pocket_exit": count(*pockets(model, w)),
@@ -74,5 +72,5 @@ def event_outputs(model, w):
         "event.no_clearance": count(
             2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load)) - p.bearing.P_d + 0.0 * w.x[..., :1], 0.0
         ),
-        "event.joint_open": 0.0 * count(w.x, np.inf) if rigid else count(w.u[0], d.P / d.k_plate),
+        "event.joint_open": count(w.u[0], d.P / d.k_plate),
     }

@@ -11,8 +11,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearing_model.instance.energy import energy_terms, loss_terms, supply_terms
+from bearing_model.instance.energy import energy_terms
 from bearing_model.physics.model import Work
+from bearing_model.physics.powers import loss_terms, supply_terms
 from bearing_model.physics.rhs import rhs
 
 STEP = 1e-30  # of the complex step [s]
@@ -47,7 +48,7 @@ class Ledger:
             for name, rate in terms(model.at(t + 1j * STEP), along).items():
                 P = np.broadcast_to(rate, (len(t), 1))[:, 0]
                 account[name] = account.get(name, 0.0) + integral(np.diff(t), np.real(P), np.imag(P) / STEP)
-        for name, energy in energy_terms(model, w).items():
+        for name, energy in energy_terms(model, y, w).items():
             self.stored[name] = self.stored.get(name, 0.0) + energy[-1, 0] - energy[0, 0]
 
     def copy(self):

@@ -6,6 +6,7 @@ Each function returns {name: array}: [...] for one value, [..., Z] for the eleme
 
 import numpy as np
 
+from bearing_model.cage.cage import cage_flex, cage_loads, cage_slip
 from bearing_model.generated.variables import (
     BALL_THETA,
     CAGE_PSI,
@@ -15,23 +16,21 @@ from bearing_model.generated.variables import (
     RING_V_Y,
     RING_V_Z,
     WORK,
-    CageModel,
     RingMotion,
     Stress,
     Z,
 )
-from bearing_model.instance.energy import energy_total, power_loss
+from bearing_model.instance.energy import energy_total
 from bearing_model.instance.events import event_outputs
 from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_dot, vec_local
 from bearing_model.physics.hertz import hertz_pressure
 from bearing_model.physics.outer_ring import spread
-from bearing_model.physics.powers import frame_power, housing_power, housing_wrench, shaft_power
+from bearing_model.physics.powers import frame_power, housing_power, housing_wrench, power_loss, shaft_power
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.physics.ring_load import ring_tilts
 from bearing_model.physics.traction import Q_FLOOR, traction_ln_film, traction_ln_thermal
 from bearing_model.rivet.rivet_rom import HEAD_P1, HEAD_VM, MID_P1, MID_VM, rivet_rom_stress
-from bearing_model.rivet.rivets import rivets_load, rivets_slip
 
 STANDSTILL = 1e-9  # rad/s: up to it a speed is none that others are compared with
 
@@ -89,14 +88,19 @@ def spin_roll(w):
     return np.where(counts, spin / np.sqrt(np.where(counts, all_ - spin * spin, 1.0)), 0.0)
 
 
+def pocket_loads(w):
+    """Loads of the balls on both halves together [..., Z] [N]."""
+    return w.pocket[0].Q + w.pocket[1].Q
+
+
 def ball_outputs(model, w):
-    d, delta_c = model.d, np.max([*w.delta_c.values()], axis=0)
+    d, delta_c, Q_c = model.d, np.max(w.delta_c, axis=0), pocket_loads(w)
     deltas = np.array([w.delta_i, w.delta_e, delta_c])
     return {
         "ball[j].Q_i": w.Q_i,
         "ball[j].Q_e": w.Q_e,
-        "ball[j].Q_c": w.Q_pocket,
-        "ball[j].Q_cx": sum(F[0] for F in w.pocket.values()),
+        "ball[j].Q_c": Q_c,
+        "ball[j].Q_cx": sum(pocket.F[0] for pocket in w.pocket),
         "ball[j].omega_m": w.omega_m,
         "ball[j].alpha_i": np.where(w.Q_i > 0.0, np.arctan2(-w.n_i[0], -w.n_i[1]), 0.0),
         "ball[j].alpha_e": np.where(w.Q_e > 0.0, np.arctan2(w.n_e[0], w.n_e[1]), 0.0),
@@ -107,20 +111,11 @@ def ball_outputs(model, w):
         "ball[j].spin_roll": spin_roll(w),
         "bearing.clearance": model.p.bearing.P_d
         - 2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
-        + 0.0 * w.Q_pocket[..., 0],
+        + 0.0 * Q_c[..., 0],
         "bearing.contacts": np.sum(deltas > 0.0, axis=(0, -1)),
         "bearing.penetration": np.maximum(np.max(deltas, axis=(0, -1)), 0.0),
-        "cage.F_pocket_max": np.max(w.Q_pocket, axis=-1),
+        "cage.F_pocket_max": np.max(Q_c, axis=-1),
     }
-
-
-def flex(model, w, h):
-    """Motions (x, r, t) of half h at the rivets by its modes [3, ..., Z]; half 0 is the mirror image of half 1."""
-    if model.p.scene.cage != CageModel.ELASTIC:
-        return np.zeros((3, *w.x.shape))
-    side = 1.0 if h == 1 else -1.0
-    q, _ = w.modes[h]
-    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], q[..., 0, :], model.d.elastic.pad[:, :3])
 
 
 def pose_outputs(model, w, y):
@@ -131,7 +126,9 @@ def pose_outputs(model, w, y):
         values |= {f"half_{h}.{name}": value[..., 0] for name, value in pose.items()} | {
             f"half_{h}.psi": y[..., CAGE_PSI][..., h]
         }
-        values |= {f"rivet[k].flex_{h}_{name}": value for name, value in zip("xrt", flex(model, w, h), strict=True)}
+        values |= {
+            f"rivet[k].flex_{h}_{name}": value for name, value in zip("xrt", cage_flex(model, w, h), strict=True)
+        }
     return values
 
 
@@ -151,9 +148,8 @@ def cage_outputs(model, w):
 
 
 def rivet_outputs(model, w):
-    load = rivets_load(model, w)
-    slip, R = rivets_slip(model, w), 0.5 * model.d.table.joint["d_m"]
-    c, s = model.d.rivet_y / R, model.d.rivet_z / R
+    load = cage_loads(model, w)
+    slip, c, s = cage_slip(model, w), model.d.rivet_y * model.d.inv_R, model.d.rivet_z * model.d.inv_R
 
     def along_y_z(r, t):
         return r * c - t * s, r * s + t * c
@@ -185,7 +181,7 @@ def stress_outputs(model, w):
     shape = w.x.shape
     sigma, flags = np.zeros((*shape, 4)), np.zeros(shape)
     if model.p.scene.stress != Stress.OFF:
-        sigma, flags = rivet_rom_stress(model.d.table, rivets_load(model, w).rivet, model.d.fit_eff)
+        sigma, flags = rivet_rom_stress(model.d.table, cage_loads(model, w).rivet, model.d.fit_eff)
         flags = flags | model.d.fit_flags
     return {
         "rivet[k].sigma_head": sigma[..., HEAD_P1],
@@ -196,8 +192,8 @@ def stress_outputs(model, w):
     }
 
 
-def energy_outputs(model, w, work, energy_start):
-    energy = energy_total(model, w)
+def energy_outputs(model, y, w, energy_start):
+    energy, work = energy_total(model, y, w), y[..., WORK][..., 0]
     parts = {
         "races": w.race_dissipated,
         "inlet": w.inlet_dissipated,
@@ -211,10 +207,8 @@ def energy_outputs(model, w, work, energy_start):
         "loss.ring_drag": w.ring_drag_dissipated,
         "loss.land": w.land_dissipated,
     }
-    values["loss.joints"] = (
-        ball_array_sum(w.joint_dissipated) if model.p.scene.cage != CageModel.RIGID else 0.0 * values["loss.races"]
-    )
-    values["loss.modes"] = w.modes_dissipated if model.p.scene.cage == CageModel.ELASTIC else 0.0 * values["loss.races"]
+    values["loss.joints"] = ball_array_sum(w.joint_dissipated)
+    values["loss.modes"] = w.elastic.dissipated + 0.0 * values["loss.races"]
     values["bearing.power_loss"] = power_loss(model, w)
     values |= {
         "shaft.power": shaft_power(w),
@@ -231,8 +225,7 @@ def outputs(model, w, y, y_dot, energy_start):
     """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total
     at the start [J].
     """
-    work = y[..., WORK][..., 0]
-    values = {"bearing.Z": np.full(np.shape(work), float(Z))}
+    values = {"bearing.Z": np.full(y.shape[:-1], float(Z))}
     values |= (
         ring_outputs(model, w, y_dot) | pose_outputs(model, w, y) | ball_outputs(model, w) | cage_outputs(model, w)
     )
@@ -240,6 +233,6 @@ def outputs(model, w, y, y_dot, energy_start):
         values
         | rivet_outputs(model, w)
         | stress_outputs(model, w)
-        | energy_outputs(model, w, work, energy_start)
+        | energy_outputs(model, y, w, energy_start)
         | event_outputs(model, w)
     )

@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearing_model.cage.elastic.cage_elastic import derive_elastic
+from bearing_model.cage.cage import cage_orbit_scale, cage_refusal, cage_vibrates
+from bearing_model.cage.common.centrifugal import cage_centrifugal
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     ELASTIC_SCALES,
@@ -16,7 +17,6 @@ from bearing_model.generated.variables import (
     N_STATES,
     PARAMETERS,
     STATE_SCALES,
-    CageModel,
     Drag,
     FitModel,
     Method,
@@ -218,8 +218,8 @@ def derive_joint(p, d, table):
     d.k_head = joint["k_t_head"]
     d.k_hole = np.where(intact, joint_hole_stiffness(table, fit_a), 0.0)
     d.hole_gap = np.where(intact, np.maximum(0.0, -fit_a), BROKEN_PLAY)
-    d.spin = (p.cage.centrifugal == Switch.ON) * (p.cage.m / table.half.m) * table.half.spin
-    d.centrifugal = float(p.cage.centrifugal == Switch.ON)
+    d.inv_R = 2.0 / joint["d_m"]
+    d.centrifugal = cage_centrifugal(p, table) * table.half.spin  # rows of bonded joints (half_path.py), per (rad/s)^2
     d.c_joint = 2.0 * p.joint.zeta * np.sqrt((d.k_rivet + d.k_plate) * 0.5 * p.cage.m / Z)
 
 
@@ -234,8 +234,7 @@ def derive_scales(p, d):
     """
     equal = p.solver.method == Method.EXPLICIT
     length, velocity, r = 1e-5, 0.1 if equal else 0.5, 0.5 * p.bearing.d_m
-    elastic = p.scene.cage == CageModel.ELASTIC
-    orbit = velocity / (3.75 if elastic else 6.0)
+    vibrates, orbit = cage_vibrates(p), velocity * cage_orbit_scale(p)
     slip = max(p.joint.mu * d.P_mean, 3.0)  # force at which plates slip; of a loose joint the default's
     friction = slip if equal else 20.0 * slip
     by_class = {
@@ -252,8 +251,8 @@ def derive_scales(p, d):
         "head": friction / d.k_head,
         "energy": 1e30,
     }
-    scales = STATE_SCALES | ELASTIC_SCALES if elastic else STATE_SCALES
-    d.scale = np.empty(N_ALL_STATES if elastic else N_STATES)
+    scales = STATE_SCALES | ELASTIC_SCALES if vibrates else STATE_SCALES
+    d.scale = np.empty(N_ALL_STATES if vibrates else N_STATES)
     for name, scale in scales.items():
         d.scale[getattr(variables, name.upper())] = by_class[scale]
 
@@ -265,7 +264,7 @@ def default_table():
 
 
 def check_table(p, table):
-    """ValueError if a rivet_table.RivetTable belongs to another bearing than the Parameters p."""
+    """ValueError if a rivet_table.RivetTable belongs to another bearing than the Parameters p, or has no such cage."""
     if table.Z != Z:
         raise ValueError(f"the rivet table is for Z = {table.Z}; the model has Z = {Z}")
     if abs(p.bearing.d_m - table.joint["d_m"]) > 1e-3 * table.joint["d_m"]:
@@ -277,6 +276,9 @@ def check_table(p, table):
         raise ValueError(
             f"cage.x_c = {p.cage.x_c} m: the cage half of the rivet table has its centre of mass at {x_c} m +- 2 %"
         )
+    refusal = cage_refusal(p, table)
+    if refusal:
+        raise ValueError(refusal)
 
 
 def model_derive(p, table=None):
@@ -291,6 +293,4 @@ def model_derive(p, table=None):
     derive_cage(p, d)
     derive_joint(p, d, table)
     derive_scales(p, d)
-    if p.scene.cage == CageModel.ELASTIC:
-        d.elastic = derive_elastic(p, d, table)
     return d

@@ -25,6 +25,8 @@ wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall th
 carries.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 
 from bearing_model.generated.variables import Lubrication
@@ -63,8 +65,8 @@ def land_film_heating(s_2):
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
 
-    film_yy, film_yz, film_zz, film_spin: -dF/dv [N.s/m] and -dM/domega [N.m.s] of each land, for the integrator's
-    Jacobian.
+    film[land]: rates yy, yz, zz of its film, -dF/dv [N.s/m], and spin, -dM/domega [N.m.s], [..., 1] each, for the
+    integrator's Jacobian.
     """
     p, d = model.p, model.d
     h0, h1 = w.half
@@ -116,10 +118,13 @@ def land_film_force(model, w):
     w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
 
     # -dF/dv in the global frame
-    w.film_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z)
-    w.film_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y)
-    w.film_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z))
-    w.film_spin = couette + g * R * R
+    rates = {
+        "yy": kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
+        "yz": kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
+        "zz": kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
+        "spin": couette + g * R * R,
+    }
+    w.film = [SimpleNamespace(**{name: rate[..., h : h + 1] for name, rate in rates.items()}) for h in range(2)]
 
     F = F_y * outer.b_y + F_z * outer.b_z
     M = M_x * outer.a + vec_cross(x_land * axis, F)

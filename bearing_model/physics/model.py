@@ -11,6 +11,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from bearing_model.cage.cage import cage_derive
 from bearing_model.physics.derived import Derived, check_table, default_table, model_derive
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.physics.ring_load import (
@@ -25,8 +26,12 @@ from bearing_model.physics.temperature import check_temperatures, temperature_ap
 
 class Work(SimpleNamespace):
     """Results of one evaluation, named as in fmu_src/physics/model.h; vectors have their components on axis 0, pocket
-    results are kept by half.
+    results are kept by half.  elastic: of halves that vibrate; rigid ones add no inertia and lose nothing by modes.
     """
+
+    def __init__(self, **results):
+        still = SimpleNamespace(more_J=(0.0, 0.0), more_J_dot=(0.0, 0.0), energy=0.0, dissipated=0.0)
+        super().__init__(elastic=still, **results)
 
 
 @dataclass
@@ -37,6 +42,7 @@ class Model:
     d: Derived
     ring_load: RingLoad
     trajectory: InputTrajectory | None = None  # where the drive changes with time: takes its place
+    modes: object = None  # of the cage's halves where they vibrate (cage.py)
 
     @classmethod
     def of(cls, parameters=None, inputs=None, t=0.0, table=None):
@@ -51,8 +57,23 @@ class Model:
         """
         p, u = Parameters(parameters), Inputs(inputs)
         trajectory = input_trajectory_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
-        hot, d = derived_at(p, u, table)
-        return cls(hot, d, ring_load_at(trajectory, t), trajectory if input_trajectory_varies(trajectory) else None)
+        return cls.under(p, u, ring_load_at(trajectory, t), trajectory, table)
+
+    @classmethod
+    def under(cls, p, u, ring_load, trajectory=None, table=None):
+        """The model of the Parameters p at the temperatures in the Inputs u, under a RingLoad or an InputTrajectory that
+        varies; table: RivetTable, default that of the 6207.
+
+        ValueError names a temperature that oil or bearing do not bear, a cage that there is not, or parameters of another
+        bearing than the table's.
+        """
+        table = table or default_table()
+        check_table(p, table)
+        hot = temperature_apply(p, u, table)
+        check_temperatures(u, hot)
+        d = model_derive(hot, table)
+        varies = trajectory is not None and input_trajectory_varies(trajectory)
+        return cls(hot, d, ring_load, trajectory if varies else None, cage_derive(hot, d, table))
 
     def at(self, t):
         """The Model whose load and motions are those at time t [s], held; arrays of times [...] give loads [..., 1],
@@ -61,16 +82,3 @@ class Model:
         if self.trajectory is None:
             return self
         return replace(self, ring_load=ring_load_at(self.trajectory, np.expand_dims(t, -1)), trajectory=None)
-
-
-def derived_at(p, u, table=None):
-    """The Parameters p at the temperatures in the Inputs u, and the Derived that follow; table: RivetTable, default
-    that of the 6207.
-
-    ValueError names a temperature that oil or bearing do not bear, or parameters of another bearing than the table's.
-    """
-    table = table or default_table()
-    check_table(p, table)
-    hot = temperature_apply(p, u, table)
-    check_temperatures(u, hot)
-    return hot, model_derive(hot, table)

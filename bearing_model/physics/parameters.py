@@ -178,11 +178,3 @@ def check_geometry(p):
             f"pocket[{j + 1}].dD = {excess} m: more than -cage.pocket_clearance = {-pocket} m is allowed",
         )
         require(dD <= 0.0 or dD < clearance[j], f"ball[{j + 1}].dD = {dD} m: {less}")
-    differ = {
-        "preload_factor": p.rivet.preload_factor != 1.0,
-        "dfit": p.rivet.dfit != 0.0,
-        "intact": p.rivet.intact != 1,
-    }
-    for name, others in differ.items():
-        where = f"rivet[{np.argmax(others) + 1}].{name}: rivets that differ need scene.cage = two_half or elastic"
-        require(p.scene.cage != variables.CageModel.RIGID or not np.any(others), where)

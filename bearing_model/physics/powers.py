@@ -1,4 +1,5 @@
-"""Reactions on the rings, and the powers by which shaft, housing and frame change the energy of balls and cage.
+"""Reactions on the rings, and the powers that change the energy of balls and cage: of shaft, housing and frame, and the
+losses.
 
 All forces on balls and cage together accelerate them; the outer ring carries the forces that the inner ring puts on
 balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these forces.
@@ -8,6 +9,7 @@ from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot, vec_to_global
 from bearing_model.physics.frame import frame_acceleration, frame_moment
 from bearing_model.physics.outer_ring import outer_ring
+from bearing_model.physics.race_contact import race_growth_power
 
 
 def housing_reaction(w):
@@ -51,3 +53,43 @@ def frame_power(model, w):
         force = model.p.cage.m * frame_acceleration(frame, half.x + half.c, v)
         power = power + vec_dot(force, v) + vec_dot(frame_moment(frame, half, d.J_p, d.J_t), half.Omega)
     return power
+
+
+def loss_terms(model, w):
+    """Powers dissipated [W] by name, each [..., 1]."""
+    return {
+        "races": ball_array_sum(w.race_dissipated),
+        "pockets": ball_array_sum(w.pocket_dissipated),
+        "drag of the balls": ball_array_sum(w.drag_dissipated),
+        "drag of the cage": w.cage_drag_dissipated,
+        "drag of the ring": w.ring_drag_dissipated,
+        "land": w.land_dissipated,
+        "joints": ball_array_sum(w.joint_dissipated),
+        "modes": w.elastic.dissipated + 0.0 * w.land_dissipated,
+    }
+
+
+def power_loss(model, w):
+    """Power dissipated in contacts, films, drag and joints [W], [..., 1]."""
+    return sum(loss_terms(model, w).values())
+
+
+def supply_terms(model, w):
+    """Powers that rings, gravity and frame put into balls and cage [W] by name, each [..., 1]: the inner ring by its
+    spin, translation and tilting.
+    """
+    ring = w.ring
+    spin, translation = -ring.s * vec_dot(ring.M, ring.a), -vec_dot(ring.F, ring.v)
+    return {
+        "shaft torque": spin,
+        "translation of the ring": translation,
+        "tilting of the ring": shaft_power(w) - translation - spin,
+        "growth of the ring": race_growth_power(model, w),
+        "housing": housing_power(model, w),
+        "gravity and frame": frame_power(model, w),
+    }
+
+
+def net_power(model, w):
+    """Net power into balls and cage [W], [..., 1]: by the rings' motions and the frame, less what is dissipated."""
+    return sum(supply_terms(model, w).values()) - power_loss(model, w)

@@ -29,10 +29,26 @@ from bearing_model.generated.variables import (
     TiltMode,
 )
 from bearing_model.physics.frame import frame_acceleration, frame_moment
-from bearing_model.physics.rotor import rotor_acceleration
+from bearing_model.physics.outer_ring import spread
+from bearing_model.physics.rotor import Rotor, rotor_acceleration, rotor_axis
+
+
+def ring_kinematics(model, y, w):
+    """Pose and velocity of the ring from y, or as its motion is prescribed."""
+    ring, given, like = Rotor(), model.ring_load, y[..., RING_X]
+    if model.p.ring.motion == RingMotion.PRESCRIBED:
+        ring.x, ring.v = spread(given.x, like), spread(given.v, like)
+        rotor_axis(ring, *spread((given.beta, given.gamma, given.beta_dot, given.gamma_dot), like), given.omega)
+    else:
+        ring.x = np.array([y[..., RING_X], y[..., RING_Y], y[..., RING_Z]])
+        ring.v = np.array([y[..., RING_V_X], y[..., RING_V_Y], y[..., RING_V_Z]])
+        tilt = (y[..., block] for block in (RING_BETA, RING_GAMMA, RING_BETA_DOT, RING_GAMMA_DOT))
+        rotor_axis(ring, *tilt, given.omega)
+    w.ring = ring
 
 
 def ring_acceleration(model, w, y_dot):
+    """Acceleration of the ring: y_dot of its states from the wrench of all contacts."""
     p, ring_load, ring = model.p, model.ring_load, w.ring
     field = frame_acceleration(ring_load, ring.x, ring.v)
     beta, gamma, beta_dot, gamma_dot = -ring.a[2], ring.a[1], -ring.a_dot[2], ring.a_dot[1]

@@ -29,6 +29,27 @@ class RivetLoad:
     F_head: float = 0.0
 
 
+@dataclass
+class JointLoads:
+    """Loads of all joints [..., Z] in N and N.m."""
+
+    N: np.ndarray  # external tension of the joint
+    M_r: np.ndarray  # moment that the joint transmits
+    M_t: np.ndarray
+    V: np.ndarray  # modulus of its transverse load
+    T: np.ndarray  # tension of the rivet, with preload and prying
+    m_r: np.ndarray  # bending moment of its shank at the split
+    m_t: np.ndarray
+    V_r: np.ndarray  # transverse load of its shank
+    V_t: np.ndarray
+    F_head: np.ndarray  # modulus of the friction force at its heads
+
+    @property
+    def rivet(self):
+        """What the stress table takes."""
+        return RivetLoad(T=self.T, V_y=self.V_r, V_z=self.V_t, m_y=self.m_r, m_z=self.m_t, F_head=self.F_head)
+
+
 def axis_splines_xi(knots, s, fit):
     """s times the splines of xi = fit/s, without dividing where s may vanish: first coefficient and weights."""
     rise, _ = constants(knots)

@@ -4,6 +4,8 @@ The splines are clamped and C1; three coefficients are active in each cell, and 
 the values at the ends.
 """
 
+import functools
+
 import numpy as np
 
 
@@ -19,10 +21,16 @@ def constants(knots):
     return 1.0 / ((t[3:] - t[1:-2]) * h), 1.0 / ((t[2:-1] - t[:-3]) * h)
 
 
+@functools.lru_cache(maxsize=64)
+def kept_constants(knots):
+    """constants of knots that are given by their bytes, found once."""
+    return constants(np.frombuffer(knots))
+
+
 def cell_weights(knots, u):
     """Index of the first active coefficient and the three weights, u inside the knots.  Shapes u.shape, u.shape + (3,)."""
-    knots, u = np.asarray(knots), np.asarray(u)
-    rise, fall = constants(knots)
+    knots, u = np.asarray(knots, dtype=float), np.asarray(u)
+    rise, fall = kept_constants(knots.tobytes())
     cell = np.searchsorted(knots[1:-1], np.real(u), side="right")
     w_0 = (knots[cell + 1] - u) ** 2 * fall[cell]
     w_2 = (u - knots[cell]) ** 2 * rise[cell]

@@ -13,14 +13,15 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
+from bearing_model.cage.cage import cage_loads, cage_slip
 from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 from bearing_model.instance.energy import energy_total
 from bearing_model.instance.fatigue import FatigueChannel, FatigueLaw
 from bearing_model.instance.ledger import Ledger
-from bearing_model.instance.outputs import outputs
+from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
 from bearing_model.physics.hertz import hertz_energy
-from bearing_model.physics.model import Model, Work, derived_at
+from bearing_model.physics.model import Model, Work
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
 from bearing_model.physics.rhs import jacobian, rhs
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
@@ -35,7 +36,6 @@ from bearing_model.physics.ring_load import (
 )
 from bearing_model.physics.temperature import temperature_same
 from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
-from bearing_model.rivet.rivets import rivets_load, rivets_slip
 from bearing_model.solver.start import ring_follow, start_state
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF, "LSODA": LSODA}
@@ -100,19 +100,20 @@ class Record:
         """
         p, counts = self.p, (t >= self.p.start.settle) & (self.p.scene.statistics == Switch.ON)
         weight = np.repeat(h[:, None], Z, axis=1)
-        self.force.add(weight[counts].ravel(), w.Q_pocket[counts].ravel())
-        self.duty_time += np.sum((weight * (w.Q_pocket > 0.0))[counts])
-        peaks = {"cage.F_pocket_peak": np.max(w.Q_pocket)}
+        Q_c = pocket_loads(w)
+        self.force.add(weight[counts].ravel(), Q_c[counts].ravel())
+        self.duty_time += np.sum((weight * (Q_c > 0.0))[counts])
+        peaks = {"cage.F_pocket_peak": np.max(Q_c)}
         peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
         h0, h1 = w.half
         centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
         self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
-        self.dislocation_max = max(self.dislocation_max, np.max(rivets_slip(model, w)[counts], initial=0.0))
+        self.dislocation_max = max(self.dislocation_max, np.max(cage_slip(model, w)[counts], initial=0.0))
         return peaks
 
     def add_stress(self, model, t, h, counts, w):
-        sigma, _ = rivet_rom_stress(model.d.table, rivets_load(model, w).rivet, model.d.fit_eff)
+        sigma, _ = rivet_rom_stress(model.d.table, cage_loads(model, w).rivet, model.d.fit_eff)
         peaks = {}
         channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
         for name, channel, statistics, fatigue in channels:
@@ -215,7 +216,7 @@ def simulate(
     default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable,
     default that of the 6207. ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
 
-    >>> results = simulate({"scene.cage": "rigid"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
+    >>> results = simulate({"scene.cage": "two_half"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
     >>> results["ball[1].Q_i"].shape
     (2,)
     """
@@ -232,12 +233,12 @@ def simulate(
     here = input_trajectory_update(
         p, (Inputs(held(t_start)), *map(InputDerivatives, slopes(t_start))), t_start, t_start
     )
-    model = Model(*derived_at(p, here.u[0], table), ring_load_at(here, t_start))
+    model = Model.under(p, here.u[0], ring_load_at(here, t_start), table=table)
     y = start_state(model)[0] if y is None else np.array(y, dtype=float)
     run = Integration(p, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
     record, w = Record(p), Work()
     rhs(model, t_start, y, w)
-    energy_start = energy_total(model, w) - y[WORK][0]
+    energy_start = energy_total(model, y, w) - y[WORK][0]
 
     count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
@@ -258,17 +259,13 @@ def simulate(
         expansion += at_speed(model, given[0], run)
         while run.t < point:
             trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
-            model = Model(
-                model.p,
-                model.d,
-                ring_load_at(trajectory, run.t),
-                trajectory if input_trajectory_varies(trajectory) else None,
-            )
+            varies = trajectory if input_trajectory_varies(trajectory) else None
+            model = replace(model, ring_load=ring_load_at(trajectory, run.t), trajectory=varies)
             times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))
             peaks.append(accepted(model, record, times, np.diff(times, prepend=begin), ys))
             ledger.add(model, np.append(begin, times), np.vstack([y_begin, ys]))
         here = input_trajectory_here(trajectory, run.t)
-        model = Model(model.p, model.d, ring_load_at(here, run.t))
+        model = replace(model, ring_load=ring_load_at(here, run.t), trajectory=None)
         if p.ring.motion == RingMotion.PRESCRIBED:
             run.y = ring_follow(model.ring_load, run.y)
         model, further = at_temperature(p, model, given[0], here.u[0], run, table)
@@ -291,12 +288,12 @@ def at_temperature(p, model, from_, u, run, table):
     """
     if temperature_same(from_, u):
         return model, 0.0
-    hot = Model(*derived_at(p, u, table), model.ring_load)
+    hot = Model.under(p, u, model.ring_load, table=table)
     energies = []
     for each in (model, hot):
         w = Work()
         rhs(each, run.t, run.y, w)
-        energies.append(energy_total(each, w))
+        energies.append(energy_total(each, run.y, w))
     return hot, energies[1] - energies[0]
 
 
@@ -309,7 +306,7 @@ def at_speed(model, u, run):
     energies = []
     for load in loads:
         w = Work()
-        rhs(Model(model.p, model.d, load), run.t, run.y, w)
+        rhs(replace(model, ring_load=load, trajectory=None), run.t, run.y, w)
         energies.append(np.sum(hertz_energy(model.d.inner.hertz.K, w.delta_i)))
     return energies[1] - energies[0]
 

@@ -17,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import minimize
 
-from bearing_model.cage.elastic.cage_elastic import cage_elastic_rest
+from bearing_model.cage.cage import cage_rest
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     BALL_OMEGA_R,
@@ -36,7 +36,6 @@ from bearing_model.generated.variables import (
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
-    MODE_S,
     RING_BETA,
     RING_BETA_DOT,
     RING_GAMMA,
@@ -47,7 +46,6 @@ from bearing_model.generated.variables import (
     RING_X,
     RING_Y,
     RING_Z,
-    CageModel,
     RingMotion,
     TiltMode,
     Z,
@@ -226,18 +224,6 @@ def cage_pose(model, w, omega_m, y):
     y[CAGE_S] = omega_m
 
 
-def cage_widened(model, omega_m, y):
-    """Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart as
-    their bodies are then.
-    """
-    S, apart = cage_elastic_rest(model, omega_m + model.ring_load.frame_omega)
-    y[MODE_S][: len(S)] = S
-    beta, gamma = y[CAGE_BETA][0], y[CAGE_GAMMA][0]
-    along = np.sqrt(1.0 - beta**2 - gamma**2), gamma, -beta
-    for place, a in zip((CAGE_X, CAGE_Y, CAGE_Z), along, strict=True):
-        y[place] += 0.5 * apart * a * np.array([-1.0, 1.0])
-
-
 def check_grooves(model, w):
     """ValueError if a ball's contact reaches beyond its groove's half circle."""
     reach = ellipse_reach(model, w)
@@ -311,8 +297,7 @@ def start_state(model):
     y[BALL_OMEGA_X] = rolling * w.n_e[1] + outer
     y[BALL_OMEGA_R] = -rolling * w.n_e[0]
     cage_pose(model, w, omega_m, y)
-    if model.p.scene.cage == CageModel.ELASTIC:
-        cage_widened(model, omega_m, y)
+    cage_rest(model, omega_m + model.ring_load.frame_omega, y)
     y[RING_X], y[RING_Y], y[RING_Z] = z[:3]
     y[RING_BETA], y[RING_GAMMA] = z[3:5] / eq.r
     return join_motion(model, w, y), residual

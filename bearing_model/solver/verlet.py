@@ -17,12 +17,19 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearing_model.cage.common.cage_joint import cage_joint_advance, cage_joint_kinematics
-from bearing_model.cage.elastic.cage_substeps import (
-    FastState,
-    cage_substeps_advance,
-    cage_substeps_kick,
-    cage_substeps_split,
+from bearing_model.cage.cage import (
+    CageMemory,
+    cage_advance,
+    cage_arrive,
+    cage_correct,
+    cage_film_matrices,
+    cage_films,
+    cage_foreseen,
+    cage_longest_step,
+    cage_matrices,
+    cage_predict,
+    cage_remember,
+    cage_split,
 )
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
@@ -30,33 +37,20 @@ from bearing_model.generated.variables import (
     BALL_R,
     BALL_V_X,
     BALL_X,
-    CAGE_BETA,
-    CAGE_GAMMA,
-    CAGE_PSI,
-    CAGE_X,
-    CAGE_Y,
-    CAGE_Z,
-    JOINT_HEAD_Y,
-    JOINT_HEAD_Z,
+    CAGE_V_X,
     JOINT_PLATE_Y,
-    JOINT_PLATE_Z,
-    MODE_D,
-    MODE_D_DOT,
-    MODE_S,
-    MODE_S_DOT,
     N_STATES,
     RING_BETA,
     RING_GAMMA,
+    RING_V_X,
     WORK,
-    CageModel,
     RingMotion,
     TiltMode,
     Traction,
     Z,
 )
 from bearing_model.physics.model import Work
-from bearing_model.physics.rhs import jacobian, rhs, rotor_kinematics
-from bearing_model.physics.rotor import rotor_roll
+from bearing_model.physics.rhs import jacobian, rhs
 
 SMOOTHING = 0.15  # part of the second difference of stiff accelerations that is taken away
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
@@ -74,8 +68,7 @@ POSITIONS, FRICTION, V = (
     slice(BALL_V_X.start, N_STATES),
 )
 N_V = N_STATES - V.start
-# of the modes of elastic halves
-PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)
+CAGE = slice(CAGE_V_X.start - V.start, RING_V_X.start - V.start)  # velocities of the cage's halves
 
 
 def velocities(*names):
@@ -98,7 +91,7 @@ class VerletState:
     jerk: np.ndarray = None  # change of f over the last step / its length
     film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
-    fast: FastState = None  # of elastic halves there, whose accelerations f lacks
+    cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
 
     def __post_init__(self):
@@ -203,58 +196,6 @@ def ball_blocks(model, w, gamma):
     return A, K, A_stiff
 
 
-def land_rates(model, film, spin):
-    """Rates [2, N_V, N_V] by the films of both lands: F = -C (v_y + gamma_dot x, v_z - beta_dot x) at the lever x,
-    moment -spin s.
-
-    On a rigid cage both lands hold both halves, each with the inertia of the whole.
-    """
-    cage, d, rigid = model.p.cage, model.d, model.p.scene.cage == CageModel.RIGID
-    m, J_p, J_t = (2.0 * cage.m, 2.0 * d.J_p, 2.0 * (d.J_t + cage.m * cage.x_c**2)) if rigid else (cage.m, d.J_p, d.J_t)
-    A = np.zeros((2, N_V, N_V))
-    for land in range(2):
-        x = (2 * land - 1) * cage.land_x - (0.0 if rigid else model.d.com_x[land])
-        B = np.array([[1.0, 0.0, 0.0, x], [0.0, 1.0, -x, 0.0]])  # of v_y, v_z, beta_dot, gamma_dot
-        for half in (0, 1) if rigid else (land,):
-            rows, spin_row = HALF[1:5, half], HALF[5, half]
-            A[land][np.ix_(rows, rows)] = B.T @ film[land] @ B / np.array([[m], [m], [J_t], [J_t]])
-            A[land][spin_row, spin_row] = spin[land] / J_p
-    return A
-
-
-def joint_blocks(model, w):
-    """Force per axial velocity and per axial offset of half 1 against half 0 [N_V, N_V], of all joints; b = (1, z, -y)
-    of v_x, beta_dot, gamma_dot.
-    """
-    d, h0 = model.d, w.half[0]
-    y, z = (d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2))
-    B = np.zeros((Z, N_V))
-    B[:, HALF[[0, 3, 4], 1]] = np.array([np.ones(Z), z, -y]).T
-    B[:, HALF[[0, 3, 4], 0]] = -B[:, HALF[[0, 3, 4], 1]]
-    c, k = (
-        d.c_joint * w.N_plate / (w.N_plate + model.p.joint.F_floor),
-        d.k_rivet * (w.T > 0.0) + d.k_plate * (w.N_plate > 0.0),
-    )
-    return B.T * c @ B, B.T * k @ B
-
-
-def shear_blocks(model, w, gamma):
-    """Force per offset [N_V, N_V] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z +
-    s y).
-
-    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the
-    velocity by gamma/(1 + gamma D) within a step.
-    """
-    d, h0 = model.d, w.half[0]
-    y, z = (d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2))
-    k = d.k_plate_t / (1.0 + gamma * w.plate_rate) + d.k_head / (1.0 + gamma * w.head_rate) + w.k_bearing
-    B = np.zeros((2, Z, N_V))
-    B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T
-    B[1][:, HALF[[1, 2, 5], 1]] = np.array([np.zeros(Z), np.ones(Z), y]).T
-    B[:, :, HALF[:, 0]] = -B[:, :, HALF[:, 1]]
-    return sum(b.T * k @ b for b in B)
-
-
 def ring_support(model):
     """Rates and stiffnesses [N_V] of the ring's own velocities by its support, and the rates that damp its
     accelerations.
@@ -273,32 +214,20 @@ def ring_support(model):
 
 
 def jacobian_blocks(model, t, y, w, gamma):
-    """What C keeps of A = -da/dv and K = -da/dq at the evaluation w of (t, y): stiff local terms in closed form,
-    traction by its secant.
+    """The entries of A = -da/dv and K = -da/dq that C has too, at the evaluation w of (t, y): stiff local terms in closed
+    form, traction by its secant.
     """
     M = inertia(model, w)[:, None]
     A, K, A_stiff = (
         force / M + np.diag(support)
         for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True)
     )
-    A_0, A_1 = land_rates(model, land_films(w), w.film_spin)
-    K_shear, axial, shear = np.zeros((N_V, N_V)), 0.0, 0.0
-    if model.p.scene.cage == CageModel.TWO_HALF:
-        (A_joint, K_joint), K_shear = (force / M for force in joint_blocks(model, w)), shear_blocks(model, w, gamma) / M
-        weight, axial = vibration_weights(
-            8.0 * np.max(np.diag(gamma * A_joint + gamma**2 * K_joint)[HALF[[0, 3, 4], 0]])
-        )
-        weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
-        A, K, K_shear = A + weight * A_joint, K + weight * K_joint, weight_shear * K_shear
-    return Blocks(A + A_0 + A_1, K, A_stiff + A_0 + A_1, K_shear, axial, shear)
-
-
-def vibration_weights(x_2):
-    """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the
-    position correction.
-    """
-    part = x_2**2 / (x_2**2 + 1.0)
-    return 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0), 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0)
+    K_shear = np.zeros((N_V, N_V))
+    films, A_joint, K_joint, K_shear[CAGE, CAGE], axial, shear = cage_matrices(model, w, gamma)
+    A[CAGE, CAGE] = films + A_joint
+    K[CAGE, CAGE] = K_joint
+    A_stiff[CAGE, CAGE] = films
+    return Blocks(A, K, A_stiff, K_shear, axial, shear)
 
 
 def masked_jacobian(model, t, y, w, gamma):
@@ -321,49 +250,30 @@ def masked_jacobian(model, t, y, w, gamma):
 # ----------------------------------------------------------------------------------------------------------------- step
 
 
-def land_films(w):
-    """-dF/dv [2, 2, 2] of each land's film."""
-    return np.array([[w.film_yy, w.film_yz], [w.film_yz, w.film_zz]]).transpose(2, 0, 1)
-
-
 def advance_positions(model, h, start):
-    """The state with positions and friction states of the next step, which follow from the velocities v_m of the
-    middle.
-
-    Elastic halves take substeps, which change the velocities too: their length, and the slow accelerations of the modes
-    at the end [2, n]. Last the Work with the kinematics of the middle.
+    """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle; the
+    CageStep; the Work with the cage's kinematics of the middle.
     """
     middle, y, w = start.y.copy(), start.y.copy(), Work()
     middle[V] = y[V] = start.y[V] + 0.5 * h * start.f[V]
     middle[POSITIONS] += 0.5 * h * y[V][POSITIONS]
     y[POSITIONS] += h * y[V][POSITIONS]
-    rotor_kinematics(model, middle, w)
-    elastic = model.p.scene.cage == CageModel.ELASTIC
-    y[CAGE_PSI] = start.y[CAGE_PSI] + h * np.concatenate([half.s - rotor_roll(half) for half in w.half])
-    if model.p.scene.cage != CageModel.RIGID:
-        cage_joint_kinematics(model, w)
-        if not elastic:
-            cage_joint_advance(model, w, h, y)
-    substeps = (
-        cage_substeps_advance(model, h, start.fast, start.f, y, w) if elastic else (0.0, (None, np.zeros((6, 2))))
-    )
-    return y, *substeps, w
+    return y, cage_advance(model, h, start.y, start.f, start.cage, middle, y, w), w
 
 
 def predictor_limiter(model, h, start):
-    """What is taken from the predicted change h a_n of the cage's velocities [N_V]: the part of its new share that the
+    """The part of the predicted change h a_n of the cage's velocities that is removed [N_V]: that of its new share which the
     films at the step's start hold back.
 
     A film holds back a land that closes and hardly one that opens: a land that rests against its film would be thrown
     off by a prediction from a_n alone. The share that a_n and a_{n-1} have in common, minmod(a_n, a_{n-1}), counts as
     steady.
     """
-    a, before = start.f[V], (start.f - start.h * start.jerk)[V]
+    a, before = start.f[V][CAGE], (start.f - start.h * start.jerk)[V][CAGE]
     minmod = np.where(a * before > 0.0, np.where(np.abs(a) < np.abs(before), a, before), 0.0)
-    new = np.zeros(N_V)
-    new[HALF] = h * (a - minmod)[HALF]
-    A_0, A_1 = land_rates(model, start.film, np.zeros(2))
-    return new - np.linalg.solve(np.eye(N_V) + h * (A_0 + A_1), new)
+    removed, new = np.zeros(N_V), h * (a - minmod)
+    removed[CAGE] = new - cage_films(model, start.film, h, new)
+    return removed
 
 
 def dissipation_correction(model, w, gamma, residual, delta):
@@ -384,33 +294,14 @@ def dissipation_correction(model, w, gamma, residual, delta):
     return np.sum(power) - gamma * np.sum(elastic)
 
 
-def correct_positions(model, gamma, delta, b, y):
-    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n), one
-    half against the other with weights.
+def correct_positions(model, gamma, delta, y):
+    """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n); the
+    cage has weights of its own (cage_correct).
     """
     y[BALL_X] += gamma * delta[BALL[0]]
     y[BALL_R] += gamma * delta[BALL[1]]
     if model.p.ring.tilt_mode != TiltMode.FREE:
         y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
-    if model.p.scene.cage == CageModel.TWO_HALF:  # the motion of one half against the other
-        weights = (b.axial, b.shear, b.shear, b.axial, b.axial, b.shear)
-        for q, rows, c in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), HALF, weights, strict=True):
-            y[q] += 0.5 * c * gamma * (delta[rows[1]] - delta[rows[0]]) * np.array([-1.0, 1.0])
-
-
-def correct_friction(model, w, gamma, delta, c, y):
-    """The friction states are deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D), u the
-    change of the joint's velocity.
-    """
-    if model.p.scene.cage != CageModel.TWO_HALF:
-        return
-    d, h0 = model.d, w.half[0]
-    _, dv_y, dv_z, _, _, ds = delta[HALF[:, 1]] - delta[HALF[:, 0]]
-    u_y, u_z = (axis[1] * dv_y + axis[2] * dv_z for axis in (h0.b_y, h0.b_z))
-    u = u_y - ds * d.rivet_z, u_z + ds * d.rivet_y
-    for rate, blocks in ((w.plate_rate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (w.head_rate, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
-        for u_i, z in zip(u, blocks, strict=True):
-            y[z] += c * gamma * u_i / (1.0 + gamma * rate)
 
 
 def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
@@ -421,34 +312,24 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     and K keep the second order.
     """
     gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
-    (y, sub, (foreseen, of_halves), middle), held = (
-        advance_positions(model, h, start),
-        predictor_limiter(model, h, start),
-    )
-    y[V] += gamma * a - held
-    elastic = model.p.scene.cage == CageModel.ELASTIC
-    if elastic:
-        cage_substeps_kick(model, middle, 0.5 * sub, start.fast.rigid, y)
-        add_rates(model, 0.5 * sub * (start.fast.modes + foreseen), y)
-    end = VerletState(y, rhs(model, t + h, y, w), h=h)
-    end.film = land_films(w)
-    if elastic:
-        end.fast = cage_substeps_split(model, y, w, end.f)
-        add_rates(model, 0.5 * sub * (end.fast.modes - start.fast.modes), y)
-        cage_substeps_kick(model, w, 0.5 * sub, end.fast.rigid - start.fast.rigid, y)
+    (y, cage, middle), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
+    y[V] += gamma * a - removed
+    cage_predict(model, middle, cage, start.cage, y)
+    end = VerletState(y, rhs(model, t + h, y, w), film=cage_film_matrices(w), h=h)
+    end.cage = cage_arrive(model, w, cage, start.cage, y, end.f)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
-    foreseen_rates = np.zeros(N_V)
-    foreseen_rates[HALF] = of_halves
-    b, residual = blocks(model, t + h, y, w, gamma), held + gamma * (end.f[V] - a - foreseen_rates)
+    foreseen = np.zeros(N_V)
+    foreseen[CAGE] = cage_foreseen(cage)
+    b, residual = blocks(model, t + h, y, w, gamma), removed + gamma * (end.f[V] - a - foreseen)
     residual = np.linalg.solve(np.eye(N_V) + gamma**2 * b.K_shear, residual)
     delta = np.linalg.solve(b.matrix(gamma), residual)
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
-    delta -= held  # from here on delta = v_{n+1} - v_n - h a_n
-    correct_positions(model, gamma, delta, b, y)
-    correct_friction(model, w, gamma, delta, b.shear, y)
-    y[V] += held + delta
-    delta += gamma * foreseen_rates
+    delta -= removed  # from here on delta = v_{n+1} - v_n - h a_n
+    correct_positions(model, gamma, delta, y)
+    cage_correct(model, w, gamma, b.axial, b.shear, delta[CAGE], y)
+    y[V] += removed + delta
+    delta += gamma * foreseen
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 
     # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second
@@ -464,43 +345,16 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.f[FRICTION] = (y - start.y)[FRICTION] / h
     end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
     error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
-    if elastic:
-        correct_modes(model, h, second, foreseen, start, end, error)
+    cage_remember(model, cage, h, second, start, end, error)
     return end, np.sqrt(np.sum((error * weight) ** 2) / N_STATES)  # modes do not make the tolerance of the others wider
 
 
 def verlet_evaluate(model, t, y):
-    """VerletState at y, without a history: f, of elastic halves without the fast part, and that part."""
+    """VerletState at y, without a history: f without the part that the cage advances by itself, and that part."""
     w = Work()
     state = VerletState(y, rhs(model, t, y, w))
-    if model.p.scene.cage == CageModel.ELASTIC:
-        state.fast = cage_substeps_split(model, y, w, state.f)
+    state.cage = cage_split(model, y, w, state.f)
     return state
-
-
-def add_rates(model, change, y):
-    """Adds to the rates of the modes of elastic halves, S and D [2, n]."""
-    for block, more in zip((MODE_S_DOT, MODE_D_DOT), change, strict=True):
-        y[block][: model.d.elastic.n] += more
-
-
-def correct_modes(model, h, second, foreseen, start, end, error):
-    """Rates of the modes of elastic halves: the substeps had the slow accelerations `foreseen` [2, n] at the end."""
-    n = model.d.elastic.n
-    add_rates(model, 0.5 * h * (np.array([end.f[block][:n] for block in (MODE_S_DOT, MODE_D_DOT)]) - foreseen), end.y)
-    end.jerk[RATES] = (end.f - start.f)[RATES] / h
-    error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
-    end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
-
-
-def longest_step(model, state):
-    """The longest step from a state [s]: of elastic halves three substeps, or what a film of the rate A holds for, 1/A,
-    but two substeps at least.
-    """
-    if model.p.scene.cage != CageModel.ELASTIC:
-        return np.inf
-    film, d = np.max(np.trace(state.film, axis1=1, axis2=2)), model.d.elastic.substep
-    return min(3.0 * d, max(2.0 * d, model.p.cage.m / film if film > 0.0 else np.inf))
 
 
 def weigh_orbit(model, weight, y):
@@ -538,7 +392,7 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
-        h, left = min(h, longest_step(model, state)), t_stop - t
+        h, left = min(h, cage_longest_step(model, state.film)), t_stop - t
         last = h >= left * (1.0 - LAST_STEP)
         length = left if last else 0.5 * left if left < 2.0 * h else h
         end, error = step(model, t, length, weight, state)

@@ -1,28 +1,17 @@
 // One instance of the bearing: life cycle, stepping, peaks and statistics over accepted steps, saved state.
+#include "cage/cage.h"
 #include "instance/energy.h"
 #include "instance/instance.h"
 #include "instance/jacobian.h"
+#include "instance/log.h"
 #include "instance/outputs.h"
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
-#include "rivet/rivets.h"
 #include "solver/start.h"
 
-#include <stdarg.h>
 #include <stdio.h>
-
-void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
-{
-    if (b->host.log == NULL) return;
-    char message[1024];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
-    va_end(arguments);
-    b->host.log(b->host.environment, category, message);
-}
 
 // ---- accepted steps ---------------------------------------------------------------------------------------
 static void add_force(InstanceState *s, const Work *w, bool counts, double h)
@@ -46,10 +35,7 @@ static void add_stress(Bearing *b, bool counts, double h)
     memcpy(&law, &s->p.fatigue, sizeof law);
 
     // stress of all rivets
-    if (s->integrator.t < b->t_point)
-        b->kernels.rivets_follow(&b->model, &b->w, &b->joints, &load);
-    else
-        b->kernels.rivets_load(&b->model, &b->w, &load);
+    b->kernels.cage_loads(&b->model, &b->w, &load);
     b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
     const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
 
@@ -81,7 +67,7 @@ static void add_cage(Bearing *b, double h)
     const double y = 0.5 * (h0->x[1] + h1->x[1]) - b->w.outer_x[1];
     const double z = 0.5 * (h0->x[2] + h1->x[2]) - b->w.outer_x[2];
     double slip[Z];
-    rivets_slip(&b->model, &b->w, slip);
+    cage_slip(&b->model, &b->w, slip);
     for (int k = 0; k < Z; k++) s->dislocation_max = scalar_max(s->dislocation_max, slip[k]);
     s->omega_time += h * 0.5 * (h0->s + h1->s);
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
@@ -143,7 +129,7 @@ void part_destroy(Bearing *b)
 {
     if (b == NULL) return;
     integrator_destroy(b->integrator);
-    aligned_delete(b->elastic);
+    aligned_delete(b->cage);
     aligned_delete(b);
 }
 
@@ -206,25 +192,23 @@ static void derive_at(Bearing *b, const Inputs *u)
 {
     temperature_apply(&b->s.p, u, &b->hot);
     model_derive(&b->hot, &b->d);
-    b->model.elastic = NULL;
-    if (b->s.p.scene.cage == CAGE_MODEL_ELASTIC && b->elastic != NULL) {
-        elastic_half_derive(&b->hot, &b->d, b->elastic);
-        b->model.elastic = b->elastic;
-    }
+    b->model.modes = cage_derive(&b->hot, &b->d, b->cage);
     integrator_tolerance(b->integrator, b->s.tolerance);
     b->current = 0;
     b->evaluated = false;
 }
 
-// Memory for the modes of elastic halves, taken when a scene first needs them.  Returns whether there is any.
-static bool room_for_modes(Bearing *b)
+// Memory for the cage, taken when a scene first needs it.  Returns whether there is any.
+static bool room_for_cage(Bearing *b)
 {
-    if (b->s.p.scene.cage != CAGE_MODEL_ELASTIC || b->elastic != NULL) return true;
-    b->elastic = aligned_new(elastic_half_size());
-    if (b->elastic == NULL)
-        bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
-    if (b->elastic != NULL) b->elastic->law_modes = 0;
-    return b->elastic != NULL;
+    const size_t size = cage_size(&b->s.p);
+    if (size == 0 || b->cage != NULL) return true;
+    b->cage = aligned_new(size);
+    if (b->cage == NULL)
+        bearing_log(b, LOG_ERROR, "no memory for the modes of the cage");
+    else
+        memset(b->cage, 0, size);
+    return b->cage != NULL;
 }
 
 // Computes all that follows from parameters and inputs and is therefore not saved.
@@ -261,7 +245,7 @@ static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
 PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     InstanceState *s = &b->s;
-    if (!check_all(b) || !room_for_modes(b)) return PART_ERROR;
+    if (!check_all(b) || !room_for_cage(b)) return PART_ERROR;
     report_start(b);
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
@@ -284,7 +268,6 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
         status = PART_WARNING;
     }
 
-    b->t_point = t_start;
     // first evaluation; the start counts as an accepted step of length 0
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
@@ -351,9 +334,6 @@ PartStatus part_step(Bearing *b, double t_end)
     b->current = 0;
     b->evaluated = false;
 
-    b->joints.known = false;
-    b->t_point = t_end;
-
     // one advance for each stretch between edges of pulses
     int status = 0;
     while (status == 0 && s->integrator.t < t_end) {
@@ -408,10 +388,10 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     temperature_apply(&s->p, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
-    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.elastic};
+    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
-    const Evaluation at = {&model, s->integrator.now.y,    y_dot,
-                           &w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
+    const Evaluation at = {&model, s->integrator.now.y,   y_dot,
+                           &w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     memset(out, 0, sizeof *out);
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, out);
     out->bearing.energy_residual = 0.0;  // the work of expansion is no part of the balance
@@ -474,14 +454,14 @@ void part_save(const Bearing *b, void *saved)
 void part_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
-    if (room_for_modes(b)) derive(b);
+    if (room_for_cage(b)) derive(b);
 }
 
 // All outputs at the restored state, and its derivative.
 static bool outputs_are_numbers(Bearing *b)
 {
     evaluate(b);
-    bool fine = (b->model.elastic ? b->kernels.ops_elastic : b->kernels.ops)->finite(b->y_dot);
+    bool fine = kernels_ops(&b->kernels, &b->model)->finite(b->y_dot);
     for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_OUTPUT) continue;
@@ -495,7 +475,7 @@ static bool outputs_are_numbers(Bearing *b)
 bool part_restore_unknown(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
-    if (!check_saved(b) || !room_for_modes(b)) return false;
+    if (!check_saved(b) || !room_for_cage(b)) return false;
     derive(b);
     return !b->s.initialized || outputs_are_numbers(b);
 }

@@ -1,8 +1,8 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
+#include "cage/cage.h"
+#include "instance/log.h"
 #include "numbers/saved_numbers.h"
-
-#include "instance/instance.h"
 #include "physics/ring_fit.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
@@ -116,23 +116,12 @@ static bool require(Bearing *b, bool condition, const char *format, double value
     return condition;
 }
 
-// Checks that rivets which differ are in a scene whose joints know them one by one: a rigid cage shares its
-// load among all.
-static bool check_rivets(Bearing *b)
+// Checks that there is such a cage.
+static bool check_cage(Bearing *b)
 {
-    const Parameters *p = &b->s.p;
-    if (p->scene.cage != CAGE_MODEL_RIGID) return true;
-    for (int k = 0; k < Z; k++) {
-        const char *name = p->rivet.preload_factor[k] != 1.0 ? "preload_factor"
-                           : p->rivet.dfit[k] != 0.0         ? "dfit"
-                           : p->rivet.intact[k] != 1         ? "intact"
-                                                             : NULL;
-        if (name == NULL) continue;
-        bearing_log(b, LOG_ERROR, "rivet[%d].%s: rivets that differ need scene.cage = two_half or elastic",
-                    k + 1, name);
-        return false;
-    }
-    return true;
+    const char *refusal = cage_refusal(&b->s.p);
+    if (refusal) bearing_log(b, LOG_ERROR, "%s", refusal);
+    return refusal == NULL;
 }
 
 // Checks parameters against each other.
@@ -233,7 +222,7 @@ static bool check_geometry(Bearing *b)
             fine = false;
         }
     }
-    return check_rivets(b) && fine;
+    return check_cage(b) && fine;
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
@@ -296,12 +285,6 @@ static bool check_table(Bearing *b)
         "cage.x_c = %g m: allowed is %g m +- 2 %%, the centre of mass of the cage half in the embedded rivet "
         "table; build an FMU for this cage",
         b->s.p.cage.x_c, rivet_table.half.x_c);
-    fine &=
-        require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes >= b->s.p.scene.modes,
-                "scene.cage = elastic with scene.modes = %g: the embedded rivet table has %g vibration "
-                "modes; build an FMU "
-                "with a table by finite elements",
-                b->s.p.scene.modes, rivet_table.modes.modes);
     return fine;
 }
 
@@ -512,9 +495,7 @@ bool check_saved(Bearing *b)
     fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
-    fine =
-        fine && saved_is(b, integrator_state_is_valid(&s->integrator, s->p.scene.cage == CAGE_MODEL_ELASTIC),
-                         "states and steps");
+    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator, &s->p), "states and steps");
     fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
     const double rounding =
         s->integrator.steps * DBL_EPSILON *

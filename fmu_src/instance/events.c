@@ -99,7 +99,6 @@ static void races(const Model *model, const Work *w, Event *cut, Event *overpres
 
 static void joints(const Model *model, const Work *w, Event *event)
 {
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
     for (int k = 0; k < Z; k++) add(event, k, w->u_x[k], model->d->P[k] / model->d->k_plate);
 }
 

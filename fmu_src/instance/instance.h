@@ -2,8 +2,6 @@
 // files only.
 #pragma once
 
-#include "cage/elastic/elastic_half.h"
-#include "cage/two_half/joint_follow.h"
 #include "instance/events.h"
 #include "instance/fatigue.h"
 #include "instance/part.h"
@@ -51,10 +49,8 @@ struct Part {
     InputTrajectory trajectory;
     RingLoad ring_load;
     Model model;
-    ElasticHalf *elastic;  // of a scene with elastic halves, kept for the next one; else NULL
+    void *cage;  // memory that a scene's cage needed, kept for the next one; else NULL
     Work w;
-    JointTangents joints;  // of the accepted steps since the last communication point
-    double t_point;        // next communication point [s]
     Outputs out;
     Kernels kernels;
     Integrator *integrator;
@@ -87,7 +83,3 @@ bool check_inputs(Bearing *b, double h);
 // Whether b->s, copied from bytes of unknown origin, is what a run can have left there, as far as single
 // values tell.
 bool check_saved(Bearing *b);
-
-// Sends a message to the host, formatted as by printf.
-void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));

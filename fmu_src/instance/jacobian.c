@@ -5,13 +5,16 @@
 
 #include "instance/jacobian.h"
 
+#include "cage/cage.c"
+#include "cage/cage_read.c"
 #include "cage/common/cage_joint.c"
-#include "cage/common/joint_law.c"
+#include "cage/common/halves.c"
 #include "cage/common/pocket.c"
 #include "cage/elastic/cage_elastic.c"
 #include "cage/elastic/elastic_wall.c"
 #include "cage/two_half/half_path.c"
-#include "cage/two_half/joint_follow.c"
+#include "cage/two_half/joint_open.c"
+#include "cage/two_half/two_half.c"
 #include "instance/energy.c"
 #include "instance/outputs.c"
 #include "physics/ball.c"
@@ -21,7 +24,6 @@
 #include "physics/rhs.c"
 #include "physics/ring.c"
 #include "rivet/rivet_rom.c"
-#include "rivet/rivets.c"
 
 enum {
     LOAD_SCALARS = sizeof(RingLoad) / sizeof(scalar),
@@ -48,8 +50,8 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
     InputTrajectory trajectory;
     Work work = {0};
     scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
-    const int states = states_of(model);
-    const Model dual = {model->p, model->d, &ring_load, NULL, model->elastic};
+    const int states = cage_states(model);
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes};
     scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
     if (model->trajectory) {
         scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
@@ -65,7 +67,7 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
 
 void jacobian_matrix(const Model *model, double t, const double *y, double *J)
 {
-    const int states = states_of(model);
+    const int states = cage_states(model);
     for (int j = 0; j < states; j++) {
         double dy[N_ALL_STATES] = {0.0};
         dy[j] = 1.0;
@@ -81,15 +83,15 @@ void jacobian_outputs(const Model *model, const double *trajectory, double t, do
     Work work = {0};
     Outputs out = {0};
     scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
-    const int states = states_of(model);
-    const Model dual = {model->p, model->d, &ring_load, NULL, model->elastic};
+    const int states = cage_states(model);
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes};
     scalars_join(TRAJECTORY_SCALARS, trajectory, NULL, (scalar *)&inputs);
     if (du)
         for (int i = 0; i < N_INPUTS; i++) ((scalar *)&inputs.u[0])[i] += scalar_dual(0.0, du[i]);
     ring_load_at(&inputs, scalar_dual(t, dt), &ring_load);
     scalars_join(states, y, dy, state);
     rhs(&dual, t, state, rate, &work);
-    const Evaluation at = {&dual, state, rate, &work, rivets_load, rivet_rom_stress};
+    const Evaluation at = {&dual, state, rate, &work, cage_loads, rivet_rom_stress};
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);
     scalars_derivative(OUTPUT_SCALARS, (const scalar *)&out, d_out);
 }

@@ -2,14 +2,13 @@
 // values and, with dual numbers, for derivatives.
 #include "instance/outputs.h"
 
-#include "cage/elastic/elastic_half.h"
+#include "cage/cage.h"
 #include "instance/energy.h"
 #include "physics/hertz.h"
 #include "physics/powers.h"
 #include "physics/ring_fit.h"
 #include "physics/ring_load.h"
 #include "physics/traction.h"
-#include "rivet/rivets.h"
 
 // Speed [rad/s] up to which no slip ratio is formed: a bearing at standstill has none.
 static const double STANDSTILL = 1e-9;
@@ -87,13 +86,12 @@ static void fill_ball(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
     const Derived *d = at->model->d;
-    const bool rigid = at->model->p->scene.cage == CAGE_MODEL_RIGID;
     double contacts = 0.0;
     scalar penetration = 0.0, force_max = 0.0;
     for (int j = 0; j < Z; j++) {
         const scalar Q_i = w->Q_i[j], Q_e = w->Q_e[j], Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
         const scalar delta[3] = {w->delta_i[j], w->delta_e[j],
-                                 rigid ? w->delta_c[0][j] : scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
+                                 scalar_max(w->delta_c[0][j], w->delta_c[1][j])};
         out->ball.Q_i[j] = Q_i;
         out->ball.Q_e[j] = Q_e;
         out->ball.Q_c[j] = Q_c;
@@ -123,22 +121,6 @@ static void fill_ball(const Evaluation *at, Outputs *out)
     out->cage.F_pocket_max = force_max;
 }
 
-// Motions of half h at the rivets by its modes; half 0 is the mirror image of half 1.
-static void flex(const Evaluation *at, int h, scalar x[Z], scalar r[Z], scalar t[Z])
-{
-    const ElasticHalf *half = at->model->elastic;
-    const double inv_root = sqrt(0.5), side = h == 1 ? inv_root : -inv_root;
-    for (int k = 0; k < Z; k++) x[k] = r[k] = t[k] = 0.0;
-    if (!half) return;
-    const scalar *q = at->w->q[h];
-    for (int i = 0; i < half->n; i++)
-        for (int k = 0; k < Z; k++) {
-            x[k] += side * elastic_half_pad(half, true, i, 0, k) * q[i];
-            r[k] += inv_root * elastic_half_pad(half, false, i, 0, k) * q[i];
-            t[k] += inv_root * elastic_half_pad(half, false, i, 1, k) * q[i];
-        }
-}
-
 static void fill_pose(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
@@ -154,8 +136,8 @@ static void fill_pose(const Evaluation *at, Outputs *out)
     out->half_1.psi = at->y[Y_CAGE_PSI + 1];
     ring_tilts(-h0->a[2], h0->a[1], &out->half_0.tilt_y, &out->half_0.tilt_z);
     ring_tilts(-h1->a[2], h1->a[1], &out->half_1.tilt_y, &out->half_1.tilt_z);
-    flex(at, 0, out->rivet.flex_0_x, out->rivet.flex_0_r, out->rivet.flex_0_t);
-    flex(at, 1, out->rivet.flex_1_x, out->rivet.flex_1_r, out->rivet.flex_1_t);
+    cage_flex(at->model, at->w, 0, out->rivet.flex_0_x, out->rivet.flex_0_r, out->rivet.flex_0_t);
+    cage_flex(at->model, at->w, 1, out->rivet.flex_1_x, out->rivet.flex_1_r, out->rivet.flex_1_t);
 }
 
 static void fill_cage(const Evaluation *at, Outputs *out)
@@ -192,7 +174,7 @@ static void fill_rivet(const Evaluation *at, Outputs *out)
     JointLoads load;
     scalar slip[Z], max = 0.0;
     at->loads(at->model, at->w, &load);
-    rivets_slip(at->model, at->w, slip);
+    cage_slip(at->model, at->w, slip);
     for (int k = 0; k < Z; k++) {
         out->rivet.N[k] = load.N[k];
         out->rivet.T[k] = load.T[k];
@@ -234,11 +216,10 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    const bool joints = at->model->p->scene.cage != CAGE_MODEL_RIGID;
-    out->loss.modes = at->model->elastic ? w->modes_dissipated : 0.0;
-    out->loss.joints = joints ? ball_array_sum(w->joint_dissipated) : 0.0;
+    out->loss.modes = w->elastic.dissipated;
+    out->loss.joints = ball_array_sum(w->joint_dissipated);
     out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated;
-    if (joints) out->bearing.power_loss += out->loss.joints;
+    out->bearing.power_loss += out->loss.joints;
     out->bearing.power_loss += out->loss.modes;
     out->loss.races = ball_array_sum(w->race_dissipated);
     out->loss.inlet = ball_array_sum(w->inlet_dissipated);

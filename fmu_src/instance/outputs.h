@@ -1,7 +1,7 @@
 // Outputs, group by group.
 #pragma once
 
-#include "rivet/rivets.h"
+#include "cage/cage.h"
 
 // One evaluation of the right-hand side: the state y, its y_dot and all other results, and the kernels that
 // outputs need.
@@ -9,7 +9,7 @@ typedef struct {
     const Model *model;
     const scalar *y, *y_dot;
     const Work *w;
-    RivetsLoad *loads;
+    CageLoads *loads;
     RivetRomStress *stress;
 } Evaluation;
 

@@ -1,7 +1,6 @@
 // Outputs that follow from the records of accepted steps and from the integrator.
 #include "instance/instance.h"
 #include "instance/outputs.h"
-#include "rivet/rivets.h"
 
 static void fill_peak(Bearing *b)
 {
@@ -105,8 +104,8 @@ static void fill_constant(Bearing *b)
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
-    const Evaluation now = {&b->model, b->s.integrator.now.y,  b->y_dot,
-                            &b->w,     b->kernels.rivets_load, b->kernels.rivet_rom_stress};
+    const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
+                            &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     switch (group) {
     case GROUP_CONSTANT: fill_constant(b); return;
     case GROUP_PEAK: fill_peak(b); return;

@@ -21,6 +21,9 @@ typedef bool bits;
 
 // Functions beside those of the kernel files (isa.h) that are compiled for values and, under these names, for
 // derivatives.
+#define cage_energy FOR_ISA(cage_energy)
+#define cage_flex FOR_ISA(cage_flex)
+#define cage_slip FOR_ISA(cage_slip)
 #define energy_total FOR_ISA(energy_total)
 #define outputs_evaluate FOR_ISA(outputs_evaluate)
 

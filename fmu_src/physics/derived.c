@@ -1,5 +1,7 @@
 // Constants derived from the parameters at their temperatures (temperature.h), element by element; equations stand in
 // the elements' files.
+#include "cage/cage.h"
+#include "cage/common/centrifugal.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/ring_fit.h"
@@ -231,8 +233,8 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->k_plate_t = joint->k_t_plate;
     d->k_head = joint->k_t_head;
     const CageHalfData *half = &rivet_table.half;
-    for (int i = 0; i < ROWS; i++)
-        d->spin[i] = p->cage.centrifugal == SWITCH_ON ? p->cage.m / half->m * half->spin[i] : 0.0;
+    d->inv_R = 2.0 / joint->d_m;
+    for (int i = 0; i < ROWS; i++) d->centrifugal[i] = cage_centrifugal(p) * half->spin[i];
     d->c_joint = 2.0 * p->joint.zeta * sqrt((d->k_rivet + d->k_plate) * 0.5 * p->cage.m / Z);
 }
 
@@ -245,7 +247,7 @@ static void derive_scales(const Parameters *p, Derived *d)
 {
     const bool equal = p->solver.method == METHOD_EXPLICIT;
     const double length = 1e-5, velocity = equal ? 0.1 : 0.5, r = 0.5 * p->bearing.d_m;
-    const double orbit = p->scene.cage == CAGE_MODEL_ELASTIC ? velocity / 3.75 : velocity / 6.0;
+    const double orbit = velocity * cage_orbit_scale(p);
     const double slip =
         fmax(p->joint.mu * d->P_mean, 3.0);  // force at which plates slip; of a loose joint the default's
     const double friction = equal ? slip : 20.0 * slip;

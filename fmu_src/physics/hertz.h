@@ -26,6 +26,12 @@ INLINE wide hertz_energy(wide K, wide delta)
     return 0.4 * hertz_load(K, delta) * wide_max(delta, wide_set(0.0));
 }
 
+// The same energy of one contact, in doubles.
+static inline double hertz_stored(double K, double delta)
+{
+    return delta > 0.0 ? 0.4 * K * delta * delta * sqrt(delta) : 0.0;
+}
+
 // Largest pressure p_max = 3 Q/(2 pi a b); the semi-axes grow with the cube root of the load.
 static inline scalar hertz_pressure(const Hertz *hertz, scalar Q)
 {

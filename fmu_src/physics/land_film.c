@@ -193,9 +193,8 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
             half->M[2] += arm[0] * F[1];
         } else
             add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
-        w->film_yy[h] = wide_lane(K_yy, i), w->film_yz[h] = wide_lane(K_yz, i),
-        w->film_zz[h] = wide_lane(K_zz, i);
-        w->film_spin[h] = wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h;
+        w->film[h] = (LandFilm){wide_lane(K_yy, i), wide_lane(K_yz, i), wide_lane(K_zz, i),
+                                wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h};
         w->land_elastic += wide_lane(elastic, i);
         w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
     }

@@ -8,18 +8,13 @@
 // n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
 #pragma once
 
+#include "cage/elastic/elastic_work.h"
 #include "cage/two_half/half_path.h"
+#include "cage/two_half/two_half_work.h"
 #include "numbers/lanes.h"
 #include "numbers/variable_table.h"
 
 typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
-
-enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
-
-enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
-
-// One number for each mode of a half; eight modes side by side may reach beyond the last one.
-typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
 
 // One vector for each ball of a packet, in the balls' own frames.
 typedef struct {
@@ -101,6 +96,7 @@ typedef struct {
 
     // joint
     constants rivet_y, rivet_z;  // position of rivet k in a half [m]: angle 2 pi (k + 1/2) / Z, pitch circle
+    double inv_R;                // 1 / radius of that circle [1/m]
     constants intact;            // 1, or 0 for a rivet that is broken
     constants P;                 // preload [N], 0 of a broken rivet
     double P_mean;               // preload of the rivets that are not broken, mean [N]
@@ -109,8 +105,8 @@ typedef struct {
     double k_rivet, k_plate, k_plate_t, k_head;  // stiffnesses [N/m]
     constants k_hole, hole_gap;  // stiffness of the hole [N/m], diametral play of the shank [m]
     bool any_broken;
-    double c_joint;     // axial damping of one closed joint [N.s/m]
-    double spin[ROWS];  // rows of bonded joints (half_path.h) under the centrifugal load, per (rad/s)^2
+    double c_joint;            // axial damping of one closed joint [N.s/m]
+    double centrifugal[ROWS];  // rows of bonded joints (half_path.h) under that load, per (rad/s)^2
 
     RelativeInertia relative;  // of the halves, for the substeps of elastic ones
 
@@ -163,6 +159,11 @@ typedef struct {
     scalar F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
+// ---- rates of the film of one land, -dF/dv [N.s/m] and -dM/domega [N.m.s]; written by land_film_force --------
+typedef struct {
+    scalar yy, yz, zz, spin;
+} LandFilm;
+
 // ---- the balls in the pockets of one half; written by pocket_force, 0 for pockets without contact ---------
 typedef struct {
     ball_array Q;                             // contact load [N]
@@ -205,16 +206,16 @@ typedef struct {
     // contact results: approaches [m], loads [N], normals, mean surface speeds [m/s]
     ball_array delta_i, delta_e, Q_i, Q_e, n_ix, n_ir, n_it, n_ex, n_er, U_i, U_e;
     ball_array delta_c[2];  // approach of ball and pocket of each half
-    Pockets pocket[2];      // of each half; a rigid cage has all pocket forces in the first
+    Pockets pocket[2];      // of each half
 
-    // joints, in the frame of half 0 (cage_joint_force): offset and velocity of half 1 against half 0, rivet
-    // tension, plate force, forces on half 1 by plates (S), heads (H) and hole (B), rates of the friction
-    // states, power
+    // joints, in the frame of half 0 (cage_joint.c): offset and velocity of half 1 against half 0 as rigid bodies; forces
+    // on half 1 by plates (S), heads (H) and hole (B), and their sum in the plane; rates of the friction states, their
+    // decay D, z' = v - D z [1/s]; stiffness of the hole where the shank bears, else 0 [N/m]; power (two_half.c adds
+    // that of its springs)
     ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;
-    ball_array T, N_plate, S_y, S_z, H_y, H_z, B_y, B_z;
+    ball_array S_y, S_z, H_y, H_z, B_y, B_z, joint_F_y, joint_F_z;
     ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
-    ball_array plate_rate, head_rate;  // decay D of the friction states, z' = v - D z [1/s]
-    ball_array k_bearing;              // stiffness of the hole where the shank bears, else 0 [N/m]
+    ball_array plate_rate, head_rate, k_bearing;
     ball_array joint_dissipated;
 
     // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
@@ -225,30 +226,13 @@ typedef struct {
     // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
     scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
 
-    // lands (land_film_force): elastic energy [J], film rates -dF/dv and -dM/domega of each land
+    // lands (land_film_force): elastic energy [J], films
     scalar land_elastic;
-    scalar film_yy[2], film_yz[2], film_zz[2], film_spin[2];
+    LandFilm film[2];
 
-    // elastic halves (cage_elastic.c): coordinates of the modes and their rates, by half [m, m/s]; how far a
-    // wall can have moved [m]; moment of inertia that the modes add [kg.m2] and its rate; modal forces on the
-    // walls [N] (cleared by cage_elastic_kinematics, added by pocket_force)
-    mode_array q[2], q_dot[2], wall_force[2];
-    mode_array pull_S, pull_D;  // of the joints on the modes [N]: to be taken off S, on D
-    scalar reach[2], more_J[2], more_J_dot[2];
-
-    // contacts with the walls of each elastic half (pocket_force): direction (x, t) from the pocket's axis to
-    // the ball, stiffness along it [N/m], 0 without contact, and the rate of the approach by ball and half as
-    // rigid bodies [m/s]
-    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
-
-    // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it
-    // (r, t); e: half of the whole motion out of the plane; part of the halves' rigid motion in u_y and u_z
-    ball_array pad_out[3], pad_in[2], pad_in_dot[2], e[3], rigid_u_y, rigid_u_z;
-
-    // loads of the joints (N, M_r, M_t), of their rivets (T, m_r, m_t), L^ and the energy U of the law; force on half
-    // 1 in the plane, in the frame of half 0 (cage_joint_force)
-    ball_array joint_load[3], joint_rivet[3], joint_behind[3], joint_U, joint_F_y, joint_F_z;
-    scalar modes_energy, modes_dissipated;  // energy of the modes [J] and power that they lose [W]
+    // what one kind of cage has
+    TwoHalfWork two_half;
+    ElasticWork elastic;
 } Work;
 
 // All that the right-hand side needs beside time and state.
@@ -257,14 +241,8 @@ typedef struct {
     const Derived *d;
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
-    const ElasticHalf *elastic;         // modes of the halves, where they are elastic, else NULL
+    const ElasticHalf *modes;  // of the cage's halves, where they are elastic, else NULL (cage/cage.h)
 } Model;
-
-// Number of states of the scene.
-static inline int states_of(const Model *model)
-{
-    return model->elastic ? N_ALL_STATES : N_STATES;
-}
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.
 void model_derive(const Parameters *p, Derived *d);

@@ -1,9 +1,7 @@
 // The table of contents of the physics: one evaluation of dy/dt in named steps.
 #include "physics/rhs.h"
 
-#include "cage/common/cage_joint.h"
-#include "cage/common/pocket.h"
-#include "cage/elastic/cage_elastic.h"
+#include "cage/cage.h"
 #include "physics/ball.h"
 #include "physics/drag.h"
 #include "physics/frame.h"
@@ -15,56 +13,6 @@
 #include "physics/ring_load.h"
 #include "physics/rotor.h"
 
-// Pose and velocity of inner ring and cage halves from y.  A half's states are those of its centre of mass.
-static void rotor_kinematics(const Model *model, const scalar *y, Work *w)
-{
-    Rotor *ring = &w->ring;
-    const RingLoad *given = model->ring_load;
-    const bool prescribed = model->p->ring.motion == RING_MOTION_PRESCRIBED;
-    for (int i = 0; i < 3; i++) {
-        ring->x[i] = prescribed ? given->x[i] : y[Y_RING_X + i];
-        ring->v[i] = prescribed ? given->v[i] : y[Y_RING_V_X + i];
-    }
-    if (prescribed)
-        rotor_axis(ring, given->beta, given->gamma, given->beta_dot, given->gamma_dot, given->omega);
-    else
-        rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT],
-                   given->omega);
-
-    // cosine and sine of the halves' rotations, side by side
-    scalar cos_psi[2], sin_psi[2];
-    for (int first = 0; first < 2; first += HALVES) {
-        wide sine, cosine;
-        wide_sincos(wide_pair(y[Y_CAGE_PSI + first], y[Y_CAGE_PSI + first + HALVES - 1]), &sine, &cosine);
-        for (int i = 0; i < HALVES; i++)
-            cos_psi[first + i] = wide_lane(cosine, i), sin_psi[first + i] = wide_lane(sine, i);
-    }
-
-    // halves; the geometric centre is c away from the centre of mass
-    for (int h = 0; h < 2; h++) {
-        Rotor *half = &w->half[h];
-        rotor_axis(half, y[Y_CAGE_BETA + h], y[Y_CAGE_GAMMA + h], y[Y_CAGE_BETA_DOT + h],
-                   y[Y_CAGE_GAMMA_DOT + h], y[Y_CAGE_S + h]);
-        rotor_body_axes(half, cos_psi[h], sin_psi[h]);
-        scalar drift[3];
-        for (int i = 0; i < 3; i++)
-            half->c[i] = model->d->com_x[h] * half->a[i] + model->d->com_e * half->b_y[i];
-        cross3(half->Omega, half->c, drift);
-        for (int i = 0; i < 3; i++) {
-            half->x[i] = y[Y_CAGE_X + 2 * i + h] - half->c[i];
-            half->v[i] = y[Y_CAGE_V_X + 2 * i + h] - drift[i];
-            half->F[i] = half->M[i] = 0.0;  // the elements add their forces
-        }
-    }
-
-    // in a rigid cage half 1 moves with half 0
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) {
-        Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-        *h1 = *h0;
-        for (int i = 0; i < 3; i++) h1->c[i] = model->d->com_x[1] * h0->a[i] + model->d->com_e * h0->b_y[i];
-    }
-}
-
 // Sum of the race contacts on the ring.
 static void ring_sum(Work *w)
 {
@@ -73,98 +21,6 @@ static void ring_sum(Work *w)
         w->ring.F[i] = ball_array_sum(ring[i]);
         w->ring.M[i] = ball_array_sum(ring[3 + i]);
     }
-}
-
-// Sets y_dot of half h from the accelerations of its centre of mass (acc), of its axis (a_ddot) and of its
-// spin (s_dot).
-static void half_rates(const scalar *y, const Rotor *half, int h, const scalar acc[3], const scalar a_ddot[3],
-                       scalar s_dot, scalar *y_dot)
-{
-    for (int i = 0; i < 3; i++) {
-        y_dot[Y_CAGE_X + 2 * i + h] = y[Y_CAGE_V_X + 2 * i + h];
-        y_dot[Y_CAGE_V_X + 2 * i + h] = acc[i];
-    }
-    y_dot[Y_CAGE_BETA + h] = y[Y_CAGE_BETA_DOT + h];
-    y_dot[Y_CAGE_GAMMA + h] = y[Y_CAGE_GAMMA_DOT + h];
-    y_dot[Y_CAGE_PSI + h] = half->s - rotor_roll(half);
-    y_dot[Y_CAGE_BETA_DOT + h] = -a_ddot[2];
-    y_dot[Y_CAGE_GAMMA_DOT + h] = a_ddot[1];
-    y_dot[Y_CAGE_S + h] = s_dot;
-}
-
-// Centre of mass of half h: place and velocity.
-static void half_place(const scalar *y, int h, scalar s[3], scalar v[3])
-{
-    for (int i = 0; i < 3; i++) {
-        s[i] = y[Y_CAGE_X + 2 * i + h];
-        v[i] = y[Y_CAGE_V_X + 2 * i + h];
-    }
-}
-
-// Both halves under their forces.
-static void halves_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot)
-{
-    const Parameters *p = model->p;
-    for (int h = 0; h < 2; h++) {
-        const Rotor *half = &w->half[h];
-        scalar M[3], lever[3], a_ddot[3], acc[3], s_dot, s[3], v[3], field[3], M_f[3];
-        half_place(y, h, s, v);
-        frame_acceleration(model->ring_load, s, v, field);
-        frame_moment(model->ring_load, half, model->d->J_p, model->d->J_t, M_f);
-        cross3(half->c, half->F, lever);
-        for (int i = 0; i < 3; i++) {
-            M[i] = half->M[i] - lever[i] + M_f[i];
-            acc[i] = half->F[i] / p->cage.m + field[i];
-        }
-        if (model->elastic) {  // what widens takes spin
-            const scalar moment = cage_elastic_coriolis(model, w, h);
-            for (int i = 0; i < 3; i++) M[i] -= moment * half->a[i];
-        }
-        rotor_acceleration(half, model->d->J_p, model->d->J_t, M, a_ddot, &s_dot);
-        if (model->elastic) s_dot *= model->d->J_p / (model->d->J_p + w->more_J[h]);
-        half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
-    }
-}
-
-// Both halves as one rigid body about their common centre of mass.
-static void rigid_cage_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot)
-{
-    const Parameters *p = model->p;
-    const Rotor *cage = &w->half[0];
-    const double J_t = 2.0 * (model->d->J_t + p->cage.m * model->d->com_x[1] * model->d->com_x[1]);
-    scalar M[3], lever[3], a_ddot[3], acc[3], s_dot;
-    scalar F[3], c[3], spin_up[3], carried[3], around[3], inward[3], centre[2][3], field[3], M_f[3];
-
-    // force, and moment about the common centre of mass
-    for (int i = 0; i < 3; i++) {
-        F[i] = w->half[0].F[i] + w->half[1].F[i];
-        c[i] = model->d->com_e * cage->b_y[i];
-    }
-    cross3(c, F, lever);
-    frame_moment(model->ring_load, cage, 2.0 * model->d->J_p, J_t, M_f);
-    for (int i = 0; i < 3; i++) M[i] = w->half[0].M[i] + w->half[1].M[i] - lever[i] + M_f[i];
-
-    // gravity and the frame's inertia forces act at the common centre of mass, c off the geometric centre
-    cross3(cage->Omega, c, centre[1]);
-    for (int i = 0; i < 3; i++) {
-        centre[0][i] = cage->x[i] + c[i];
-        centre[1][i] += cage->v[i];
-    }
-    frame_acceleration(model->ring_load, centre[0], centre[1], field);
-    rotor_acceleration(cage, 2.0 * model->d->J_p, J_t, M, a_ddot, &s_dot);
-
-    // rate of Omega, which carries each half's centre of mass along
-    cross3(cage->a, a_ddot, spin_up);
-    for (int i = 0; i < 3; i++) spin_up[i] += s_dot * cage->a[i] + cage->s * cage->a_dot[i];
-    for (int h = 0; h < 2; h++) {
-        for (int i = 0; i < 3; i++) c[i] = model->d->com_x[h] * cage->a[i];
-        cross3(spin_up, c, carried);
-        cross3(cage->Omega, c, around);
-        cross3(cage->Omega, around, inward);
-        for (int i = 0; i < 3; i++) acc[i] = F[i] / (2.0 * p->cage.m) + field[i] + carried[i] + inward[i];
-        half_rates(y, cage, h, acc, a_ddot, s_dot, y_dot);
-    }
-    for (int i = 0; i < 4 * Z; i++) y_dot[Y_JOINT_PLATE_Y + i] = 0.0;  // friction states rest
 }
 
 // Power of an outer ring that moves, of gravity and of the frame.
@@ -181,8 +37,8 @@ static scalar net_power(const Model *model, const Work *w)
 {
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
-    if (model->p->scene.cage != CAGE_MODEL_RIGID) power -= ball_array_sum(w->joint_dissipated);
-    if (model->elastic) power -= w->modes_dissipated;
+    power -= ball_array_sum(w->joint_dissipated);
+    power -= w->elastic.dissipated;
     const RingLoad *load = model->ring_load;
     if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
         power += race_growth_power(model, w);
@@ -190,60 +46,34 @@ static scalar net_power(const Model *model, const Work *w)
     return power;
 }
 
-#ifndef DUAL
-void rhs_cage_advance(const Model *model, const double *middle, double h, double *y, Work *w)
-{
-    rotor_kinematics(model, middle, w);
-    for (int i = 0; i < 2; i++) y[Y_CAGE_PSI + i] += h * (w->half[i].s - rotor_roll(&w->half[i]));
-    if (model->p->scene.cage == CAGE_MODEL_RIGID) return;
-    cage_joint_kinematics(model, w);
-    if (!model->elastic) cage_joint_advance(model, w, h, y);
-}
-#endif
-
 // One evaluation under the load that is on the ring.
 static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w)
 {
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
     for (int i = 0; i < 3; i++) w->outer_x[i] = model->ring_load->outer_x[i];
     w->outer_beta = model->ring_load->outer_beta, w->outer_gamma = model->ring_load->outer_gamma;
     w->frame_omega = model->ring_load->frame_omega;
     ball_kinematics(y, w);
-    rotor_kinematics(model, y, w);
+    ring_kinematics(model, y, w);
+    cage_kinematics(model, y, w);
     race_contact_force(model, w);
-    if (model->elastic) cage_elastic_kinematics(model, y, w);
-    pocket_force(model, w);
+    cage_pockets(model, w);
     drag_mixture(model, w);
     drag_force(model, w);
     ring_sum(w);
     drag_ring(model, w);
     land_film_force(model, w);
     drag_cage(model, w);
-    if (!rigid) {
-        cage_joint_kinematics(model, w);
-        if (model->elastic) {
-            cage_elastic_pads(model, w);
-            cage_elastic_joints(model, w);
-        }
-        cage_joint_force(model, y, w);
-    }
+    cage_joints(model, y, w);
     ball_acceleration(model, w, y_dot);
-    (rigid ? rigid_cage_acceleration : halves_acceleration)(model, y, w, y_dot);
+    cage_acceleration(model, y, w, y_dot);
     ring_acceleration(model, w, y_dot);
-    if (!rigid) {
-        memcpy(&y_dot[Y_JOINT_PLATE_Y], w->plate_y_dot, Z * sizeof *y_dot);
-        memcpy(&y_dot[Y_JOINT_PLATE_Z], w->plate_z_dot, Z * sizeof *y_dot);
-        memcpy(&y_dot[Y_JOINT_HEAD_Y], w->head_y_dot, Z * sizeof *y_dot);
-        memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
-    }
-    if (model->elastic) cage_elastic_acceleration(model, y, w, y_dot);
     y_dot[Y_WORK] = net_power(model, w);
 }
 
 void rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w)
 {
     RingLoad ring_load;
-    const Model now = {model->p, model->d, &ring_load, NULL, model->elastic};
+    const Model now = {model->p, model->d, &ring_load, NULL, model->modes};
     if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
     evaluate(model->trajectory ? &now : model, y, y_dot, w);
 }

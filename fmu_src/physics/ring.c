@@ -12,6 +12,23 @@
 #include "physics/ring.h"
 
 #include "physics/frame.h"
+#include "physics/rotor.h"
+
+void ring_kinematics(const Model *model, const scalar *y, Work *w)
+{
+    Rotor *ring = &w->ring;
+    const RingLoad *given = model->ring_load;
+    const bool prescribed = model->p->ring.motion == RING_MOTION_PRESCRIBED;
+    for (int i = 0; i < 3; i++) {
+        ring->x[i] = prescribed ? given->x[i] : y[Y_RING_X + i];
+        ring->v[i] = prescribed ? given->v[i] : y[Y_RING_V_X + i];
+    }
+    if (prescribed)
+        rotor_axis(ring, given->beta, given->gamma, given->beta_dot, given->gamma_dot, given->omega);
+    else
+        rotor_axis(ring, y[Y_RING_BETA], y[Y_RING_GAMMA], y[Y_RING_BETA_DOT], y[Y_RING_GAMMA_DOT],
+                   given->omega);
+}
 
 void ring_acceleration(const Model *model, const Work *w, scalar *y_dot)
 {

@@ -4,28 +4,23 @@
 
 #undef rhs
 #undef vector_ops
-#undef vector_ops_elastic
-#undef implicit_solve
+#undef vector_ops_all
 #undef verlet_step
 #undef verlet_evaluate
 #undef race_contact_force
-#undef rivets_load
-#undef rivets_follow
+#undef cage_loads
 #undef rivet_rom_stress
 #define DECLARE_2(isa)                         \
     Rhs rhs_##isa;                             \
     RaceContactForce race_contact_force_##isa; \
     VerletStep verlet_step_##isa;              \
     VerletEvaluate verlet_evaluate_##isa;      \
-    ImplicitSolve implicit_solve_##isa;        \
-    RivetsLoad rivets_load_##isa;              \
-    RivetsFollow rivets_follow_##isa;          \
+    CageLoads cage_loads_##isa;                \
     RivetRomStress rivet_rom_stress_##isa;     \
-    extern const VectorOps vector_ops_##isa, vector_ops_elastic_##isa
-#define KERNELS_2(isa)                                                                                  \
-    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_elastic_##isa, \
-               verlet_step_##isa, verlet_evaluate_##isa, implicit_solve_##isa, rivets_load_##isa,       \
-               rivets_follow_##isa, rivet_rom_stress_##isa})
+    extern const VectorOps vector_ops_##isa, vector_ops_all_##isa
+#define KERNELS_2(isa)                                                                              \
+    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_all_##isa, \
+               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 

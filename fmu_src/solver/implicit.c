@@ -23,11 +23,11 @@
 //
 // Order of elimination: balls, 6 x 6 each; by their Schur complement the ring, 5 x 5; the halves by
 // themselves, their films first, then the joints between them.  The joints' stiffness across the axis is a
-// factor of its own, solved before (implicit_shear).  Rolling couples the velocities of a ball as
+// factor of its own, solved before (cage_shear).  Rolling couples the velocities of a ball as
 // strongly as it holds each one back: a diagonal matrix would leave stiff terms outside.
 #include "solver/implicit.h"
 
-#include "cage/elastic/elastic_half.h"
+#include "cage/cage.h"
 #include "numbers/elimination.h"
 #include "numbers/octet.h"
 #include "physics/rotor.h"
@@ -305,7 +305,7 @@ static void stiff_part_of_balls(const Model *model, const Work *w, double gamma,
     store_balls(rows, v);
 }
 
-double implicit_elastic(const Work *w, double gamma, const double *v)
+double implicit_spring_power(const Work *w, double gamma, const double *v)
 {
     ball_array rows[BLOCK], power;
     load_balls(v, rows);
@@ -323,287 +323,11 @@ double implicit_elastic(const Work *w, double gamma, const double *v)
 
 // ---- cage halves ------------------------------------------------------------------------------------------
 
-// Velocities of one half.
-typedef struct {
-    double x, y, z, beta, gamma, s;
-} Half;
-
-// A land's film ready to be solved for one body.  The film holds back the velocity u of the land at the lever
-// x, u_y = v_y + gamma_dot x and u_z = v_z - beta_dot x.  Because u has two components, the inverse of the
-// body's 4 x 4 block needs a 2 x 2 inverse only (Woodbury): with the film matrix C the impulse is
-// (C^-1/gamma + 1/m + x^2/J_t)^-1 u = (yy, yz; yz, zz) u.
-typedef struct {
-    double m, J_p, J_t;  // inertia of the body
-    double x;            // lever of the land from the body's centre of mass
-    double yy, yz, zz;   // impulse of the film per velocity u that the land would have without it
-    double spin;         // gamma A of the spin
-} Film;
-
-static Film film(const Work *w, int land, double m, double J_p, double J_t, double x, double gamma)
-{
-    const double inv_m = 1.0 / m + x * x / J_t;  // of the land against a force there
-    const double yy = gamma * w->film_yy[land], yz = gamma * w->film_yz[land], zz = gamma * w->film_zz[land];
-
-    // (1 + gamma C inv_m)^-1 gamma C, by Cramer's rule; it is symmetric.
-    const double a = 1.0 + inv_m * yy, b = inv_m * yz, c = 1.0 + inv_m * zz, inv_det = 1.0 / (a * c - b * b);
-    const double impulse_yy = (yy * c - yz * b) * inv_det;
-    const double impulse_yz = (yz * a - yy * b) * inv_det;
-    const double impulse_zz = (zz * a - yz * b) * inv_det;
-    return (Film){m, J_p, J_t, x, impulse_yy, impulse_yz, impulse_zz, gamma * w->film_spin[land] / J_p};
-}
-
-// v = (1 + gamma A)^-1 v, A of this film.
-static void film_solve(const Film *f, Half *v)
-{
-    const double u_y = v->y + v->gamma * f->x, u_z = v->z - v->beta * f->x;
-    const double I_y = f->yy * u_y + f->yz * u_z, I_z = f->yz * u_y + f->zz * u_z;
-    v->y -= I_y / f->m;
-    v->z -= I_z / f->m;
-    v->gamma -= f->x * I_y / f->J_t;
-    v->beta += f->x * I_z / f->J_t;
-    v->s /= 1.0 + f->spin;
-}
-
-static Film film_of_half(const Model *model, const Work *w, int h, double gamma)
-{
-    const Parameters *p = model->p;
-    const double x_land = h == 0 ? -p->cage.land_x : p->cage.land_x;
-    return film(w, h, p->cage.m, model->d->J_p, model->d->J_t, x_land - model->d->com_x[h], gamma);
-}
-
-// v = (1 + gamma A)^-1 v of a rigid cage, A of both films together: where both are stiff, one after the other
-// would hold the cage by their product.
-static void rigid_solve(const Model *model, const Work *w, double gamma, Half *v)
-{
-    enum { V_Y, V_Z, BETA, GAMMA, S };
-
-    const Parameters *p = model->p;
-    const double m = 2.0 * p->cage.m, J_p = 2.0 * model->d->J_p,
-                 J_t = 2.0 * (model->d->J_t + p->cage.m * p->cage.x_c * p->cage.x_c);
-    const double inertia[BODY_DOF] = {m, m, J_t, J_t, J_p};
-    double x[BODY_DOF] = {m * v->y, m * v->z, J_t * v->beta, J_t * v->gamma, J_p * v->s};
-    double A[BODY_DOF][BODY_DOF] = {{0.0}};
-    for (int land = 0; land < 2; land++) {
-        const double lever = land == 0 ? -p->cage.land_x : p->cage.land_x;
-        const double yy = w->film_yy[land], yz = w->film_yz[land], zz = w->film_zz[land];
-        A[V_Y][V_Y] += yy;
-        A[V_Y][V_Z] += yz;
-        A[V_Y][BETA] -= lever * yz;
-        A[V_Y][GAMMA] += lever * yy;
-        A[V_Z][V_Z] += zz;
-        A[V_Z][BETA] -= lever * zz;
-        A[V_Z][GAMMA] += lever * yz;
-        A[BETA][BETA] += lever * lever * zz;
-        A[BETA][GAMMA] -= lever * lever * yz;
-        A[GAMMA][GAMMA] += lever * lever * yy;
-        A[S][S] += w->film_spin[land];
-    }
-    for (int i = 0; i < BODY_DOF; i++)
-        for (int k = i; k < BODY_DOF; k++) A[i][k] = A[k][i] = gamma * A[i][k] + (i == k ? inertia[i] : 0.0);
-    eliminate(A, x);
-    v->y = x[V_Y], v->z = x[V_Z], v->beta = x[BETA], v->gamma = x[GAMMA], v->s = x[S];
-}
-
-// Half h by its film, which is returned; a rigid cage by both.
-static Film hold_half(const Model *model, const Work *w, int h, double gamma, Half *half)
-{
-    Film f = {0};
-    if (model->p->scene.cage == CAGE_MODEL_RIGID)
-        rigid_solve(model, w, gamma, half);
-    else {
-        f = film_of_half(model, w, h, gamma);
-        film_solve(&f, half);
-    }
-    return f;
-}
-
-static Half half_load(const double *v, int h)
-{
-    return (Half){.x = v[Y_CAGE_V_X + h],
-                  .y = v[Y_CAGE_V_Y + h],
-                  .z = v[Y_CAGE_V_Z + h],
-                  .beta = v[Y_CAGE_BETA_DOT + h],
-                  .gamma = v[Y_CAGE_GAMMA_DOT + h],
-                  .s = v[Y_CAGE_S + h]};
-}
-
-static void half_store(const Half *half, double *v, int h)
-{
-    v[Y_CAGE_V_X + h] = half->x, v[Y_CAGE_V_Y + h] = half->y, v[Y_CAGE_V_Z + h] = half->z;
-    v[Y_CAGE_BETA_DOT + h] = half->beta, v[Y_CAGE_GAMMA_DOT + h] = half->gamma, v[Y_CAGE_S + h] = half->s;
-}
-
-// Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
-// matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
-// order four (Fox and Goodwin); for large x they tend to 1.5 and 1.7, which takes 22 % of the amplitude a step:
-// what the step cannot resolve dies out (docs/method.md).
-static double vibration_weights(double x_2, double *matrix)
-{
-    const double part = x_2 * x_2 / (x_2 * x_2 + 1.0);
-    *matrix = 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0);
-    return 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0);
-}
-
-// C = sum over the rivets of (gamma c + gamma^2 k) b b^T, b = (1, z, -y): what holds back the axial motion of
-// half 1 against half 0, (v_x, beta_dot, gamma_dot).  y, z: place of the rivet, turned with half 0.
-static void joint_matrix(const Model *model, const Work *w, double gamma, double C[3][3])
-{
-    const Derived *d = model->d;
-    const Rotor *h0 = &w->half[0];
-    const wide zero = wide_set(0.0), k_rivet = wide_set(d->k_rivet), k_plate = wide_set(d->k_plate);
-    ball_array rate, rate_y, rate_z, rate_yy, rate_yz, rate_zz;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
-        const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
-
-        // The rivet is stiff while it is tense, the plates while they are pressed together.
-        const wide T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]);
-        const wide tense = wide_select(wide_above(T, 0.0), k_rivet, zero);
-        const wide pressed = wide_select(wide_above(N_plate, 0.0), k_plate, zero);
-        const wide damping = d->c_joint * N_plate / (N_plate + model->p->joint.F_floor);
-        const wide rate_k = gamma * (damping + gamma * (tense + pressed));
-        wide_store(&rate[k], rate_k);
-        wide_store(&rate_y[k], rate_k * y);
-        wide_store(&rate_z[k], rate_k * z);
-        wide_store(&rate_yy[k], rate_k * y * y);
-        wide_store(&rate_yz[k], rate_k * y * z);
-        wide_store(&rate_zz[k], rate_k * z * z);
-    }
-    C[0][0] = ball_array_sum(rate);
-    C[1][0] = C[0][1] = ball_array_sum(rate_z);
-    C[2][0] = C[0][2] = -ball_array_sum(rate_y);
-    C[1][1] = ball_array_sum(rate_zz);
-    C[2][1] = C[1][2] = -ball_array_sum(rate_yz);
-    C[2][2] = ball_array_sum(rate_yy);
-}
-
-// Holds back the axial motion of half 1 against half 0, both already held back by their films f.  With dv
-// their relative velocity (v_x, beta_dot, gamma_dot) and G its change by unit impulses, again under the
-// films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
-// Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
-// correction's weight.
-static double solve_joints(const Model *model, const Work *w, double gamma, const Film f[2], Half half[2])
-{
-    double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
-    joint_matrix(model, w, gamma, C);
-    const double tilt = fmax(C[1][1], C[2][2]) / model->d->J_t;
-    const double correction = vibration_weights(8.0 * fmax(C[0][0] / model->p->cage.m, tilt), &weight);
-    for (int i = 0; i < 9; i++) C[i / 3][i % 3] *= weight;
-
-    // G of both halves; indices b, g: beta, gamma.  A film knows no axial motion.
-    for (int h = 0; h < 2; h++) {
-        const double lever = f[h].x / f[h].J_t;
-        G_xx += 1.0 / f[h].m;
-        G_bb += 1.0 / f[h].J_t - lever * lever * f[h].zz;
-        G_bg += lever * lever * f[h].yz;
-        G_gg += 1.0 / f[h].J_t - lever * lever * f[h].yy;
-    }
-
-    // The impulses.
-    const double dv[3] = {half[1].x - half[0].x, half[1].beta - half[0].beta, half[1].gamma - half[0].gamma};
-    for (int i = 0; i < 3; i++) {
-        B[i][0] = (i == 0) + C[i][0] * G_xx;
-        B[i][1] = (i == 1) + C[i][1] * G_bb + C[i][2] * G_bg;
-        B[i][2] = (i == 2) + C[i][1] * G_bg + C[i][2] * G_gg;
-        x[i] = C[i][0] * dv[0] + C[i][1] * dv[1] + C[i][2] * dv[2];
-    }
-    solve_3(B[0], x);
-
-    // The impulses change the velocities of each half, which its own film holds back again.
-    for (int h = 0; h < 2; h++) {
-        const double sign = h == 0 ? 1.0 : -1.0;
-        const double dx = sign * x[0] / f[h].m;
-        const double dbeta = sign * x[1] / f[h].J_t, dgamma = sign * x[2] / f[h].J_t;
-        Half change = {.x = dx, .beta = dbeta, .gamma = dgamma};
-        film_solve(&f[h], &change);
-        half[h].x += change.x, half[h].y += change.y, half[h].z += change.z;
-        half[h].beta += change.beta, half[h].gamma += change.gamma;
-    }
-    return correction;
-}
-
-// Stiffness [N/m] across the axis of a packet's joints from k on, as a step of length 2 gamma meets it: sticking plates
-// and heads, d(z)/d(v) = gamma/(1 + gamma D) of friction states that decay with D, and holes in which a shank bears.
-static wide shear_stiffness(const Model *model, const Work *w, double gamma, int k)
-{
-    const wide plate = model->d->k_plate_t / (1.0 + gamma * wide_load(&w->plate_rate[k]));
-    const wide head = model->d->k_head / (1.0 + gamma * wide_load(&w->head_rate[k]));
-    return plate + head + wide_load(&w->k_bearing[k]);
-}
-
-// Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
-// velocity is (v_y - s z, v_z + s y).  Weights and result as along the axis.  The impulses are x = C (dv - G x) again,
-// C the sum of gamma^2 k over the joints and G = 2 diag(1/m, 1/m, 1/J_p).  Left out is the lever x_c of the joints
-// from the centres of mass, 0.2 % of the halves' response.
-double implicit_shear(const Model *model, const Work *w, double gamma, double *v)
-{
-    if (model->p->scene.cage != CAGE_MODEL_TWO_HALF) return 0.0;
-    const Derived *d = model->d;
-    const Rotor *h0 = &w->half[0];
-
-    // C = (c, 0, -c_z; 0, c, c_y; -c_z, c_y, c_rr).
-    ball_array rate, rate_y, rate_z, rate_rr;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
-        const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
-        const wide rate_k = gamma * gamma * shear_stiffness(model, w, gamma, k);
-        wide_store(&rate[k], rate_k);
-        wide_store(&rate_y[k], rate_k * y);
-        wide_store(&rate_z[k], rate_k * z);
-        wide_store(&rate_rr[k], rate_k * (y * y + z * z));
-    }
-    const double m = model->p->cage.m, J_p = d->J_p, G_m = 2.0 / m, G_J = 2.0 / J_p;
-    double c = ball_array_sum(rate), c_y = ball_array_sum(rate_y), c_z = ball_array_sum(rate_z);
-    double c_rr = ball_array_sum(rate_rr), weight;
-    const double correction = vibration_weights(4.0 * fmax(c * G_m, c_rr * G_J), &weight);
-    c *= weight, c_y *= weight, c_z *= weight, c_rr *= weight;
-
-    // (1 + C G) x = C dv.
-    const double dv_y = v[Y_CAGE_V_Y + 1] - v[Y_CAGE_V_Y], dv_z = v[Y_CAGE_V_Z + 1] - v[Y_CAGE_V_Z];
-    const double ds = v[Y_CAGE_S + 1] - v[Y_CAGE_S];
-    double B[3][3] = {{1.0 + c * G_m, 0.0, -c_z * G_J},  //
-                      {0.0, 1.0 + c * G_m, c_y * G_J},   //
-                      {-c_z * G_m, c_y * G_m, 1.0 + c_rr * G_J}};
-    double x[3] = {c * dv_y - c_z * ds, c * dv_z + c_y * ds, c_y * dv_z - c_z * dv_y + c_rr * ds};
-    solve_3(B[0], x);
-    for (int h = 0; h < 2; h++) {
-        const double sign = h == 0 ? 1.0 : -1.0;
-        v[Y_CAGE_V_Y + h] += sign * x[0] / m;
-        v[Y_CAGE_V_Z + h] += sign * x[1] / m;
-        v[Y_CAGE_S + h] += sign * x[2] / J_p;
-    }
-    return correction;
-}
-
-// (1 + gamma A + gamma^2 K)^-1 of both halves.  Returns what solve_joints does.
-static double solve_halves(const Model *model, const Work *w, double gamma, double *v)
-{
-    Film f[2];
-    Half half[2];
-    for (int h = 0; h < 2; h++) {
-        half[h] = half_load(v, h);
-        f[h] = hold_half(model, w, h, gamma, &half[h]);
-    }
-    double correction = 0.0;
-    if (model->p->scene.cage == CAGE_MODEL_TWO_HALF) correction = solve_joints(model, w, gamma, f, half);
-    for (int h = 0; h < 2; h++) half_store(&half[h], v, h);
-    return correction;
-}
-
-void implicit_films(const Model *model, const Work *w, double gamma, double *v)
-{
-    for (int h = 0; h < 2; h++) {
-        Half half = half_load(v, h);
-        hold_half(model, w, h, gamma, &half);
-        half_store(&half, v, h);
-    }
-}
-
 static void stiff_part_of_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     double kept[N_STATES];
     memcpy(&kept[Y_CAGE_V_X], &v[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *v);
-    implicit_films(model, w, gamma, kept);
+    cage_films(model, w->film, gamma, kept);
     for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) v[i] -= kept[i];
 }
 
@@ -708,7 +432,7 @@ static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 
 // ---- all --------------------------------------------------------------------------------------------------
 
-double implicit_solve(const Model *model, const Work *w, double gamma, double *v)
+void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v)
 {
     ball_array rows[BLOCK];
     Coupling coupling;
@@ -726,7 +450,7 @@ double implicit_solve(const Model *model, const Work *w, double gamma, double *v
     store_balls(rows, v);
 
     // The cage, which A and K do not couple with the rest.
-    return solve_halves(model, w, gamma, v);
+    cage_solve(model, w, gamma, step, v);
 }
 
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)

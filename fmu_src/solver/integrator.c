@@ -15,7 +15,6 @@
 // that relative ones would fade.
 #include "solver/integrator.h"
 
-#include "cage/elastic/elastic_half.h"
 #include "numbers/aligned.h"
 #include "numbers/elementary.h"
 #include "numbers/reserved_memory.h"
@@ -371,7 +370,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
     memset(in, 0, sizeof *in);
-    in->kernels = kernels, in->ops = kernels->ops_elastic, in->model = model, in->w = w, in->s = state;
+    in->kernels = kernels, in->ops = kernels->ops_all, in->model = model, in->w = w, in->s = state;
     in->hook = hook, in->log = log, in->context = context;
     in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
     reserved_memory_use(&in->memory);
@@ -411,7 +410,7 @@ void integrator_destroy(Integrator *in)
 void integrator_tolerance(Integrator *in, double tolerance)
 {
     memset(&in->trial, 0, sizeof in->trial);  // no modes of a scene before this one
-    in->ops = in->model->elastic ? in->kernels->ops_elastic : in->kernels->ops;
+    in->ops = kernels_ops(in->kernels, in->model);
     stepping_weights(in->model->d, tolerance, in->weight);
     in->orbit_weight = in->weight[Y_BALL_OMEGA_M];
 }
@@ -451,17 +450,6 @@ static double step_length(double goal, double left)
     return left < 2.0 * goal ? 0.5 * left : goal;
 }
 
-// The longest step from a state [s].  Elastic halves: slow forces that are held over a step feed vibrations
-// that turn by much more than pi in it, so that it has three substeps at most; films of the rate A, which the
-// substeps leave out, hold for 1/A, or for two substeps, which are always stable.
-static double longest_step(const Model *model, const VerletState *now)
-{
-    if (!model->elastic) return INFINITY;
-    const double d = model->elastic->substep;
-    const double film = fmax(now->film[0][0] + now->film[0][2], now->film[1][0] + now->film[1][2]);
-    return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / film));
-}
-
 // The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does
 // the error of it that matters: the scale of velocities along the orbit holds from FULL_ORBIT [m/s] on and is
 // in proportion below, down to its LEAST_ORBIT part.
@@ -489,7 +477,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
             status = ARK_TOO_MUCH_WORK;
             break;
         }
-        goal = fmin(goal, longest_step(in->model, now));
+        goal = fmin(goal, cage_longest_step(in->model, now->film));
         const double left = t_stop - s->t, h = step_length(goal, left);
         if (s->t + h == s->t || h < DBL_MIN) {  // 1/h of a subnormal h overflows
             status = step_underflow(in, "Verlet", h);
@@ -621,7 +609,7 @@ static double largest_of(StateScale scale)
     return 0.0;
 }
 
-bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
+bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 {
     // A state crosses its range in no less than a microsecond [1/s]; largest film rate [N.s/m].
     const double RATE = 1e6, LARGEST_FILM = 1e30;
@@ -634,27 +622,13 @@ bool integrator_state_is_valid(const IntegratorState *s, bool elastic)
     // States, their rates and the differences of their rates.
     for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_ALL_BLOCKS; b++) {
         const size_t n = (size_t)b->count;
-        const double largest = b->offset < N_STATES || elastic ? largest_of(b->scale) : 0.0;
+        const double largest = b->offset < N_STATES || cage_vibrates(p) ? largest_of(b->scale) : 0.0;
         fine &= values_are_within(s->now.y + b->offset, n, largest) &&
                 values_are_within(s->now.f + b->offset, n, RATE * largest);
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);
     }
 
-    // Elastic halves: motions and loads of the joints up to those of anything that holds, fast accelerations.
-    const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
-                 acceleration = elastic ? RATE * 1e9 : 0.0;
-    const FastState *fast = &s->now.fast;
-    fine &= values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
-            values_are_within(fast->u_z, LANES, motion) && values_are_within(fast->T, LANES, load) &&
-            values_are_within(fast->N_plate, LANES, load) &&
-            values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
-            values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
-            values_are_within(fast->touch_k[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-            values_are_within(fast->touch_rate[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
-            values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
-            values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
-            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
-            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);
+    fine &= cage_memory_is_valid(&s->now.cage, p);
 
     // Films, switch and counters.
     fine &=

@@ -26,8 +26,8 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
                               StepHook *hook, IntegratorLog *log, void *context);
 void integrator_destroy(Integrator *integrator);
 
-// Whether steps can have made the state; elastic: of elastic cage halves.
-bool integrator_state_is_valid(const IntegratorState *state, bool elastic);
+// Whether steps of a scene with these parameters can have made the state.
+bool integrator_state_is_valid(const IntegratorState *state, const Parameters *p);
 
 // Error weights 1/(tolerance scale), the scale of each class of states in model->d.
 void integrator_tolerance(Integrator *integrator, double tolerance);

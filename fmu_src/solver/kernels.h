@@ -1,10 +1,10 @@
 // Functions that exist once for each instruction set, and the choice among them at run time.
 #pragma once
 
+#include "cage/cage.h"
 #include "physics/race_contact.h"
 #include "physics/rhs.h"
 #include "rivet/rivet_rom.h"
-#include "rivet/rivets.h"
 #include "solver/implicit.h"
 #include "solver/vector_ops.h"
 #include "solver/verlet.h"
@@ -14,14 +14,18 @@ typedef struct {
     const char *name;
     Rhs *rhs;
     RaceContactForce *race_contact_force;
-    const VectorOps *ops, *ops_elastic;
+    const VectorOps *ops, *ops_all;  // without and with the states of modes
     VerletStep *verlet;
     VerletEvaluate *verlet_evaluate;
-    ImplicitSolve *implicit;
-    RivetsLoad *rivets_load;
-    RivetsFollow *rivets_follow;
+    CageLoads *cage_loads;
     RivetRomStress *rivet_rom_stress;
 } Kernels;
+
+// The operations on the state vector of the scene.
+static inline const VectorOps *kernels_ops(const Kernels *kernels, const Model *model)
+{
+    return cage_states(model) == N_STATES ? kernels->ops : kernels->ops_all;
+}
 
 // The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);

@@ -14,9 +14,10 @@
 // turns with the balls.
 #include "solver/start.h"
 
-#include "cage/elastic/elastic_half.h"
+#include "cage/cage.h"
 #include "numbers/elementary.h"
 #include "numbers/elimination.h"
+#include "physics/hertz.h"
 #include "physics/outer_ring.h"
 #include "physics/ring_load.h"
 
@@ -51,18 +52,12 @@ static Stiffness contact_stiffness(double K, double delta, double L, double n_x,
                        across + (along - across) * n_r * n_r};
 }
 
-// Elastic energy of a race contact.
-static double elastic(double K, double delta)
-{
-    return delta > 0.0 ? 0.4 * K * delta * delta * sqrt(delta) : 0.0;
-}
-
 // phi of ball j.
 static double ball_potential(const Equilibrium *eq, int j)
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    return elastic(d->inner.hertz.K, w->delta_i[j]) + elastic(d->outer.hertz.K, w->delta_e[j]) -
+    return hertz_stored(d->inner.hertz.K, w->delta_i[j]) + hertz_stored(d->outer.hertz.K, w->delta_e[j]) -
            (eq->F_c + eq->F_r[j]) * w->r[j] - eq->F_x[j] * w->x[j] +
            0.5 * K_0 * (w->x[j] - eq->x_0[j]) * (w->x[j] - eq->x_0[j]);
 }
@@ -280,18 +275,6 @@ static void cage_pose(const Model *model, const Work *w, double omega_m, double 
     }
 }
 
-// Elastic halves at rest under the centrifugal load: coordinates of their modes, and the halves as far apart
-// as their bodies are then.
-static void cage_widened(const Model *model, double omega_m, double *y)
-{
-    const double beta = y[Y_CAGE_BETA], gamma = y[Y_CAGE_GAMMA],
-                 omega = omega_m + model->ring_load->frame_omega;
-    const double apart = elastic_half_rest(model->p, model->d, model->elastic, omega, &y[Y_MODE_S]);
-    const double along[3] = {sqrt(1.0 - beta * beta - gamma * gamma), gamma, -beta};
-    for (int i = 0; i < 3; i++)
-        for (int h = 0; h < 2; h++) y[Y_CAGE_X + 2 * i + h] += (h == 0 ? -0.5 : 0.5) * apart * along[i];
-}
-
 // Azimuth of a ball from the origin, less that from the outer ring's centre (phi), at the radius r.
 static double outer_offset(const RingLoad *ring_load, double r, double phi)
 {
@@ -397,7 +380,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
         residual = equilibrium(&eq, q);
 
     // kinematic speeds
-    memset(y, 0, (size_t)states_of(model) * sizeof *y);
+    memset(y, 0, (size_t)cage_states(model) * sizeof *y);
     const double omega_m = orbital_speed(model, w);
     for (int j = 0; j < Z; j++) {
         y[Y_BALL_X + j] = w->x[j];
@@ -413,7 +396,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
 
     // cage and ring
     cage_pose(model, w, omega_m, y);
-    if (model->elastic) cage_widened(model, omega_m, y);
+    cage_rest(model, omega_m + given->frame_omega, y);
     for (int i = 0; i < 3; i++) y[Y_RING_X + i] = q[i];
     y[Y_RING_BETA] = q[3];
     y[Y_RING_GAMMA] = q[4];

@@ -1,8 +1,8 @@
-// Operations on the state vector, for a state with and one without the modes of elastic cage halves.  They
+// Operations on the state vector, for a state with and one without the modes of the cage.  They
 // run element by element, or sum in a fixed order of partial sums, so that every instruction set gives the same bits.
 #include "solver/vector_ops.h"
 
-enum { MORE = N_ALL_STATES - N_STATES };  // rows of elastic halves
+enum { MORE = N_ALL_STATES - N_STATES };  // rows of the modes
 
 // ---- for n rows, a number that the compiler knows where it inlines these functions ----------------------------
 
@@ -116,5 +116,5 @@ static bool all_finite_all(const double *x)
     return finite_rows(N_ALL_STATES, x);
 }
 
-const VectorOps vector_ops_elastic = {N_ALL_STATES, linear_sum_all, linear_combination_all, wrms_norm_all,
-                                      all_finite_all};
+const VectorOps vector_ops_all = {N_ALL_STATES, linear_sum_all, linear_combination_all, wrms_norm_all,
+                                  all_finite_all};

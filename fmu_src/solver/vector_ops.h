@@ -14,5 +14,5 @@ typedef struct {
 
 #define vector_ops FOR_ISA(vector_ops)
 extern const VectorOps vector_ops;
-#define vector_ops_elastic FOR_ISA(vector_ops_elastic)
-extern const VectorOps vector_ops_elastic;  // with the states of elastic cage halves
+#define vector_ops_all FOR_ISA(vector_ops_all)
+extern const VectorOps vector_ops_all;  // with the states of the cage's modes

@@ -17,7 +17,6 @@
 // (Swope et al. 1982).
 #include "solver/verlet.h"
 
-#include "cage/elastic/elastic_half.h"
 #include "physics/rhs.h"
 #include "solver/implicit.h"
 #include "solver/vector_ops.h"
@@ -25,9 +24,6 @@
 // Rows of the state: positions from 0 on, friction states from FRICTION on, the work, velocities from
 // VELOCITY on.  The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins come last and
 // have no position.  Rows CAGE to CAGE_END are the velocities of the cage halves.
-// Modal coordinates of elastic halves are in the rows PLACES to RATES, their rates MODE_RATES rows farther.
-enum { PLACES = Y_MODE_S, RATES = Y_MODE_S_DOT, MODE_RATES = RATES - PLACES };
-
 enum { FRICTION = Y_JOINT_PLATE_Y, VELOCITY = Y_BALL_V_X, CAGE = Y_CAGE_V_X, CAGE_END = Y_RING_V_X };
 
 _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY, "order of velocities");
@@ -50,12 +46,11 @@ static double sum_of(const double *x, int count)
 }
 
 // Writes positions and friction states of the step's end and the velocities v_m of its middle into y.
-// Elastic halves take substeps, whose length is returned.
-static double advance_positions(const Model *model, double h, const VerletState *from, double *y,
-                                Foreseen *foreseen, Work *w)
+static void advance_positions(const Model *model, double h, const VerletState *from, double *y,
+                              CageStep *step, Work *w)
 {
     const double gamma = 0.5 * h;
-    double middle[N_ALL_STATES];  // the state in the middle of the step, of cage and ring
+    double middle[N_STATES];  // the state in the middle of the step, of cage and ring
 
     // Velocity Verlet: positions move with the velocities of the middle.
     for (int i = VELOCITY; i < N_STATES; i++) middle[i] = y[i] = from->y[i] + gamma * from->f[i];
@@ -65,11 +60,7 @@ static double advance_positions(const Model *model, double h, const VerletState 
     // The cage's rotations psi and the friction states have rates that depend on the pose: midpoint rule.
     for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] = from->y[i] + gamma * y[VELOCITY + i];
     for (int i = Y_RING_X; i < FRICTION; i++) middle[i] = from->y[i];
-    memcpy(&y[Y_CAGE_PSI], &from->y[Y_CAGE_PSI], 2 * sizeof *y);
-    rhs_cage_advance(model, middle, h, y, w);
-    if (!model->elastic) return 0.0;
-    memcpy(&y[PLACES], &from->y[PLACES], (N_ALL_STATES - PLACES) * sizeof *y);
-    return cage_substeps_advance(model, h, &from->fast, from->f, y, foreseen, w);
+    cage_advance(model, h, from->y, from->f, &from->cage, middle, y, step, w);
 }
 
 // Limits the predictor of the cage velocities: writes what is taken from h a_n into `removed`.  A land film
@@ -77,7 +68,7 @@ static double advance_positions(const Model *model, double h, const VerletState 
 // film on which the half rests.  The part of h a_n that is new since the last step, h (a_n - minmod(a_n, a_{n-1})),
 // is therefore damped implicitly with the film matrix at the step's start; the part that both accelerations
 // share is steady and stays.
-static void predictor_limiter(const Model *model, double h, const VerletState *from, Work *w, double *removed)
+static void predictor_limiter(const Model *model, double h, const VerletState *from, double *removed)
 {
     // What is new: minmod is the smaller of two accelerations of the same sign, else 0.
     double kept[N_STATES];
@@ -87,13 +78,11 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
         removed[i] = kept[i] = h * (now - minmod);
     }
 
-    // What the films leave of it, (1 + h A)^-1 of the films alone, without their spin.
-    for (int land = 0; land < 2; land++) {
-        const double *film = from->film[land];
-        w->film_yy[land] = film[0], w->film_yz[land] = film[1], w->film_zz[land] = film[2];
-        w->film_spin[land] = 0.0;
-    }
-    implicit_films(model, w, h, kept);
+    // The part that the films leave of it, (1 + h A)^-1 of the films alone, without their spin.
+    LandFilm film[2];
+    for (int land = 0; land < 2; land++)
+        film[land] = (LandFilm){from->film[land][0], from->film[land][1], from->film[land][2], 0.0};
+    cage_films(model, film, h, kept);
     for (int i = CAGE; i < CAGE_END; i++) removed[i] -= kept[i];
 }
 
@@ -114,57 +103,24 @@ static double dissipation_correction(const Model *model, const Work *w, const do
         power[i] = inertia[i] * change * force;
     }
     for (int j = 0; j < Z; j++) power[Y_BALL_OMEGA_M - VELOCITY + j] *= y[Y_BALL_R + j] * y[Y_BALL_R + j];
-    return sum_of(power, COUNT) - implicit_elastic(w, gamma, delta);
+    return sum_of(power, COUNT) - implicit_spring_power(w, gamma, delta);
 }
 
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
 // delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions and the tilts of a supported or
-// prescribed ring.  The motion of one cage half against the other has weights of its own (implicit.c).
-static void correct_positions(const Model *model, double gamma, const double *delta, double axial,
-                              double shear, double *y)
+// prescribed ring; the cage has weights of its own (cage_correct).
+static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
 {
     for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
-    if (model->p->scene.cage != CAGE_MODEL_TWO_HALF) return;
-    for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
-        const int half_1 = half_0 + 1;
-        const bool along = half_0 == Y_CAGE_X || half_0 == Y_CAGE_BETA || half_0 == Y_CAGE_GAMMA;
-        const double weight = 0.5 * gamma * (along ? axial : shear);
-        const double share = weight * (delta[VELOCITY + half_1] - delta[VELOCITY + half_0]);
-        y[half_0] -= share;
-        y[half_1] += share;
-    }
-}
-
-// The friction states are the deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D) with the
-// change u of the velocity of half 1 against half 0 at the joint, in the frame of half 0, the decay D of z and the
-// weight c of the motion across the axis.
-static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double c,
-                             double *y)
-{
-    if (model->p->scene.cage != CAGE_MODEL_TWO_HALF) return;
-    const Derived *d = model->d;
-    const Rotor *h0 = &w->half[0];
-    const double dv_y = delta[Y_CAGE_V_Y + 1] - delta[Y_CAGE_V_Y];
-    const double dv_z = delta[Y_CAGE_V_Z + 1] - delta[Y_CAGE_V_Z], ds = delta[Y_CAGE_S + 1] - delta[Y_CAGE_S];
-    const double u_0y = h0->b_y[1] * dv_y + h0->b_y[2] * dv_z, u_0z = h0->b_z[1] * dv_y + h0->b_z[2] * dv_z;
-    for (int k = 0; k < Z; k++) {
-        const double u_y = u_0y - ds * d->rivet_z[k], u_z = u_0z + ds * d->rivet_y[k];
-        const double plate = c * gamma / (1.0 + gamma * w->plate_rate[k]);
-        const double head = c * gamma / (1.0 + gamma * w->head_rate[k]);
-        y[Y_JOINT_PLATE_Y + k] += plate * u_y;
-        y[Y_JOINT_PLATE_Z + k] += plate * u_z;
-        y[Y_JOINT_HEAD_Y + k] += head * u_y;
-        y[Y_JOINT_HEAD_Z + k] += head * u_z;
-    }
 }
 
 // The films at the step's end, for the next step's predictor.
 static void remember_films(const Work *w, VerletState *to)
 {
     for (int land = 0; land < 2; land++) {
-        const double film[3] = {w->film_yy[land], w->film_yz[land], w->film_zz[land]};
+        const double film[3] = {w->film[land].yy, w->film[land].yz, w->film[land].zz};
         memcpy(to->film[land], film, sizeof film);
     }
 }
@@ -209,68 +165,33 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
     rhs(model, t, now->y, now->f, w);
-    if (model->elastic) cage_substeps_split(model, now->y, w, now->f, &now->fast);
-}
-
-// The second half of the last substep, of length `sub`, for the rates of the modes and the halves in y: with the fast
-// accelerations at `fast`, less those at `before`.
-static void kick(const Model *model, const Work *w, double sub, const FastState *fast,
-                 const FastState *before, double *y)
-{
-    double rigid[RELATIVE_MOTIONS];
-    for (int i = 0; i < 2 * N_MODES; i++)
-        y[RATES + i] += 0.5 * sub * (fast->modes[i] - (before ? before->modes[i] : 0.0));
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = fast->rigid[i] - (before ? before->rigid[i] : 0.0);
-    cage_substeps_kick(model, w, 0.5 * sub, rigid, y);
-}
-
-// Rates of the modes of elastic halves: the substeps had the slow accelerations `foreseen` at the end.
-static void correct_modes(double h, const Foreseen *foreseen, const VerletState *from, VerletState *to,
-                          double *error)
-{
-    const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + from->h));
-    for (int i = RATES; i < N_ALL_STATES; i++) {
-        const double change = to->f[i] - from->f[i];
-        to->y[i] += gamma * (to->f[i] - foreseen->modes[i - RATES]);
-        to->jerk[i] = change * inv_h;
-        error[i] = (h / 12.0) * (second * (to->jerk[i] - from->jerk[i]));
-    }
-    memcpy(&to->f[PLACES], &to->y[RATES], MODE_RATES * sizeof *error);
-    memset(&to->jerk[PLACES], 0, MODE_RATES * sizeof *error);
-    memset(&error[PLACES], 0, MODE_RATES * sizeof *error);
+    cage_split(model, now->y, w, now->f, &now->cage);
 }
 
 double verlet_step(const Model *model, double t, double h, const double *weight, const VerletState *from,
                    VerletState *to, Work *w)
 {
     const double gamma = 0.5 * h, *f = from->f;
-    Foreseen foreseen;
+    CageStep cage;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES], *y = to->y;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
-    const double sub = advance_positions(model, h, from, y, &foreseen, w);
-    predictor_limiter(model, h, from, w, removed);
+    advance_positions(model, h, from, y, &cage, w);
+    predictor_limiter(model, h, from, removed);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
-    if (model->elastic) {
-        for (int i = RATES; i < N_ALL_STATES; i++) y[i] += 0.5 * sub * foreseen.modes[i - RATES];
-        kick(model, w, sub, &from->fast, NULL, y);
-    }
+    cage_predict(model, w, &cage, &from->cage, y);
     rhs(model, t + h, y, to->f, w);
     remember_films(w, to);
-    if (model->elastic) {
-        cage_substeps_split(model, y, w, to->f, &to->fast);
-        kick(model, w, sub, &to->fast, &from->fast, y);
-    }
+    cage_arrive(model, w, &cage, &from->cage, y, to->f, &to->cage);
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int i = VELOCITY; i < N_STATES; i++) residual[i] = gamma * (to->f[i] - f[i]);
     for (int i = CAGE; i < CAGE_END; i++) residual[i] += removed[i];
-    if (model->elastic)
-        for (int i = CAGE; i < CAGE_END; i++) residual[i] -= gamma * foreseen.halves[i - CAGE];
-    const double shear = implicit_shear(model, w, gamma, residual);
+    cage_foreseen(model, &cage, -gamma, residual);
+    cage_shear(model, w, gamma, &cage, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
-    const double axial = implicit_solve(model, w, gamma, delta);
+    implicit_solve(model, w, gamma, &cage, delta);
     to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
@@ -279,10 +200,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
         delta[i] -= removed[i];
     }
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
-    if (model->elastic)
-        for (int i = CAGE; i < CAGE_END; i++) delta[i] += gamma * foreseen.halves[i - CAGE];
-    correct_positions(model, gamma, delta, axial, shear, y);
-    correct_friction(model, w, gamma, delta, shear, y);
+    cage_foreseen(model, &cage, gamma, delta);
+    correct_positions(model, gamma, delta, y);
+    cage_correct(model, w, gamma, &cage, delta, y);
 
     // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
@@ -293,9 +213,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_velocities(model, w, h, from, delta, to, error);
     remember_friction(h, from, to, error);
     to->h = h;
-    if (model->elastic) {
-        correct_modes(h, &foreseen, from, to, error);
-        return vector_ops_elastic.wrms_norm(error, weight);
-    }
-    return vector_ops.wrms_norm(error, weight);
+    cage_remember(model, &cage, h, from->h, f, from->jerk, y, to->f, to->jerk, error);
+    const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;
+    return ops->wrms_norm(error, weight);
 }

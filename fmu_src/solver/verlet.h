@@ -2,7 +2,7 @@
 // positions.
 #pragma once
 
-#include "cage/elastic/cage_substeps.h"
+#include "cage/cage.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 
@@ -12,7 +12,7 @@ typedef struct {
     double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
     double jerk[N_ALL_STATES];  // change of f over the last step / its length: history for the error estimate
     double film[2][3];          // -dF/dv of each land's film there: yy, yz, zz [N.s/m]
-    FastState fast;             // of elastic halves there, whose accelerations f lacks; of others 0
+    CageMemory cage;            // of the cage there; f lacks the accelerations that it advances by itself
     double h;                   // length of that step [s]; 0 before the first one
     double ratio;  // length that its error asks of the next step / h (integrator.c); 0 before the first one
 } VerletState;
@@ -24,6 +24,6 @@ typedef double VerletStep(const Model *model, double t, double h, const double *
                           const VerletState *from, VerletState *to, Work *w);
 VerletStep verlet_step;
 
-// Evaluates the rates at the state now->y for the next step: f, of elastic halves without the fast part, and that part.
+// Evaluates the rates at the state now->y for the next step: f, and the cage's own part of the rates.
 typedef void VerletEvaluate(const Model *model, double t, VerletState *now, Work *w);
 VerletEvaluate verlet_evaluate;

@@ -20,10 +20,12 @@ the opposite forces at the same points. Smoothness: C1 at touch-down and where t
 has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 
-from bearing_model.cage.elastic.cage_elastic import cage_elastic_approach, cage_elastic_walls
-from bearing_model.generated.variables import CageModel, Lubrication
+from bearing_model.cage.elastic.elastic_wall import elastic_wall
+from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
@@ -53,120 +55,132 @@ def pocket_share(d, h, n_x, delta):
 
 
 def pocket_gap(model, w, h):
-    """Axes a, b, e_t of the pockets of half h in the balls' frames, p, and S, n_x, n_t, delta of the balls in them."""
+    """Where the balls are in the pockets of half h, in the frames of the balls: axes a, b, e_t of the pockets, ball centre less
+    geometric centre of the half p, distance S from the pocket's axis, direction n_x, n_t from there, elastic approach delta.
+    """
     d, half = model.d, w.half[h]
     # direction of pocket j: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b
     a, b_y, b_z, x_h = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.a, half.b_y, half.b_z, half.x))
     b = d.pocket_cos * b_y + d.pocket_sin * b_z
     e_t = vec_cross(a, b)
-    arm_p = vec(w.x, w.r, 0.0) - x_h
-    x, t = vec_dot(arm_p, a), vec_dot(arm_p, e_t)
+    p = vec(w.x, w.r, 0.0) - x_h
+    x, t = vec_dot(p, a), vec_dot(p, e_t)
     S = np.sqrt(x * x + t * t + 1e-30)  # 1e-30 gives a centred ball a direction
-    return a, b, e_t, arm_p, S, x / S, t / S, S - (d.R_c - d.R)
+    return SimpleNamespace(a=a, b=b, e_t=e_t, p=p, S=S, n_x=x / S, n_t=t / S, delta=S - (d.R_c - d.R))
 
 
-def pocket_half(model, w, h, mixed, whole):
-    """The contact with one half (or the whole rigid cage), added to F, M of the balls."""
+def pocket_approach(model, h, n_x, delta):
+    """Approach [..., Z] of ball and wall without that of the wall's compliance c: delta_h + c w K delta_h^1.5 = delta, by
+    Newton's method.
+    """
+    c = model.modes.compliance * model.d.pocket.K
+    own = maximum(delta, 0.0)
+    for _ in range(4):
+        root = np.sqrt(np.where(np.real(own) > 0.0, own, 1e-30))
+        load = maximum(c * pocket_share(model.d, h, n_x, own)[0] * root, -0.3)
+        own = maximum(own - (own + load * own - delta) / (1.0 + 1.5 * load), 0.0)
+    return np.where(np.real(delta) > 0.0, own, delta)
+
+
+def pocket_contacts(model, w, h, gap, wall=None):
+    """Forces in the pockets of half h: sets w.pocket[h] and adds to the balls.  wall: velocity u_dot (x, r, t) and tilt of the
+    walls of an elastic half.  Returns the forces (x, r, t) on the walls, and their Hertz loads and rates of approach.
+    """
     p, d, half = model.p, model.d, w.half[h]
-    a, b, e_t, arm_p, S, n_x, n_t, delta = pocket_gap(model, w, h)
+    a, b, e_t, n_x, n_t, delta = gap.a, gap.b, gap.e_t, gap.n_x, gap.n_t, gap.delta
     v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
 
+    # velocity of the ball's centre against the half there
     omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)
-    v = v_b - v_h - vec_cross(Omega, arm_p)
+    v = v_b - v_h - vec_cross(Omega, gap.p)
+    if wall:
+        v = v - (wall.u_dot[0] * a + wall.u_dot[1] * b + wall.u_dot[2] * e_t)
     n = n_x * a + n_t * e_t
     delta_dot = vec_dot(n, v)
 
-    elastic, tilt, stored = p.scene.cage == CageModel.ELASTIC, 0.0, 0.0
-    if elastic:  # the wall has moved by u, by its modes and what they leave
-        u, u_dot, tilt, shape = cage_elastic_walls(model, w, h, n_x, n_t, S, delta)
-        wall = delta - n_x * u[0] - n_t * u[2]
-        delta = cage_elastic_approach(d, lambda own: pocket_share(d, h, n_x, own)[0], wall)
-        v = v - (u_dot[0] * a + u_dot[1] * b + u_dot[2] * e_t)
-        delta_dot = vec_dot(n, v)
-    w_h, e_h, slope = (1.0, 1.0, 0.0) if whole else pocket_share(d, h, n_x, delta)
-    Q_0 = w_h * hertz_load(d.pocket.K, delta)
+    # share of the half, contact load, and the energy's gradient across n: dV/dn_x grad n_x,
+    # grad n_x = (n_t a - n_x e_t) n_t/S
+    share, _, slope = pocket_share(d, h, n_x, delta)
+    Q_0 = share * hertz_load(d.pocket.K, delta)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
-    # -dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S
-    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S - Q_0 * tilt
+    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / gap.S
+    if wall:
+        F_across = F_across - Q_0 * wall.tilt
     F_n = -Q * n - F_across * (n_t * a - n_x * e_t)
 
+    # friction at the contact point (F_s), film force through the ball's centre (F_c)
     arm = d.R * n
     slip = vec_across(v + vec_cross(omega_b - Omega, arm), n)
     slip_2 = vec_dot(slip, slip)
     U = np.sqrt(0.25 * slip_2 + p.oil.U_0**2)
     ln_U, ln_Q = np.log(U), np.log(Q + Q_FLOOR)
+    mixed = p.scene.lubrication == Lubrication.MIXED
     g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / np.sqrt(slip_2 + p.cage.v_c**2)
     g_R = 0.5 * traction_inlet(d.pocket_rolling, ln_U, Q, ln_Q) / U
     F_s = -(g + g_R) * slip
     F_c = 2.0 * g_R * slip
     F, M = F_n + F_s + F_c, vec_cross(arm, F_s)
 
+    w.pocket[h] = SimpleNamespace(
+        Q=Q,
+        F=np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)]),
+        push=np.array([Q * n_x + F_across * n_t, Q * n_t - F_across * n_x]),
+        half_F=vec_to_global(-F, w.cos_theta, w.sin_theta),
+        half_M=vec_to_global(-vec_cross(gap.p, F) - M, w.cos_theta, w.sin_theta),
+    )
+    half.F, half.M = half.F + ball_array_sum(w.pocket[h].half_F), half.M + ball_array_sum(w.pocket[h].half_M)
+
+    # on the balls
     w.F = w.F + F
     w.M = w.M + M
     w.D = w.D + g / d.m * (1.0 - n * n)
     w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
     w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
-    w.pocket_F[h] = vec_to_global(-F, w.cos_theta, w.sin_theta)
-    w.pocket_M[h] = vec_to_global(-vec_cross(arm_p, F) - M, w.cos_theta, w.sin_theta)
-    w.pocket[h] = np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)])
-    w.pocket_push[h] = np.array([Q * n_x + F_across * n_t, Q * n_t - F_across * n_x])
-    if elastic:
-        on_wall = (Q * n_x - vec_dot(F_s + F_c, a), -vec_dot(F_s + F_c, b), Q * n_t - vec_dot(F_s + F_c, e_t))
-        w.pocket_modal[h] = sum(force[..., None] * motion for force, motion in zip(on_wall, shape, strict=True))
-        stored = 0.5 * d.elastic.wall * Q_0 * Q_0
-        # direction, stiffness with the wall's own compliance in series, rate of the approach by rigid motions
-        # (cage_substeps.py)
-        k = 1.5 * Q_0 / (maximum(delta, 1e-30) + d.elastic.wall * 1.5 * Q_0)
-        w.touch[h] = n_x, n_t, k, delta_dot + n_x * u_dot[0] + n_t * u_dot[2]
-    half.F, half.M = ball_array_sum(w.pocket_F[h]), ball_array_sum(w.pocket_M[h])
-    w.delta_c[h], w.Q_c[h] = delta, Q
-    w.pocket_energy = w.pocket_energy + e_h * hertz_energy(d.pocket.K, delta) + stored
+    drawn = F_s + F_c
+    on_wall = Q * n_x - vec_dot(drawn, a), -vec_dot(drawn, b), Q * n_t - vec_dot(drawn, e_t)
+    return on_wall, Q_0, delta_dot
 
 
-def pocket_force(model, w):
-    """Adds the pocket contacts to the balls; sets their results and wrench on the halves.
+def pocket_clear(w):
+    """No contacts yet."""
+    w.pocket, w.delta_c, w.pocket_dissipated = [None, None], [None, None], 0.0
+    w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
 
-    pocket: force on the half in the pocket's frame (x, r, t), pocket_push: its normal part (x, t); pocket_F, pocket_M:
+
+def pocket_rigid(model, w):
+    """Contacts of all pockets of two rigid halves: add to the balls' forces, moments, rates and dissipation, and to the wrench
+    on both halves.
+
+    pocket[h]: load Q, force F on the half in the pocket's frame (x, r, t) and its normal part push (x, t); half_F, half_M:
     force and moment about the half's centre, global.
     D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for
     the integrator's Jacobian.
     """
-    mixed, rigid = model.p.scene.lubrication == Lubrication.MIXED, model.p.scene.cage == CageModel.RIGID
-    # by half
-    w.delta_c, w.Q_c, w.pocket, w.pocket_push, w.pocket_F, w.pocket_M, w.pocket_modal, w.touch = (
-        {},
-        {},
-        {},
-        {},
-        {},
-        {},
-        {},
-        {},
-    )
-    w.pocket_energy, w.pocket_dissipated = 0.0, 0.0
-    w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
-    if rigid:
-        pocket_half(model, w, 0, mixed, True)
-        w.half[1].F, w.half[1].M = 0.0 * w.half[0].F, 0.0 * w.half[0].M
-    else:
-        for h in range(2):
-            pocket_half(model, w, h, mixed, False)
-    w.Q_pocket = sum(w.Q_c.values())  # of both halves together
+    pocket_clear(w)
+    for h in range(2):
+        gap = pocket_gap(model, w, h)
+        w.delta_c[h] = gap.delta
+        pocket_contacts(model, w, h, gap)
 
 
-def pocket_split(model, w):
-    """pocket, pocket_push, pocket_F, pocket_M on each half of a rigid cage, lists; pocket_force has them all on half 0."""
-    d = model.d
-    a, _, e_t, arm_p, S, n_x, n_t, delta = pocket_gap(model, w, 0)
-    w_1, _, slope = pocket_share(d, 1, n_x, delta)
-    F_across = hertz_energy(d.pocket.K, delta) * slope * n_t / S
-    push = F_across * (n_t * a - n_x * e_t)
-    push_moment = vec_cross(arm_p, push)
-    on_1 = (
-        w_1 * w.pocket[0] + np.array([F_across * n_t, 0.0 * n_t, -F_across * n_x]),
-        w_1 * w.pocket_push[0] + np.array([F_across * n_t, -F_across * n_x]),
-        w_1 * w.pocket_F[0] + vec_to_global(push, w.cos_theta, w.sin_theta),
-        w_1 * w.pocket_M[0] + vec_to_global(push_moment, w.cos_theta, w.sin_theta),
-    )
-    whole = w.pocket[0], w.pocket_push[0], w.pocket_F[0], w.pocket_M[0]
-    return tuple([both - part, part] for both, part in zip(whole, on_1, strict=True))
+def pocket_elastic(model, w):
+    """The same of two elastic halves, whose walls move: sets also the modal forces on the walls [..., n] of each half and
+    the contacts with the walls: direction, stiffness with the wall's own compliance in series, rate of the approach by rigid
+    motions (cage_substeps.py).
+    """
+    pocket_clear(w)
+    e = w.elastic
+    e.wall_force, e.touch_x, e.touch_t, e.touch_k, e.touch_rate = ([None, None] for _ in range(5))
+    for h in range(2):
+        gap = pocket_gap(model, w, h)
+        u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
+        gap.delta = pocket_approach(model, h, gap.n_x, gap.delta - gap.n_x * u[0] - gap.n_t * u[2])
+        w.delta_c[h] = gap.delta
+        on_wall, Q_0, delta_dot = pocket_contacts(model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt))
+        e.wall_force[h] = sum(
+            np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
+        )
+        k = 1.5 * Q_0
+        e.touch_x[h], e.touch_t[h] = gap.n_x, gap.n_t
+        e.touch_k[h] = k / (maximum(gap.delta, 1e-30) + model.modes.compliance * k)
+        e.touch_rate[h] = delta_dot + gap.n_x * u_dot[0] + gap.n_t * u_dot[2]

@@ -10,26 +10,30 @@ about y, about z, y, z, spin.
 """
 
 from dataclasses import dataclass
+from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.cage.common.cage_joint import cage_joint_advance, cage_joint_shear
+from bearing_model.cage.common.cage_joint import JointMotion, cage_joint_advance, cage_joint_shear
 from bearing_model.cage.elastic.cage_elastic import (
-    CAGE_RATES,
-    IN,
-    OUT,
-    ROOT,
-    cage_elastic_law,
-    cage_elastic_shapes,
+    cage_elastic_loads,
+    cage_elastic_preload,
+    cage_elastic_pull,
     cage_elastic_speed_2,
-    circle,
-    joints_in,
-    joints_out,
+    cage_elastic_stiffness,
 )
+from bearing_model.cage.elastic.elastic_half import ROOT, circle, joints_in, joints_out
+from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape
 from bearing_model.generated.variables import (
     CAGE_BETA,
+    CAGE_BETA_DOT,
     CAGE_GAMMA,
+    CAGE_GAMMA_DOT,
     CAGE_PSI,
+    CAGE_S,
+    CAGE_V_X,
+    CAGE_V_Y,
+    CAGE_V_Z,
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
@@ -40,8 +44,8 @@ from bearing_model.generated.variables import (
     WORK,
     Z,
 )
-from bearing_model.numbers.lanes import maximum
 
+CAGE_RATES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
 CAGE_PLACES = CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI
 MOST_SUBSTEPS, ROUNDING = 1000, 1e-9
 
@@ -95,41 +99,34 @@ def fast_accelerations(model, q, load, shear):
     """Accelerations of modes [2, n] and relative motions [6] at coordinates q [2, n], under loads of the joints out of
     the plane [3, Z] and in it [2, Z].
     """
-    half, p, d = model.d.elastic, model.p, model.d
-    _, c, s = circle(d)
-    across = np.stack([c * shear[0] + s * shear[1], c * shear[1] - s * shear[0]])  # r, t
-    by_out, by_in = (
-        -ROOT * np.einsum("kz,ikz->i", load, half.pad[:, OUT]),
-        ROOT * np.einsum("kz,ikz->i", across, half.pad[:, IN]),
-    )
-    N, M_r, M_t = load
-    r_y, r_z = d.rivet_y, d.rivet_z
+    half, p, d, (_, c, s), (N, M_r, M_t) = model.modes, model.p, model.d, circle(model.d), load
     force = [
         -N,
-        s * M_t - c * M_r - r_z * N,
-        r_y * N - s * M_r - c * M_t,
+        s * M_t - c * M_r - d.rivet_z * N,
+        d.rivet_y * N - s * M_r - c * M_t,
         shear[0],
         shear[1],
-        r_y * shear[1] - r_z * shear[0],
+        d.rivet_y * shear[1] - d.rivet_z * shear[0],
     ]
-    return np.array([by_out, by_in]) / p.cage.m - half.omega**2 * q, relative_inertia(model)[0] * np.sum(force, axis=1)
+    modes = np.array(cage_elastic_pull(model, load, shear)) / p.cage.m - half.omega**2 * q
+    return modes, relative_inertia(model)[0] * np.sum(force, axis=1)
 
 
 def cage_substeps_split(model, y, w, f):
     """Takes the fast part from the rates f [states] of the state y, at which w was evaluated; returns it as FastState."""
-    half, h0 = model.d.elastic, w.half[0]
+    half, e, j = model.modes, w.elastic, w.elastic.joints
     q, v = (
         np.array([y[block][: half.n] for block in blocks]) for blocks in ((MODE_S, MODE_D), (MODE_S_DOT, MODE_D_DOT))
     )
-    modes, rigid = fast_accelerations(model, q, w.joint_load, w.joint_force[1:])
-    for block, change in zip(CAGE_RATES, give(model, h0, rigid), strict=True):
+    modes, rigid = fast_accelerations(model, q, j.load, j.F)
+    for block, change in zip(CAGE_RATES, give(model, w.half[0], rigid), strict=True):
         f[block] -= change
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
-    f[WORK] += np.sum(w.joint_dissipated) + w.modes_dissipated
-    touch = [np.array([*w.touch[h], w.Q_c[h]]) for h in range(2)]
+    f[WORK] += np.sum(w.joint_dissipated) + e.dissipated
+    touch = [np.array([e.touch_x[h], e.touch_t[h], e.touch_k[h], e.touch_rate[h], w.pocket[h].Q]) for h in range(2)]
     omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
-    return FastState(w.e.copy(), w.u[1:].copy(), w.T.copy(), w.N_plate.copy(), touch, omega_2, modes, rigid)
+    return FastState(j.e.copy(), j.u.copy(), j.rivet[0].copy(), j.N_plate.copy(), touch, omega_2, modes, rigid)
 
 
 class Touches:
@@ -140,7 +137,7 @@ class Touches:
         for h, (n_x, n_t, k, rate, Q) in enumerate(fast.touch):
             if not np.any(k > 0.0):
                 continue
-            shape = cage_elastic_shapes(model.d.elastic, 2 * h - 1, n_x, n_t)[0]  # [3, Z, n]
+            shape = elastic_wall_shape(model.modes, 2 * h - 1, n_x, n_t)[0]  # [3, Z, n]
             normal = (n_x[:, None] * shape[0] + n_t[:, None] * shape[2]) / ROOT
             for j in np.flatnonzero(k > 0.0):
                 both = np.array([normal[j], (2 * h - 1) * normal[j]])
@@ -189,10 +186,10 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step;
     changes y as cage_substeps.c does.
 
-    Returns the length of the substeps and what they foresee at the step's end: slow accelerations of the modes [2, n],
-    changes of those of the halves [6, 2].
+    Returns the length of the substeps and the slow accelerations at the step's end as they foresee them: of the modes
+    [2, n], changes of those of the halves [6, 2].
     """
-    half, d, h0 = model.d.elastic, model.d, w.half[0]
+    half, d, h0 = model.modes, model.d, w.half[0]
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
     sub = h / steps
     q, v, slow_modes = (
@@ -200,23 +197,24 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         for x, blocks in ((y, (MODE_S, MODE_D)), (y, (MODE_S_DOT, MODE_D_DOT)), (f, (MODE_S_DOT, MODE_D_DOT)))
     )
     slow, speed, moved = take(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
-    touches, held, modes, rigid = Touches(model, fast, q), slow_modes, fast.modes, fast.rigid
-    w.e, w.u, w.T, w.N_plate = fast.e.copy(), np.concatenate([w.u[:1], fast.u]), fast.T, fast.N_plate
+    touches, held, modes = Touches(model, fast, q), slow_modes, fast.modes
     gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
-    P = maximum(d.P + d.spin[5] * fast.omega_2, 0.0)
+    P, k_in = cage_elastic_preload(model, fast.omega_2), cage_elastic_stiffness(model)
 
-    # the joints' velocities by modes and relative rigid motions; those by the slow motion of the rigid halves in the
-    # middle of the step
+    # the joints at the step's start; their velocities by modes and relative rigid motions, and those by the slow motion
+    # of the rigid halves in the middle of the step
+    at, joints = JointMotion(fast.u, None, fast.T, fast.N_plate), SimpleNamespace(e=fast.e)
     _, c, s = circle(d)
     out, inside = joints_out(d, half.pad), joints_in(d, half.pad)  # rows: all joints, motion by motion
     Omega = w.half[1].Omega[:, 0] - h0.Omega[:, 0]
     about_y, about_z = h0.b_y[:, 0] @ Omega, h0.b_z[:, 0] @ Omega
     middle_out = np.array([w.v_j[0], about_y * c + about_z * s, about_z * c - about_y * s])
-    middle_in, spin = w.v_j[1:].copy(), float(np.squeeze(h0.s))
+    middle_in, spin = w.v_j[1:], float(np.squeeze(h0.s))
     middle = np.array([0.0, about_y, about_z, *middle_in.mean(axis=-1), 0.0])
-    rigid = turn_out(-0.5 * spin * h, rigid)
+    rigid = turn_out(-0.5 * spin * h, fast.rigid)
 
     for step in range(1, steps + 1):
+        # first half of the accelerations, drift
         v_m = (v + 0.5 * sub * (modes + held)) / (1.0 + 0.5 * sub * half.damping)
         q = q + sub * v_m
         v = v_m * (1.0 - 0.5 * sub * half.damping)
@@ -226,17 +224,19 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         relative = turn_in(spin, time, middle, slow, halfway, speed + time * slow)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
-        w.e = w.e + 0.5 * sub * (middle_out + by_out)
-        w.v_j = np.array([w.v_j[0], middle_in[0] + c * r - s * t, middle_in[1] + s * r + c * t])
-        w.u = w.u + sub * np.array([0.0 * r, w.v_j[1], w.v_j[2]])
-        y[WORK] -= cage_joint_advance(model, w, sub, y) + sub * model.p.cage.m * np.sum(half.damping * v_m**2)
+        joints.e = joints.e + 0.5 * sub * (middle_out + by_out)
+        at.v = middle_in + np.array([c * r - s * t, s * r + c * t])
+        at.u = at.u + sub * at.v
+        lost = cage_joint_advance(model, sub, k_in, at, y)
+        y[WORK] -= lost + sub * model.p.cage.m * np.sum(half.damping * v_m**2)
         held = slow_modes + touches.accelerations(step * sub, q)
         if step == steps:
             break
-        load, rivet, _ = cage_elastic_law(model, w.e, P)
-        w.T = maximum(rivet[0], 0.0)
-        w.N_plate = maximum(w.T - load[0], 0.0)
-        modes, rigid = fast_accelerations(model, q, load, cage_joint_shear(model, y, w))
+
+        # accelerations there, of which the second half
+        cage_elastic_loads(model, P, joints)
+        at.T, at.N_plate = joints.rivet[0], joints.N_plate
+        modes, rigid = fast_accelerations(model, q, joints.load, cage_joint_shear(model, y, k_in, at.u))
         rigid = turn_out(spin * (step * sub - 0.5 * h), rigid)
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
@@ -246,10 +246,22 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     for blocks, x in (((MODE_S, MODE_D), q), ((MODE_S_DOT, MODE_D_DOT), v)):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
-    return sub, (held, give(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])))
+    return sub, held, give(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0]))
 
 
-def cage_substeps_kick(model, w, h, rigid, y):
-    """Adds to the velocities of both halves in y what the relative accelerations `rigid` [6] give in the time h."""
-    for block, change in zip(CAGE_RATES, give(model, w.half[0], h * rigid), strict=True):
+def cage_substeps_finish(model, w, substep, fast, before, y):
+    """Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the fast
+    accelerations at `fast`, less those at `before` if there are any.
+    """
+    modes, rigid = fast.modes, fast.rigid
+    if before is not None:
+        modes, rigid = modes - before.modes, rigid - before.rigid
+    add_rates(model, 0.5 * substep * modes, y)
+    for block, change in zip(CAGE_RATES, give(model, w.half[0], 0.5 * substep * rigid), strict=True):
         y[block] += change
+
+
+def add_rates(model, change, y):
+    """Adds to the rates of the modes, S and D [2, n]."""
+    for block, more in zip((MODE_S_DOT, MODE_D_DOT), change, strict=True):
+        y[block][: model.modes.n] += more

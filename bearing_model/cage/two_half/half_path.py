@@ -4,9 +4,15 @@ the numbers.
 Rows of a joint's loads, on the +x half in the frame (x, r, t) at the rivet: N, V_r, V_t, M_r, M_t of the joint [N, N.m]
 (N and V: elastic less the rigid halves' share, which the dynamics has), then dP, dm_r, dm_t: what the rivet gets beside
 it because the half gives under its head.
+
+All pockets are alike, so the rows of rivet k by a force on pocket j depend on (k - j) mod Z only.  push_t < 0 acts as the
+mirror image about the pocket does (rivet -1 - i for i; V_t, M_r and dm_r change sign), a force on the -x half as its
+mirror image on the +x half does (V changes sign).
 """
 
 import numpy as np
+
+from bearing_model.numbers.lanes import absolute, maximum
 
 ROWS = ("N", "V_r", "V_t", "M_r", "M_t", "dP", "dm_r", "dm_t")
 # of the rows N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t in the pocket's plane
@@ -36,10 +42,13 @@ def cubic_slopes(x, y):
 
 
 def path_rows(chi, matrix, slopes, at):
-    """Rows [Z, 8, 3] per unit force (x, r, t) on pocket 0 of the +x half at the wall's angle `at` in [0, pi/2]."""
-    i = min(max(int(np.searchsorted(chi, at, side="right")) - 1, 0), len(chi) - 2)
+    """Rows [..., Z, 8, 3] per unit force (x, r, t) on pocket 0 of the +x half at the wall's angles `at` [...] in [0, pi/2],
+    from matrix and slopes [nodes, Z, 8, 3].
+    """
+    i = np.clip(np.searchsorted(chi, np.real(at), side="right") - 1, 0, len(chi) - 2)
     h = chi[i + 1] - chi[i]
     u = (at - chi[i]) / h
+    h, u = (np.reshape(x, (*np.shape(x), *[1] * (matrix.ndim - 1))) for x in (h, u))
     v = 1.0 - u
     return (
         matrix[i] * v * v * (1.0 + 2.0 * u)
@@ -48,35 +57,23 @@ def path_rows(chi, matrix, slopes, at):
     )
 
 
-def path_load(half, side, push, force):
-    """Rows [Z, 8] at all joints of the forces [3, Z] (x, r, t) on the pockets of the half at `side` (+1 or -1):
-    flexible share.
+def half_path_rows(half, side, push, force):
+    """Rows [..., Z, 8] of all joints by the forces [3, ..., Z] (x, r, t) on the pockets of the half at `side` (+1 or -1).
 
-    Each force acts where its normal part push [2, Z] (x, t) points on the wall: chi = atan2(|push_x|, |push_t|).
+    Each force acts where its normal part push [2, ..., Z] (x, t) points on the wall: chi = atan(|push_x|/|push_t|).
+    Leading axes are independent states.
     """
-    Z = half.path.shape[1]
-    rows = np.zeros((Z, len(PATH_MIRROR)))
-    for j in np.flatnonzero(np.any(force, axis=0)):
-        at = path_rows(half.chi, half.path, half.path_slope, np.arctan2(abs(push[0, j]), abs(push[1, j])))
-        back = push[1, j] < 0.0
-        own = at @ (force[:, j] * [side, 1.0, -1.0 if back else 1.0])
-        if back:
-            own = own[::-1] * PATH_MIRROR
-        rows += np.roll(own, j, axis=0) * (PATH_SIDE if side < 0 else 1.0)
-    return rows
-
-
-def bolt_group(d_m, wrench, c, s):
-    """Rigid share: N, V_y, V_z at each rivet [N] of the wrench (F_x, F_y, F_z, M_x, M_y, M_z) [N, N.m] on the +x half
-    at the circle's centre.
-
-    c, s: cosine and sine of the rivets' angles.  Rigid halves on a circle of equal elastic rivets, whose own bending
-    stiffness is neglected.
-
-    >>> bolt_group(2.0, [9.0, 0, 0, 0, 0, 0], np.ones(9), np.zeros(9))[0][0]
-    np.float64(1.0)
-    """
-    c, s, Z, R = np.asarray(c), np.asarray(s), len(c), 0.5 * d_m
-    shear = wrench[3] / (Z * R)
-    N = wrench[0] / Z + 2.0 * (wrench[4] * s - wrench[5] * c) / (Z * R)
-    return N, wrench[1] / Z - shear * s, wrench[2] / Z + shear * c
+    Z, shape = half.path.shape[1], np.shape(force)[1:]
+    force, push = np.reshape(force, (3, -1, Z)), np.reshape(push, (2, -1, Z))
+    rows = np.zeros((force.shape[1], Z, len(ROWS)), dtype=np.result_type(force, push))
+    state, j = np.nonzero(np.any(force, axis=0))  # touched pockets
+    if len(j):
+        push_x, push_t = absolute(push[0, state, j]), absolute(push[1, state, j])
+        back = np.real(push[1, state, j]) < 0.0
+        matrix = path_rows(half.chi, half.path, half.path_slope, np.arctan(push_x / maximum(push_t, 1e-30)))
+        force = force[:, state, j] * np.array([side + 0.0 * j, 1.0 + 0.0 * j, np.where(back, -1.0, 1.0)])
+        own = np.einsum("nkrf,fn->nkr", matrix, force)  # by the rivets behind the pocket
+        own = np.where(back[:, None, None], own[:, ::-1] * PATH_MIRROR, own)
+        at = (np.arange(Z) + j[:, None]) % Z
+        np.add.at(rows, (state[:, None], at), own * (PATH_SIDE if side < 0 else 1.0))
+    return rows.reshape(*shape, len(ROWS))

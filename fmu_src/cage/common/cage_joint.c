@@ -2,28 +2,21 @@
 // its holes.
 //
 //      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
-//   ---+-   -+---       rivet tension   T = max(0, P + k_rivet u_x)
-//   half 1     | u_x    plate force     N_plate = max(0, P - k_plate u_x), damped by c v_x N_plate/(N_plate + F_floor)
-//   ===+=====+===       plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu (N_plate + dT) + F_floor)
-//   half 0     |        head friction   H = -k_h z_h, likewise with mu (T + dT) + F_floor
-//   ---+-   -+---       hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
+//   ---+-   -+---       T    tension of the rivet, N_plate force between the plates: two_half.c, cage_elastic.c
+//   half 1     | u_x    plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)
+//   ===+=====+===       head friction   H = -k_h z_h, likewise with mu T + F_floor
+//   half 0     |        hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
+//   ---+-   -+---
 //      |     |
 //
-// The friction law is that of Dahl (1968): its force is a state, so that a held joint does not creep.  Under
-// a growing transverse load the plates slip first (at mu (P + dT)), then the heads slip on the rivet (at as much
+// The friction law is that of Dahl (1968): its force is a state, so that a closed joint does not creep.  Under
+// a growing transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T
 // more), then the halves move freely across the gap, and at last the shank bears against its holes.
 //
-// dT (cage_joint_prying): the cage's centrifugal load pries at every joint, so that the rivet pulls and the edges
-// of the pads press with dT more.  Both forces are in one joint and balance: they move no half, but friction
-// has them.
-//
-// Force and reaction act at the same point, so momentum and energy are exact.  The external tension of the
-// joint is N = T - N_plate.
-// Smoothness: C0 at opening and bearing (a spring of finite stiffness begins), C0 at v = 0.
+// Force and reaction act at the same point, so momentum and energy are exact.
+// Smoothness: C0 at bearing (a spring of finite stiffness begins), C0 at v = 0.
 #include "cage/common/cage_joint.h"
 
-#include "cage/elastic/elastic_half.h"
-#include "numbers/vec.h"
 #include "physics/rotor.h"
 
 void cage_joint_kinematics(const Model *model, Work *w)
@@ -59,20 +52,6 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Stiffnesses of plates, head and holes in the plane [N/m]: of elastic halves in series with what their modes leave.
-typedef struct {
-    double plate, head;
-    const double *hole;
-} JointStiffness;
-
-static JointStiffness joint_stiffness(const Model *model)
-{
-    const Derived *d = model->d;
-    if (!model->elastic) return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
-    const ElasticHalf *half = model->elastic;
-    return (JointStiffness){half->series * d->k_plate_t, half->series * d->k_head, half->k_hole};
-}
-
 // Dahl's friction with force -k z: sets the rate of z and its decay D, returns the dissipated power.
 INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed,
                                 scalar *dot_y, scalar *dot_z, scalar *D)
@@ -90,10 +69,24 @@ INLINE wide bearing_of(wide slip, wide gap, wide k_hole)
     return k_hole * wide_max(slip - gap, wide_set(0.0)) / slip;
 }
 
+// Friction states of plates and heads, padded.
+typedef struct {
+    ball_array plate_y, plate_z, head_y, head_z;
+} FrictionStates;
+
+INLINE void load_friction(const scalar *y, FrictionStates *z)
+{
+    for (int k = Z; k < LANES; k++) z->plate_y[k] = z->plate_z[k] = z->head_y[k] = z->head_z[k] = 0.0;
+    memcpy(z->plate_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
+    memcpy(z->plate_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
+    memcpy(z->head_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
+    memcpy(z->head_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+}
+
 #ifndef DUAL
 // Friction states z at rows row_y, row_z of y over a step h by the implicit midpoint rule:
 // z += h z'/(1 + h D/2), D = speed k/capacity.  Returns the work h k D z_m^2 that they dissipate, z_m in the middle.
-static double advance(const Work *w, double h, double k, const double *capacity, int row_y, int row_z,
+static double advance(const JointMotion *at, double h, double k, const double *capacity, int row_y, int row_z,
                       double *y)
 {
     ball_array z_y = {0}, z_z = {0}, lost;
@@ -101,7 +94,7 @@ static double advance(const Work *w, double h, double k, const double *capacity,
     memcpy(z_z, &y[row_z], Z * sizeof *y);
     for (int b = 0; b < PACKETS; b++) {
         const int i = b * LANE_WIDTH;
-        const wide v_y = wide_load(&w->v_jy[i]), v_z = wide_load(&w->v_jz[i]);
+        const wide v_y = wide_load(&at->v_y[i]), v_z = wide_load(&at->v_z[i]);
         const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]);
         const wide inv = h / (1.0 + (0.5 * h) * rate);
         const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]);
@@ -116,46 +109,32 @@ static double advance(const Work *w, double h, double k, const double *capacity,
     return ball_array_sum(lost);
 }
 
-double cage_joint_advance(const Model *model, const Work *w, double h, double *y)
+double cage_joint_advance(const Model *model, double h, const JointStiffness *k_in, const JointMotion *at,
+                          double *y)
 {
-    const Derived *d = model->d;
     const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
-    const double dT = model->elastic ? 0.0 : cage_joint_prying(model, w);
-    const JointStiffness k_in = joint_stiffness(model);
-    const wide zero = wide_set(0.0);
     ball_array plates, heads;
-    for (int b = 0; b < PACKETS; b++) {
-        const int k = b * LANE_WIDTH;
-        if (model->elastic) {
-            wide_store(&plates[k], mu * wide_load(&w->N_plate[k]) + floor);
-            wide_store(&heads[k], mu * wide_load(&w->T[k]) + floor);
-            continue;
-        }
-        const wide u_x = wide_load(&w->u_x[k]), P = wide_load(&d->P[k]), intact = wide_load(&d->intact[k]);
-        const wide T = intact * wide_max(P + d->k_rivet * u_x, zero), more = dT * intact;
-        wide_store(&plates[k], mu * wide_max(wide_max(P - d->k_plate * u_x, zero) + more, zero) + floor);
-        wide_store(&heads[k], mu * wide_max(T + more, zero) + floor);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide_store(&plates[k], mu * wide_load(&at->N_plate[k]) + floor);
+        wide_store(&heads[k], mu * wide_load(&at->T[k]) + floor);
     }
-    const double by_plates = advance(w, h, k_in.plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
-    return by_plates + advance(w, h, k_in.head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
+    const double by_plates = advance(at, h, k_in->plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
+    return by_plates + advance(at, h, k_in->head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
 }
 
-void cage_joint_shear(const Model *model, const double *y, Work *w)
+void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k_in, const ball_array u_y,
+                      const ball_array u_z, ball_array F_y, ball_array F_z)
 {
-    const JointStiffness k_in = joint_stiffness(model);
-    ball_array z_y = {0}, z_z = {0}, h_y = {0}, h_z = {0};
-    memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
-    memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
-    memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
-    memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+    FrictionStates z;
+    load_friction(y, &z);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
-        const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const wide bearing = bearing_of(slip, wide_load(&model->d->hole_gap[k]), wide_load(&k_in.hole[k]));
-        const wide F_y = -k_in.plate * wide_load(&z_y[k]) - k_in.head * wide_load(&h_y[k]) - bearing * u_y;
-        const wide F_z = -k_in.plate * wide_load(&z_z[k]) - k_in.head * wide_load(&h_z[k]) - bearing * u_z;
-        wide_store(&w->joint_F_y[k], F_y);
-        wide_store(&w->joint_F_z[k], F_z);
+        const wide along = wide_load(&u_y[k]), across = wide_load(&u_z[k]);
+        const wide slip = wide_sqrt(along * along + across * across + 1e-30);
+        const wide bearing = bearing_of(slip, wide_load(&model->d->hole_gap[k]), wide_load(&k_in->hole[k]));
+        wide_store(&F_y[k], -k_in->plate * wide_load(&z.plate_y[k]) - k_in->head * wide_load(&z.head_y[k]) -
+                                bearing * along);
+        wide_store(&F_z[k], -k_in->plate * wide_load(&z.plate_z[k]) - k_in->head * wide_load(&z.head_z[k]) -
+                                bearing * across);
     }
 }
 #endif
@@ -180,82 +159,96 @@ static void add_wrench(Work *w, const scalar F[3], const scalar M[3])
     }
 }
 
-void cage_joint_force(const Model *model, const scalar *y, Work *w)
+void cage_joint_force(const Model *model, const scalar *y, const JointStiffness *k_in, const JointMotion *at,
+                      Work *w)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    ball_array z_y, z_z, h_y, h_z;  // friction states of plates and heads, padded
-    ball_array F_x, F_y, F_z, M_x, M_y, M_z;
-    for (int k = 0; k < LANES; k++) z_y[k] = z_z[k] = h_y[k] = h_z[k] = 0.0;
-    memcpy(z_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
-    memcpy(z_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
-    memcpy(h_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
-    memcpy(h_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+    FrictionStates z;
+    ball_array F_x, M_x, M_y, M_z;
+    load_friction(y, &z);
+    const wide zero = wide_set(0.0), floor = wide_set(p->joint.F_floor), mu = wide_set(p->joint.mu);
+    const wide k_t = wide_set(k_in->plate), k_h = wide_set(k_in->head);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide u_y = wide_load(&at->u_y[k]), u_z = wide_load(&at->u_z[k]);
+        const wide v_y = wide_load(&at->v_y[k]), v_z = wide_load(&at->v_z[k]);
 
-    const wide zero = wide_set(0.0), floor = wide_set(p->joint.F_floor);
-    const wide mu = wide_set(p->joint.mu), dT = wide_set(model->elastic ? 0.0 : cage_joint_prying(model, w));
-    const ElasticHalf *elastic = model->elastic;
-    const JointStiffness k_in = joint_stiffness(model);
-    const wide k_t = wide_set(k_in.plate), k_h = wide_set(k_in.head);
-    for (int b = 0; b < PACKETS; b++) {
-        const int k = b * LANE_WIDTH;
-        const wide u_x = wide_load(&w->u_x[k]), u_y = wide_load(&w->u_y[k]), u_z = wide_load(&w->u_z[k]);
-        const wide v_x = wide_load(&w->v_jx[k]), v_y = wide_load(&w->v_jy[k]), v_z = wide_load(&w->v_jz[k]);
-
-        // tension, plate force, friction
-        const wide intact = wide_load(&d->intact[k]), more = dT * intact;
-        wide T, N_plate, damping;
-        if (elastic) {  // the law of the joint has given them (cage_elastic.c)
-            T = wide_load(&w->T[k]), N_plate = wide_load(&w->N_plate[k]), damping = zero;
-        } else {
-            const wide P = wide_load(&d->P[k]);
-            T = intact * wide_max(P + d->k_rivet * u_x, zero), N_plate = wide_max(P - d->k_plate * u_x, zero);
-            damping = d->c_joint * N_plate / (N_plate + floor);
-        }
+        // friction
         const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
-        const wide zp_y = wide_load(&z_y[k]), zp_z = wide_load(&z_z[k]);
-        const wide zh_y = wide_load(&h_y[k]), zh_z = wide_load(&h_z[k]);
-        wide lost =
-            cage_joint_friction(k_t, mu * wide_max(N_plate + more, zero) + floor, zp_y, zp_z, v_y, v_z, speed,
-                                &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
-        lost += cage_joint_friction(k_h, mu * wide_max(T + more, zero) + floor, zh_y, zh_z, v_y, v_z, speed,
+        const wide zp_y = wide_load(&z.plate_y[k]), zp_z = wide_load(&z.plate_z[k]);
+        const wide zh_y = wide_load(&z.head_y[k]), zh_z = wide_load(&z.head_z[k]);
+        wide lost = cage_joint_friction(k_t, mu * wide_load(&at->N_plate[k]) + floor, zp_y, zp_z, v_y, v_z,
+                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
+        lost += cage_joint_friction(k_h, mu * wide_load(&at->T[k]) + floor, zh_y, zh_z, v_y, v_z, speed,
                                     &w->head_y_dot[k], &w->head_z_dot[k], &w->head_rate[k]);
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
-        const wide gap = wide_load(&d->hole_gap[k]), k_hole = wide_load(&k_in.hole[k]);
+        const wide gap = wide_load(&d->hole_gap[k]), k_hole = wide_load(&k_in->hole[k]);
         const wide bearing = bearing_of(slip, gap, k_hole);
         wide_store(&w->k_bearing[k], wide_select(wide_above(slip - gap, 0.0), k_hole, zero));
 
-        wide_store(&w->T[k], T);
-        wide_store(&w->N_plate[k], N_plate);
         wide_store(&w->S_y[k], -k_t * zp_y);
         wide_store(&w->S_z[k], -k_t * zp_z);
         wide_store(&w->H_y[k], -k_h * zh_y);
         wide_store(&w->H_z[k], -k_h * zh_z);
         wide_store(&w->B_y[k], -bearing * u_y);
         wide_store(&w->B_z[k], -bearing * u_z);
-        wide_store(&w->joint_dissipated[k], lost + damping * v_x * v_x);
+        wide_store(&w->joint_dissipated[k], lost);
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
-        const wide f_x = elastic ? -wide_load(&w->joint_load[0][k]) : N_plate - T - damping * v_x,
-                   f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y;
-        const wide f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
-        wide r_y = wide_load(&d->rivet_y[k]) + u_y, r_z = wide_load(&d->rivet_z[k]) + u_z;
-        if (elastic) {  // modes move no centre of mass
-            r_y = wide_load(&d->rivet_y[k]) + wide_load(&w->rigid_u_y[k]);
-            r_z = wide_load(&d->rivet_z[k]) + wide_load(&w->rigid_u_z[k]);
-            wide_store(&w->joint_F_y[k], f_y);
-            wide_store(&w->joint_F_z[k], f_z);
-        }
+        const wide f_x = wide_load(&at->F_x[k]);
+        const wide f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y,
+                   f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const wide r_x = wide_load(&w->u_x[k]), r_y = wide_load(&d->rivet_y[k]) + wide_load(&w->u_y[k]);
+        const wide r_z = wide_load(&d->rivet_z[k]) + wide_load(&w->u_z[k]);
         wide_store(&F_x[k], f_x);
-        wide_store(&F_y[k], f_y);
-        wide_store(&F_z[k], f_z);
+        wide_store(&w->joint_F_y[k], f_y);
+        wide_store(&w->joint_F_z[k], f_z);
         wide_store(&M_x[k], r_y * f_z - r_z * f_y);
-        wide_store(&M_y[k], r_z * f_x - u_x * f_z);
-        wide_store(&M_z[k], u_x * f_y - r_y * f_x);
+        wide_store(&M_y[k], r_z * f_x - r_x * f_z);
+        wide_store(&M_z[k], r_x * f_y - r_y * f_x);
     }
-    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(F_y), ball_array_sum(F_z)};
+    const scalar F[3] = {ball_array_sum(F_x), ball_array_sum(w->joint_F_y), ball_array_sum(w->joint_F_z)};
     const scalar M[3] = {ball_array_sum(M_x), ball_array_sum(M_y), ball_array_sum(M_z)};
     add_wrench(w, F, M);
+}
+
+// ---- loads of joints and rivets ---------------------------------------------------------------------------
+// A vector (y, z) at a packet of rivets from k on, radially and along the circle.
+INLINE void polar(const Model *model, wide y, wide z, int k, ball_array to[2])
+{
+    const double inv_R = model->d->inv_R;
+    const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
+    wide_store(&to[0][k], y * c + z * s);
+    wide_store(&to[1][k], z * c - y * s);
+}
+
+void cage_joint_carried(const Model *model, const Work *w, JointShear *shear)
+{
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        polar(model, -wide_load(&w->S_y[k]), -wide_load(&w->S_z[k]), k, shear->plates);
+        polar(model, -wide_load(&w->H_y[k]), -wide_load(&w->H_z[k]), k, shear->heads);
+        polar(model, -wide_load(&w->B_y[k]), -wide_load(&w->B_z[k]), k, shear->shank);
+    }
+}
+
+void cage_joint_loads(const Model *model, const ball_array joint[3], const ball_array rivet[3],
+                      const JointShear *shear, JointLoads *load)
+{
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide heads_r = wide_load(&shear->heads[0][k]), heads_t = wide_load(&shear->heads[1][k]);
+        const wide V_r = wide_load(&shear->shank[0][k]), V_t = wide_load(&shear->shank[1][k]);
+        wide_store(&load->N[k], wide_load(&joint[0][k]));
+        wide_store(&load->M_r[k], wide_load(&joint[1][k]));
+        wide_store(&load->M_t[k], wide_load(&joint[2][k]));
+        wide_store(&load->V[k], wide_hypot(wide_load(&shear->plates[0][k]) + heads_r + V_r,
+                                           wide_load(&shear->plates[1][k]) + heads_t + V_t));
+        wide_store(&load->T[k], wide_load(&rivet[0][k]));
+        wide_store(&load->m_r[k], wide_load(&rivet[1][k]));
+        wide_store(&load->m_t[k], wide_load(&rivet[2][k]));
+        wide_store(&load->V_r[k], V_r);
+        wide_store(&load->V_t[k], V_t);
+        wide_store(&load->F_head[k], wide_load(&model->d->intact[k]) * wide_hypot(heads_r, heads_t));
+    }
 }

@@ -1,44 +1,52 @@
-// The riveted joints between the cage halves.  Equations in cage_joint.c.
+// The riveted joints between the cage halves: what both kinds of halves share.  Equations in cage_joint.c.
 #pragma once
 
 #include "numbers/isa.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Prying force dT [N]: what the cage's centrifugal load adds to the rivet's tension and to the plates' contact
-// force, T_rest - P of joints that are all alike (joint_law.h), at their mean preload.  C1 in the cage's
-// speed: the cubic through the states of the table, which are at equal steps of x = c/(c + P), with slopes by
-// central differences.
-ONCE scalar cage_joint_prying(const Model *model, const Work *w)
-{
-    const Derived *d = model->d;
-    const JointLaw *law = &rivet_table.half.law;
-    const scalar omega_2 = 0.5 * (w->half[0].s * w->half[0].s + w->half[1].s * w->half[1].s);
-    const scalar c = fabs(d->spin[ROW_M_T]) / law->length * omega_2;
-    const scalar P = scalar_max(d->P_mean + d->spin[ROW_DP] * omega_2, 0.0), s = c + P;
-    if (!(scalar_value(c) > 0.0)) return 0.0;
-    const scalar x = c / s * (law->alike_count - 1.0);
-    const int last = law->alike_count - 1, i = (int)fmin(scalar_value(x), last - 1.0);
-    const double from = law->alike[i][ALIKE_T], to = law->alike[i + 1][ALIKE_T], rise = to - from;
-    const double slope_from = i > 0 ? 0.5 * (to - law->alike[i - 1][ALIKE_T]) : rise;
-    const double slope_to = i + 1 < last ? 0.5 * (law->alike[i + 2][ALIKE_T] - from) : rise;
-    const scalar u = x - i, v = 1.0 - u;
-    const scalar T = from + u * rise + u * v * (v * (slope_from - rise) + u * (rise - slope_to));
-    return s * T - d->P_mean * law->alike[0][ALIKE_T];
-}
+// Stiffnesses of plates, heads and holes in the plane of the split [N/m].
+typedef struct {
+    double plate, head;
+    const double *hole;  // [LANES]
+} JointStiffness;
 
-// Offset and velocity of half 1 against half 0 at each rivet, in the frame of half 0.
+// One joint's arrays: offset and velocity of half 1 against half 0 at the holes, in the plane; tension of the rivet;
+// force between the plates; axial force on half 1.
+typedef struct {
+    const scalar *u_y, *u_z, *v_y, *v_z, *T, *N_plate, *F_x;
+} JointMotion;
+
+// Offset and velocity of half 1 against half 0 as rigid bodies at each rivet, in the frame of half 0.
+#define cage_joint_kinematics FOR_ISA(cage_joint_kinematics)
 void cage_joint_kinematics(const Model *model, Work *w);
 
-// Forces of all joints: sets T, N_plate, S, H, B and the rates of the friction states, adds the wrench to
-// both halves.
-void cage_joint_force(const Model *model, const scalar *y, Work *w);
+// Friction and hole contact of all joints: sets S, H, B, F and the rates of the friction states; adds the joints' wrench
+// to both halves, as forces at the holes of the halves as rigid bodies.
+#define cage_joint_force FOR_ISA(cage_joint_force)
+void cage_joint_force(const Model *model, const scalar *y, const JointStiffness *k, const JointMotion *at,
+                      Work *w);
 
-// Forces of elastic halves' joints in the plane, by the offsets in w and the friction states in y: joint_F_y,
-// joint_F_z.
+// Forces on half 1 in the plane, for offsets and the friction states in y.
 #define cage_joint_shear FOR_ISA(cage_joint_shear)
-void cage_joint_shear(const Model *model, const double *y, Work *w);
+void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k, const ball_array u_y,
+                      const ball_array u_z, ball_array F_y, ball_array F_z);
 
-// Advances the friction states in y over a step h; w holds the kinematics in the middle of the step.  Returns what they
+// Advances the friction states in y over a step h with the velocities and forces `at` in its middle.  Returns what they
 // dissipate [J].
-double cage_joint_advance(const Model *model, const Work *w, double h, double *y);
+#define cage_joint_advance FOR_ISA(cage_joint_advance)
+double cage_joint_advance(const Model *model, double h, const JointStiffness *k, const JointMotion *at,
+                          double *y);
+
+// Loads (r, t) of half 1 that plates, heads and shanks carry in the plane.
+typedef struct {
+    ball_array plates[2], heads[2], shank[2];
+} JointShear;
+
+#define cage_joint_carried FOR_ISA(cage_joint_carried)
+void cage_joint_carried(const Model *model, const Work *w, JointShear *shear);
+
+// Loads of all joints from (N, M_r, M_t) of the joints, (T, m_r, m_t) of their rivets and their loads in the plane.
+#define cage_joint_loads FOR_ISA(cage_joint_loads)
+void cage_joint_loads(const Model *model, const ball_array joint[3], const ball_array rivet[3],
+                      const JointShear *shear, JointLoads *load);

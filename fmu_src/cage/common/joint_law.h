@@ -1,4 +1,4 @@
-// What joints that open and slip leave of the loads that bonded joints would carry.
+// Law of one riveted joint that opens, and the loads of a ring of joints.
 //
 // Bonded, the joints of the halves carry L_b = (N, M_r, M_t)_k (half_path.h).  A joint that opens moves, by
 // delta = (u, phi_r, phi_t) of one pad against its bonded place, and so relieves all joints through the half's
@@ -19,19 +19,6 @@
 //     tau = W/s,   q = N/(|N| + M),   psi = M_t/(|M_t| + |M_r|);      phi_r and m_r have the sign of M_r
 //
 // S is a tensor product of uniform quadratic B-splines, C1 in each argument.
-//
-// The equations of all joints are solved by sweeps (Jacobi's iteration).
-//   Start    all joints move as they do under the same load, the centrifugal one: there L* and the moves depend on
-//            one ratio only, c/(P + c) with c = |bonded M_t|/l, and are tabulated (`alike`).
-//   A sweep  finds L* by the neighbours' moves.  A joint whose L* and P differ from the start by less than NEAR s
-//            answers by its tangent there; another one by the law if its L* has changed by more than CHANGE s since
-//            its last answer.  The iteration ends when the law is not asked any more.
-// Most joints are near the centrifugal state at most instants, so that this takes a few evaluations of the law
-// instead of several for each joint.  The results are within 2.5 % of the converged ones (tests/test_rivets.py),
-// and jump by less where a joint enters or leaves a sweep.
-//
-// In the plane a joint slips, by s along V: of the bonded V the part that friction and hole do not take is
-// relieved through the slip stiffness (joint_slip).
 #pragma once
 
 #include "numbers/elimination.h"
@@ -143,62 +130,52 @@ INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scala
     if (energy) *energy = s * s * sum.x[LAW_ENERGY];
 }
 
-// |N| + (|M_r| + |M_t|)/l.
-INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
-{
-    return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
-}
-
-// What all joints have in common, of the table's `alike` for c and P, in newtons.
-ONCE void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
-{
-    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
-    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), law->alike_count - 2.0);
-    const double *from = law->alike[i], *to = law->alike[i + 1];
-    const scalar up = x - i;
-    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
-    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
-}
-
-// Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
-typedef scalar JointMoves[3][2 * Z + LANES];
-
-// L* of all joints by the moves of their neighbours.
-INLINE void find_alone(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide alone[PACKETS][3])
-{
-    for (int p = 0; p < PACKETS; p++)
-        for (int i = 0; i < 3; i++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
-    for (int n = 0; n < law->neighbours; n++)
-        for (int m = 0; m < 3; m++) {
-            const scalar *move = &moves[m][Z - law->neighbour[n]];
-            for (int i = 0; i < 3; i++) {
-                const wide K = wide_set(-law->K[n][i][m]);
-                for (int p = 0; p < PACKETS; p++)
-                    alone[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), alone[p][i]);
-            }
-        }
-}
-
-// The move of a joint that carries nothing: K_0 move = L*.
-ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
-{
-    for (int i = 0; i < 3; i++) move[i] = load[i];
-    solve_3(K[0], move);
-}
-
-// Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
-// P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L*; spin_M, spin_P: bonded
-// M_t under the centrifugal load alone, and the preload with it.  Returns how often the law was asked.
-int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
-
-// What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads
-// and hole [N/m].
+// A packet of joints in the law: their cells, s, and the weights of the splines [axis][3].
 typedef struct {
-    ball_array plates, heads, gap, k_hole;
-    double k_head;
-} SlipLimits;
+    ball_array cell, size, weight[LAW_AXES][3];
+} LawPlaces;
 
-// Adds what plates, heads and shanks carry (r, t) of the bonded loads V_r, V_t [N].
-void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
-                 ball_array plates[2], ball_array heads[2], ball_array shank[2]);
+// Cells and weights of a packet at the coordinate u in cells of an axis; as axis_weights.
+INLINE wide law_weights(int cells, wide u, int k, ball_array weight[3])
+{
+    const wide cell = wide_floor(wide_min(wide_max(u, wide_set(0.0)), wide_set(cells - 1.0)));
+    const wide up = u - cell, down = 1.0 - up, first = 0.5 * (down * down), last = 0.5 * (up * up);
+    wide_store(&weight[0][k], first);
+    wide_store(&weight[1][k], 1.0 - first - last);
+    wide_store(&weight[2][k], last);
+    return cell;
+}
+
+// Places of the packet from k on under loads (N, M_r, M_t) and preloads.
+INLINE void law_places(const JointLaw *law, const wide L[3], wide P, int k, LawPlaces *at)
+{
+    const int *cells = law->cells;
+    const double inv_length = 1.0 / law->length;
+    const wide N = L[0], M_r = wide_abs(L[1]), M_t = L[2];
+    const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = P + W;
+    const wide tau = wide_ratio(W, s) * cells[AXIS_TAU];
+    const wide q = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * cells[AXIS_Q]);
+    const wide psi = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * cells[AXIS_PSI]);
+    wide cell = law_weights(cells[AXIS_TAU], tau, k, at->weight[AXIS_TAU]);
+    cell = cell * (cells[AXIS_Q] + 2.0) + law_weights(cells[AXIS_Q], q, k, at->weight[AXIS_Q]);
+    cell = cell * (cells[AXIS_PSI] + 2.0) + law_weights(cells[AXIS_PSI], psi, k, at->weight[AXIS_PSI]);
+    wide_store(&at->cell[k], cell);
+    wide_store(&at->size[k], s);
+}
+
+// The law of joint k at its place, M_r its moment about r: moves of the pad (of elastic halves: loads of the joint),
+// loads (T, m_r, m_t) of the rivet and the energy.
+INLINE void law_answer(const JointLaw *law, const LawPlaces *at, int k, scalar M_r, scalar move[3],
+                       scalar rivet[3], scalar *energy)
+{
+    octet S;
+    scalar weight[LAW_AXES][3];
+    for (int a = 0; a < LAW_AXES; a++)
+        for (int i = 0; i < 3; i++) weight[a][i] = at->weight[a][i][k];
+    law_sum(law, (int)scalar_value(at->cell[k]), weight, &S);
+    const scalar s = at->size[k], across = scalar_value(M_r) < 0.0 ? -s : s;
+    move[0] = s * S.x[0], rivet[0] = s * S.x[4];
+    move[1] = across * S.x[1], rivet[1] = across * S.x[5];
+    move[2] = s * S.x[2], rivet[2] = s * S.x[6];
+    *energy = s * s * S.x[LAW_ENERGY];
+}

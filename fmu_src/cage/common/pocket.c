@@ -53,7 +53,7 @@ INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
 INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
 {
     const Derived *d = model->d;
-    const wide zero = wide_set(0.0), cK = wide_set(model->elastic->compliance * d->pocket.K);
+    const wide zero = wide_set(0.0), cK = wide_set(model->modes->compliance * d->pocket.K);
     wide own = wide_max(delta, zero);
     for (int i = 0; i < 4; i++) {
         const wide root = wide_sqrt(wide_max(own, wide_set(1e-30)));
@@ -63,10 +63,10 @@ INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
     return wide_select(wide_above(delta, 0.0), own, delta);
 }
 
-// Forces in a packet of pockets, stored for the half and added to the balls.  whole: the rigid cage, whose
-// half 0 carries the whole contact.  wall: motion of the walls of an elastic half, or NULL.
+// Forces in a packet of pockets, stored for the half and added to the balls.  wall: motion of the walls of an elastic
+// half, or NULL.
 INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
-                            bool whole, const WallMotion *wall, ball_array on_wall[3])
+                            const WallMotion *wall, ball_array on_wall[3])
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -93,8 +93,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const wide delta_dot = vec_dot(n, v);
 
     // share of the half, contact load, and the energy's gradient across n
-    const PocketShare all = {wide_set(1.0), wide_set(1.0), wide_set(0.0)};
-    const PocketShare share = whole ? all : pocket_share(d, h, n_x, gap->delta);
+    const PocketShare share = pocket_share(d, h, n_x, gap->delta);
     const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
     const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
     wide F_across = pocket_across(d, gap, share.slope);
@@ -121,13 +120,12 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
 
         // the wall's own compliance is in series with the contact
-        const wide k = 1.5 * Q_0,
-                   soft = wide_max(gap->delta, wide_set(1e-30)) + model->elastic->compliance * k;
+        const wide k = 1.5 * Q_0, soft = wide_max(gap->delta, wide_set(1e-30)) + model->modes->compliance * k;
         const wide u_dot = n_x * wide_load(&wall->u_dot[0][j]) + n_t * wide_load(&wall->u_dot[2][j]);
-        wide_store(&w->touch_x[h][j], n_x);
-        wide_store(&w->touch_t[h][j], n_t);
-        wide_store(&w->touch_k[h][j], k / soft);
-        wide_store(&w->touch_rate[h][j], delta_dot + u_dot);
+        wide_store(&w->elastic.touch_x[h][j], n_x);
+        wide_store(&w->elastic.touch_t[h][j], n_t);
+        wide_store(&w->elastic.touch_k[h][j], k / soft);
+        wide_store(&w->elastic.touch_rate[h][j], delta_dot + u_dot);
     }
 
     wide_store(&pocket->Q[j], Q);
@@ -174,7 +172,7 @@ INLINE void add_pockets(const Pockets *pocket, Rotor *half)
 }
 
 // All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
-INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool whole)
+static void pocket_half(const Model *model, Work *w, int h, bool mixed)
 {
     Pockets *pocket = &w->pocket[h];
     Rotor *half = &w->half[h];
@@ -183,12 +181,22 @@ INLINE void pocket_half(const Model *model, Work *w, int h, bool mixed, bool who
         const PocketGap gap = pocket_gap(model->d, w, half, j);
         wide_store(&w->delta_c[h][j], gap.delta);
         if (wide_any(wide_above(gap.delta, 0.0))) {
-            pocket_contacts(model, w, h, j, &gap, mixed, whole, NULL, NULL);
+            pocket_contacts(model, w, h, j, &gap, mixed, NULL, NULL);
             touched = true;
         } else
             pocket_clear(pocket, j);
     }
     if (touched) add_pockets(pocket, half);
+}
+
+static bool is_mixed(const Model *model)
+{
+    return model->p->scene.lubrication == LUBRICATION_MIXED;
+}
+
+void pocket_rigid(const Model *model, Work *w)
+{
+    for (int h = 0; h < 2; h++) pocket_half(model, w, h, is_mixed(model));
 }
 
 // A packet of pockets of an elastic half in which walls are touched.
@@ -202,13 +210,13 @@ typedef struct {
 static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places)
 {
-    const ElasticHalf *elastic = model->elastic;
+    const ElasticHalf *elastic = model->modes;
     const int side = 2 * h - 1;
     ball_array moved;
     elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, places);
     wide_store(&moved[j], wide_set(0.0));
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->q[h]);
+        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->elastic.q[h]);
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here
@@ -221,17 +229,17 @@ static void clear_touches(Work *w, int h, int j)
 {
     const wide zero = wide_set(0.0);
     pocket_clear(&w->pocket[h], j);
-    wide_store(&w->touch_x[h][j], zero);
-    wide_store(&w->touch_t[h][j], zero);
-    wide_store(&w->touch_k[h][j], zero);
-    wide_store(&w->touch_rate[h][j], zero);
+    wide_store(&w->elastic.touch_x[h][j], zero);
+    wide_store(&w->elastic.touch_t[h][j], zero);
+    wide_store(&w->elastic.touch_k[h][j], zero);
+    wide_store(&w->elastic.touch_rate[h][j], zero);
 }
 
 // Motion of the walls, forces and modal forces of a packet.
 static void press_walls(const Model *model, Work *w, const TouchedPacket *at, const WallPlaces *places,
                         bool mixed)
 {
-    const ElasticHalf *elastic = model->elastic;
+    const ElasticHalf *elastic = model->modes;
     const int h = at->h, j = at->j, side = 2 * h - 1;
     ball_array on_wall[3], S;
     WallShape shape[LANE_WIDTH];
@@ -241,19 +249,20 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     wide_store(&S[j], 1.0 / at->gap.inv_S);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (at->touched >> i & 1)
-            elastic_wall(elastic, side, j + i, places, w->q[h], w->q_dot[h], S[j + i], &wall, &shape[i]);
-    pocket_contacts(model, w, h, j, &at->gap, mixed, false, &wall, on_wall);
+            elastic_wall(elastic, side, j + i, places, w->elastic.q[h], w->elastic.q_dot[h], S[j + i], &wall,
+                         &shape[i]);
+    pocket_contacts(model, w, h, j, &at->gap, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
-        elastic_wall_force(elastic, j + i, &shape[i], F, w->wall_force[h]);
+        elastic_wall_force(elastic, j + i, &shape[i], F, w->elastic.wall_force[h]);
     }
 }
 
-// All pockets of both elastic halves, stage by stage: what takes long for a packet, as the approaches, runs
-// for several at a time.
-static void pocket_elastic(const Model *model, Work *w, bool mixed)
+// Stage by stage: the approaches, which take long for a packet, run for several packets at a time.
+void pocket_elastic(const Model *model, Work *w)
 {
+    const bool mixed = is_mixed(model);
     TouchedPacket packets[2 * PACKETS];
     WallPlaces places[2];
     int count = 0;
@@ -261,7 +270,7 @@ static void pocket_elastic(const Model *model, Work *w, bool mixed)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
             *at = (TouchedPacket){h, j, 0, pocket_gap(model->d, w, &w->half[h], j)};
-            const int near = wide_mask(wide_above(at->gap.delta + w->reach[h], 0.0));
+            const int near = wide_mask(wide_above(at->gap.delta + w->elastic.reach[h], 0.0));
             if (near != 0) at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h]);
             if (at->touched != 0)
                 count++;
@@ -281,56 +290,4 @@ static void pocket_elastic(const Model *model, Work *w, bool mixed)
     }
     for (int h = 0; h < 2; h++)
         if (pressed[h]) add_pockets(&w->pocket[h], &w->half[h]);
-}
-
-void pocket_force(const Model *model, Work *w)
-{
-    const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
-    const bool rigid = model->p->scene.cage == CAGE_MODEL_RIGID;
-    if (model->elastic) {
-        pocket_elastic(model, w, mixed);
-        return;
-    }
-    for (int h = 0; h < (rigid ? 1 : 2); h++) pocket_half(model, w, h, mixed, rigid);
-}
-
-void pocket_split(const Model *model, const Work *w, Pockets on[2])
-{
-    const Derived *d = model->d;
-    const Rotor *cage = &w->half[0];
-    const Pockets *whole = &w->pocket[0];
-
-    enum { COUNT = 11 };
-
-    const scalar *from[COUNT] = {whole->F_x,      whole->F_r,      whole->F_t,      whole->push_x,
-                                 whole->push_t,   whole->half_F_x, whole->half_F_y, whole->half_F_z,
-                                 whole->half_M_x, whole->half_M_y, whole->half_M_z};
-    scalar *to[2][COUNT];
-    for (int h = 0; h < 2; h++) {
-        Pockets *half = &on[h];
-        scalar *rows[COUNT] = {half->F_x,      half->F_r,      half->F_t,      half->push_x,
-                               half->push_t,   half->half_F_x, half->half_F_y, half->half_F_z,
-                               half->half_M_x, half->half_M_y, half->half_M_z};
-        memcpy(to[h], rows, sizeof rows);
-    }
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-        const PocketGap gap = pocket_gap(d, w, cage, j);
-        const PocketShare share = pocket_share(d, 1, gap.n_x, gap.delta);
-        const wide F_across = pocket_across(d, &gap, share.slope);
-        const wide push_x = F_across * gap.n_t, push_t = -F_across * gap.n_x;
-        const vec push = vec_axpy(push_x, gap.a, vec_scale(push_t, gap.e_t));
-        vec_store((vec){push_x, wide_set(0.0), push_t}, &on[1].F_x[j], &on[1].F_r[j], &on[1].F_t[j]);
-        wide_store(&on[1].push_x[j], push_x);
-        wide_store(&on[1].push_t[j], push_t);
-        vec_to_global(push, cos_theta, sin_theta, &on[1].half_F_x[j], &on[1].half_F_y[j], &on[1].half_F_z[j]);
-        vec_to_global(vec_cross(gap.p, push), cos_theta, sin_theta, &on[1].half_M_x[j], &on[1].half_M_y[j],
-                      &on[1].half_M_z[j]);
-        for (int i = 0; i < COUNT; i++) {
-            const wide both = wide_load(&from[i][j]),
-                       part = wide_fma(share.load, both, wide_load(&to[1][i][j]));
-            wide_store(&to[1][i][j], part);
-            wide_store(&to[0][i][j], both - part);
-        }
-    }
 }

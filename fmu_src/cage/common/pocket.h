@@ -5,11 +5,12 @@
 #include "numbers/vec.h"
 #include "physics/hertz.h"
 
-// Adds to the balls' forces, moments, rates and dissipation; sets the wrench on both halves.
-void pocket_force(const Model *model, Work *w);
-
-// Pocket forces on each half of a rigid cage, without Q; pocket_force has all of them on half 0.
-void pocket_split(const Model *model, const Work *w, Pockets on[2]);
+// Contacts of all pockets of two rigid or two elastic halves: add to the balls' forces, moments, rates and dissipation, set
+// the wrench on both halves.
+#define pocket_rigid FOR_ISA(pocket_rigid)
+void pocket_rigid(const Model *model, Work *w);
+#define pocket_elastic FOR_ISA(pocket_elastic)
+void pocket_elastic(const Model *model, Work *w);
 
 // Where a packet of balls is in the pockets of a half, in the frames of the balls.
 typedef struct {

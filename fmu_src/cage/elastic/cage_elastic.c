@@ -20,11 +20,12 @@
 // 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
 // contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
 //
-// The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum spin_i
+// The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum c_i
 // q_i.  Coriolis forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and
 // (omega_c/omega_i)^2.
 #include "cage/elastic/cage_elastic.h"
 
+#include "cage/common/cage_joint.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
@@ -72,141 +73,103 @@ static scalar elastic_dot(const ElasticHalf *half, const double *x, const scalar
 
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
 {
-    const ElasticHalf *half = model->elastic;
+    const ElasticHalf *half = model->modes;
     const double inv_root = 1.0 / ROOT;
     const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
     for (int i = 0; i < MODES; i++) {
-        w->q[0][i] = inv_root * (S[i] - D[i]), w->q[1][i] = inv_root * (S[i] + D[i]);
-        w->q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), w->q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
-        w->wall_force[0][i] = w->wall_force[1][i] = 0.0;
+        w->elastic.q[0][i] = inv_root * (S[i] - D[i]), w->elastic.q[1][i] = inv_root * (S[i] + D[i]);
+        w->elastic.q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]),
+        w->elastic.q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
+        w->elastic.wall_force[0][i] = w->elastic.wall_force[1][i] = 0.0;
     }
-    cage_elastic_out(half, S, w->pad_out);
-    cage_elastic_in(half, D, w->pad_in);
-    cage_elastic_in(half, D_dot, w->pad_in_dot);
+    cage_elastic_out(half, S, w->elastic.pad_out);
+    cage_elastic_in(half, D, w->elastic.pad_in);
+    cage_elastic_in(half, D_dot, w->elastic.pad_in_dot);
     for (int h = 0; h < 2; h++) {
         mode_array stored, moved;
         for (int i = 0; i < MODES; i++) {
-            stored[i] = half->weight[i] * w->q[h][i];
-            moved[i] = fabs(scalar_value(w->q[h][i]));
+            stored[i] = half->weight[i] * w->elastic.q[h][i];
+            moved[i] = fabs(scalar_value(w->elastic.q[h][i]));
         }
-        w->reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->q[h]))) +
-                      elastic_dot(half, half->widest, moved);
-        w->more_J[h] = 2.0 * elastic_dot(half, half->spin, w->q[h]);
-        w->more_J_dot[h] = 2.0 * elastic_dot(half, half->spin, w->q_dot[h]);
+        w->elastic.reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->elastic.q[h]))) +
+                              elastic_dot(half, half->widest, moved);
+        w->elastic.more_J[h] = 2.0 * elastic_dot(half, half->centrifugal, w->elastic.q[h]);
+        w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half, half->centrifugal, w->elastic.q_dot[h]);
     }
 }
 
-// Adds the motions (r, t) of a packet of pads in the frame of half 0.
-INLINE void add_turned(const Model *model, int k, ball_array motion[PAD_IN], scalar *y, scalar *z)
+// Sum of vectors (y, z) and the motions (r, t) of a packet of pads, in the frame of half 0.
+INLINE void add_turned(const Model *model, int k, const scalar *from_y, const scalar *from_z,
+                       ball_array motion[PAD_IN], scalar *y, scalar *z)
 {
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const double inv_R = model->d->inv_R;
     const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
     const wide r = wide_load(&motion[0][k]), t = wide_load(&motion[1][k]);
-    wide_store(&y[k], wide_load(&y[k]) + (c * r - s * t));
-    wide_store(&z[k], wide_load(&z[k]) + (s * r + c * t));
+    wide_store(&y[k], wide_load(&from_y[k]) + (c * r - s * t));
+    wide_store(&z[k], wide_load(&from_z[k]) + (s * r + c * t));
 }
 
-void cage_elastic_pads(const Model *model, Work *w)
+// Motions of the pads against each other: those of the halves as rigid bodies and of their modes.
+static void move_pads(const Model *model, Work *w)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const double inv_R = model->d->inv_R;
+    ElasticWork *elastic = &w->elastic;
+    ElasticJoints *joints = &elastic->joints;
     const scalar turn_y = -dot3(h0->b_z, h1->a),
                  turn_z = dot3(h0->b_y, h1->a);  // small rotation of half 1 against half 0
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide c = wide_load(&model->d->rivet_y[k]) * inv_R, s = wide_load(&model->d->rivet_z[k]) * inv_R;
         const wide rigid[PAD_OUT] = {wide_load(&w->u_x[k]), turn_y * c + turn_z * s, turn_z * c - turn_y * s};
         for (int i = 0; i < PAD_OUT; i++)
-            wide_store(&w->e[i][k], 0.5 * (rigid[i] + wide_load(&w->pad_out[i][k])));
-        wide_store(&w->rigid_u_y[k], wide_load(&w->u_y[k]));
-        wide_store(&w->rigid_u_z[k], wide_load(&w->u_z[k]));
-        add_turned(model, k, w->pad_in, w->u_y, w->u_z);
-        add_turned(model, k, w->pad_in_dot, w->v_jy, w->v_jz);
+            wide_store(&joints->e[i][k], 0.5 * (rigid[i] + wide_load(&elastic->pad_out[i][k])));
+        add_turned(model, k, w->u_y, w->u_z, elastic->pad_in, joints->u_y, joints->u_z);
+        add_turned(model, k, w->v_jy, w->v_jz, elastic->pad_in_dot, joints->v_y, joints->v_z);
     }
 }
 
-// Where a joint is in the law: its cell, the weights of the splines [axis][3] and s (joint_law.h).
-typedef struct {
-    ball_array cell, size, weight[LAW_AXES][3];
-} LawPlaces;
-
-// Cell and weights of a packet of joints at the coordinate u in cells of an axis; as axis_weights.
-INLINE wide law_weights(int cells, wide u, int k, ball_array weight[3])
-{
-    const wide cell = wide_floor(wide_min(wide_max(u, wide_set(0.0)), wide_set(cells - 1.0)));
-    const wide up = u - cell, down = 1.0 - up, first = 0.5 * (down * down), last = 0.5 * (up * up);
-    wide_store(&weight[0][k], first);
-    wide_store(&weight[1][k], 1.0 - first - last);
-    wide_store(&weight[2][k], last);
-    return cell;
-}
-
-// A packet of joints under L^.
-INLINE void law_places(const JointLaw *law, const wide L[3], wide P, int k, LawPlaces *at)
-{
-    const int *cells = law->cells;
-    const double inv_length = 1.0 / law->length;
-    const wide N = L[0], M_r = wide_abs(L[1]), M_t = L[2];
-    const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = P + W;
-    const wide tau = wide_ratio(W, s) * cells[AXIS_TAU];
-    const wide q = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * cells[AXIS_Q]);
-    const wide psi = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * cells[AXIS_PSI]);
-    wide cell = law_weights(cells[AXIS_TAU], tau, k, at->weight[AXIS_TAU]);
-    cell = cell * (cells[AXIS_Q] + 2.0) + law_weights(cells[AXIS_Q], q, k, at->weight[AXIS_Q]);
-    cell = cell * (cells[AXIS_PSI] + 2.0) + law_weights(cells[AXIS_PSI], psi, k, at->weight[AXIS_PSI]);
-    wide_store(&at->cell[k], cell);
-    wide_store(&at->size[k], s);
-}
-
 // Joint k without its rivet: the pads press on each other in their middles or carry nothing.
-static void broken_answers(const ElasticHalf *half, Work *w, int k)
+static void broken_answers(const ElasticHalf *half, ElasticJoints *j, int k)
 {
     const double (*K)[PAD_OUT] = half->K, det = K[1][1] * K[2][2] - K[1][2] * K[2][1];
     const double r = (K[0][1] * K[2][2] - K[0][2] * K[2][1]) / det,
                  t = (K[0][2] * K[1][1] - K[0][1] * K[1][2]) / det;
-    const scalar N =
-        scalar_min(w->joint_behind[0][k] - r * w->joint_behind[1][k] - t * w->joint_behind[2][k], 0.0);
-    w->joint_load[0][k] = N;
-    w->joint_load[1][k] = w->joint_load[2][k] = 0.0;
-    w->joint_U[k] = -0.5 * half->R[0][0] * N * N;
+    const scalar N = scalar_min(j->trial[0][k] - r * j->trial[1][k] - t * j->trial[2][k], 0.0);
+    j->load[0][k] = N;
+    j->load[1][k] = j->load[2][k] = 0.0;
+    j->U[k] = -0.5 * half->R[0][0] * N * N;
     for (int a = 0; a < PAD_OUT; a++) {
-        w->joint_rivet[a][k] = 0.0;
-        w->joint_U[k] += 0.5 * w->e[a][k] * w->joint_behind[a][k];
+        j->rivet[a][k] = 0.0;
+        j->U[k] += 0.5 * j->e[a][k] * j->trial[a][k];
     }
 }
 
-void cage_elastic_loads(const Model *model, const ball_array P, Work *w)
+void cage_elastic_loads(const Model *model, const ball_array P, ElasticJoints *joints)
 {
-    const ElasticHalf *half = model->elastic;
+    const ElasticHalf *half = model->modes;
     LawPlaces at;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         wide L[PAD_OUT];
         for (int a = 0; a < PAD_OUT; a++) {
             const double *K = half->K[a];
-            L[a] =
-                K[0] * wide_load(&w->e[0][k]) + K[1] * wide_load(&w->e[1][k]) + K[2] * wide_load(&w->e[2][k]);
-            wide_store(&w->joint_behind[a][k], L[a]);
+            L[a] = K[0] * wide_load(&joints->e[0][k]) + K[1] * wide_load(&joints->e[1][k]) +
+                   K[2] * wide_load(&joints->e[2][k]);
+            wide_store(&joints->trial[a][k], L[a]);
         }
         law_places(&half->law, L, wide_load(&P[k]), k, &at);
     }
     for (int k = 0; k < Z; k++) {
-        octet S;
-        scalar weight[LAW_AXES][3];
-        for (int a = 0; a < LAW_AXES; a++)
-            for (int i = 0; i < 3; i++) weight[a][i] = at.weight[a][i][k];
-        law_sum(&half->law, (int)scalar_value(at.cell[k]), weight, &S);
-        const scalar s = at.size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
-        w->joint_load[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
-        w->joint_load[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
-        w->joint_load[2][k] = s * S.x[2], w->joint_rivet[2][k] = s * S.x[6];
-        w->joint_U[k] = s * s * S.x[LAW_ENERGY];
-        if (model->d->intact[k] == 0.0) broken_answers(half, w, k);
+        scalar load[PAD_OUT], rivet[PAD_OUT];
+        law_answer(&half->law, &at, k, joints->trial[1][k], load, rivet, &joints->U[k]);
+        for (int a = 0; a < PAD_OUT; a++) joints->load[a][k] = load[a], joints->rivet[a][k] = rivet[a];
+        if (model->d->intact[k] == 0.0) broken_answers(half, joints, k);
     }
     for (int k = Z; k < LANES; k++)
-        for (int a = 0; a < PAD_OUT; a++) w->joint_load[a][k] = w->joint_rivet[a][k] = 0.0;
+        for (int a = 0; a < PAD_OUT; a++) joints->load[a][k] = joints->rivet[a][k] = 0.0;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide zero = wide_set(0.0), T = wide_max(wide_load(&w->joint_rivet[0][k]), zero);
-        wide_store(&w->T[k], T);
-        wide_store(&w->N_plate[k], wide_max(T - wide_load(&w->joint_load[0][k]), zero));
+        const wide zero = wide_set(0.0), T = wide_max(wide_load(&joints->rivet[0][k]), zero);
+        wide_store(&joints->rivet[0][k], T);
+        wide_store(&joints->N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
     }
 }
 
@@ -219,23 +182,20 @@ scalar cage_elastic_speed_2(const Work *w)
 void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P)
 {
     const Derived *d = model->d;
-    const scalar more_P = d->spin[ROW_DP] * omega_2;
+    const scalar more_P = d->centrifugal[ROW_DP] * omega_2;
     for (int k = 0; k < LANES; k++) P[k] = scalar_max(d->P[k] + more_P, 0.0);
 }
 
-void cage_elastic_joints(const Model *model, Work *w)
+// Adds the moments of the joints to both halves.
+static void add_moments(const Model *model, Work *w)
 {
     const Derived *d = model->d;
-    ball_array P;
-    cage_elastic_preload(model, cage_elastic_speed_2(w), P);
-    cage_elastic_loads(model, P, w);
-
+    const ElasticJoints *joints = &w->elastic.joints;
     ball_array M_y, M_z;
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
     for (int k = 0; k < Z; k++) {
-        const double c = d->rivet_y[k] * inv_R, s = d->rivet_z[k] * inv_R;
-        M_y[k] = w->joint_load[1][k] * c - w->joint_load[2][k] * s;
-        M_z[k] = w->joint_load[1][k] * s + w->joint_load[2][k] * c;
+        const double c = d->rivet_y[k] * d->inv_R, s = d->rivet_z[k] * d->inv_R;
+        M_y[k] = joints->load[1][k] * c - joints->load[2][k] * s;
+        M_z[k] = joints->load[1][k] * s + joints->load[2][k] * c;
     }
 
     // moments on half 1, whose power is that of the rates of turn_y and turn_z
@@ -251,10 +211,22 @@ void cage_elastic_joints(const Model *model, Work *w)
     }
 }
 
-scalar cage_elastic_coriolis(const Model *model, const Work *w, int h)
+void cage_elastic_joints(const Model *model, const scalar *y, Work *w)
 {
-    (void)model;
-    return w->more_J_dot[h] * (w->half[h].s + w->frame_omega);
+    ElasticJoints *joints = &w->elastic.joints;
+    ball_array P, F_x;
+    move_pads(model, w);
+    cage_elastic_preload(model, cage_elastic_speed_2(w), P);
+    cage_elastic_loads(model, P, joints);
+    add_moments(model, w);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+        wide_store(&F_x[k], -wide_load(&joints->load[0][k]));
+    const JointStiffness k_in = cage_elastic_stiffness(model);
+    const JointMotion at = {joints->u_y,      joints->u_z,     joints->v_y, joints->v_z,
+                            joints->rivet[0], joints->N_plate, F_x};
+    cage_joint_force(model, y, &k_in, &at, w);
+    memcpy(joints->F_y, w->joint_F_y, sizeof joints->F_y);
+    memcpy(joints->F_z, w->joint_F_z, sizeof joints->F_z);
 }
 
 // Forces of the joints' loads on the modes: of the first joints, each with its mirror image.
@@ -278,23 +250,23 @@ INLINE void pads_pull(const ElasticHalf *half, int motions, ball_array *load, co
     octets_store_sum(ENTRY_OCTETS, sum[1], odd[1], to + half->count[0]);
 }
 
-void cage_elastic_pull(const Model *model, Work *w)
+void cage_elastic_pull(const Model *model, ElasticJoints *joints)
 {
-    const ElasticHalf *half = model->elastic;
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const ElasticHalf *half = model->modes;
+    const double inv_R = model->d->inv_R;
     ball_array across[PAD_IN];
     for (int k = 0; k < Z; k++) {
         const double c = model->d->rivet_y[k] * inv_R, s = model->d->rivet_z[k] * inv_R;
-        across[0][k] = c * w->joint_F_y[k] + s * w->joint_F_z[k];
-        across[1][k] = c * w->joint_F_z[k] - s * w->joint_F_y[k];
+        across[0][k] = c * joints->F_y[k] + s * joints->F_z[k];
+        across[1][k] = c * joints->F_z[k] - s * joints->F_y[k];
     }
-    pads_pull(half, PAD_OUT, w->joint_load, half->out_modes[0][0], OUT_PADS, w->pull_S);
-    pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_PADS, w->pull_D);
+    pads_pull(half, PAD_OUT, joints->load, half->out_modes[0][0], OUT_PADS, joints->pull_S);
+    pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_PADS, joints->pull_D);
 }
 
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
 {
-    const ElasticHalf *half = model->elastic;
+    const ElasticHalf *half = model->modes;
     const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m;
     mode_array mirrored, opposed, rates, lost, one;
     scalar spin[2];
@@ -303,12 +275,13 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         spin[h] = s * s;
     }
     for (int i = 0; i < MODES; i++) {
-        const scalar f_0 = w->wall_force[0][i] + spin[0] * half->spin[i];
-        const scalar f_1 = w->wall_force[1][i] + spin[1] * half->spin[i];
+        const scalar f_0 = w->elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
+        const scalar f_1 = w->elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];
         mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
     }
 
-    cage_elastic_pull(model, w);
+    ElasticJoints *joints = &w->elastic.joints;
+    cage_elastic_pull(model, joints);
 
     // rates, energy and dissipation
     for (int i = 0; i < MODES; i++) {
@@ -317,9 +290,9 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         y_dot[Y_MODE_S + i] = S_dot;
         y_dot[Y_MODE_D + i] = D_dot;
         y_dot[Y_MODE_S_DOT + i] =
-            inv_m * (mirrored[i] - w->pull_S[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
+            inv_m * (mirrored[i] - joints->pull_S[i]) - half->damping[i] * S_dot - half->omega_2[i] * S;
         y_dot[Y_MODE_D_DOT + i] =
-            inv_m * (opposed[i] + w->pull_D[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
+            inv_m * (opposed[i] + joints->pull_D[i]) - half->damping[i] * D_dot - half->omega_2[i] * D;
         const scalar v_2 = S_dot * S_dot + D_dot * D_dot;
         rates[i] = v_2 + half->omega_2[i] * (S * S + D * D);
         lost[i] = half->damping[i] * v_2;
@@ -327,9 +300,17 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
     for (int i = half->n; i < MODES; i++)
         y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
-    w->modes_energy = 0.5 * m * elastic_sum(half, rates, one);
-    w->modes_dissipated = m * elastic_sum(half, lost, one);
+    w->elastic.energy = 0.5 * m * elastic_sum(half, rates, one);
+    w->elastic.dissipated = m * elastic_sum(half, lost, one);
     for (int h = 0; h < 2; h++)
-        w->modes_energy +=
-            0.5 * w->more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
+        w->elastic.energy +=
+            0.5 * w->elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
+}
+
+void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)
+{
+    const ElasticJoints *joints = &w->elastic.joints;
+    JointShear shear;
+    cage_joint_carried(model, w, &shear);
+    cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
 }

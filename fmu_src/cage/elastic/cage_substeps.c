@@ -69,12 +69,6 @@ static void give(const Model *model, const Rotor *h0, double h, const double rel
     }
 }
 
-void cage_substeps_kick(const Model *model, const Work *w, double h, const double rigid[RELATIVE_MOTIONS],
-                        double *y)
-{
-    give(model, &w->half[0], h, rigid, Y_CAGE_V_X, y);
-}
-
 // The relative motions at the joints by rates f of both halves: the inverse of `give`.
 static void take(const Model *model, const Rotor *h0, const double *f, double relative[RELATIVE_MOTIONS])
 {
@@ -93,24 +87,24 @@ static void take(const Model *model, const Rotor *h0, const double *f, double re
 
 // Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in
 // y, by the modes' springs.
-static void fast_accelerations(const Model *model, const double *y, const Work *w, double modes[2 * N_MODES],
-                               double rigid[RELATIVE_MOTIONS])
+static void fast_accelerations(const Model *model, const double *y, const ElasticJoints *joints,
+                               double modes[2 * N_MODES], double rigid[RELATIVE_MOTIONS])
 {
-    const ElasticHalf *half = model->elastic;
+    const ElasticHalf *half = model->modes;
     const Derived *d = model->d;
-    const double inv_m = 1.0 / model->p->cage.m, inv_R = 2.0 / rivet_table.joint.d_m;
+    const double inv_m = 1.0 / model->p->cage.m, inv_R = d->inv_R;
     for (int i = 0; i < N_MODES; i++) {
-        modes[i] = -inv_m * w->pull_S[i] - half->omega_2[i] * y[Y_MODE_S + i];
-        modes[N_MODES + i] = inv_m * w->pull_D[i] - half->omega_2[i] * y[Y_MODE_D + i];
+        modes[i] = -inv_m * joints->pull_S[i] - half->omega_2[i] * y[Y_MODE_S + i];
+        modes[N_MODES + i] = inv_m * joints->pull_D[i] - half->omega_2[i] * y[Y_MODE_D + i];
     }
 
     ball_array force[RELATIVE_MOTIONS];  // on half 1
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide r_y = wide_load(&d->rivet_y[k]), r_z = wide_load(&d->rivet_z[k]), c = r_y * inv_R,
                    s = r_z * inv_R;
-        const wide N = wide_load(&w->joint_load[0][k]), M_r = wide_load(&w->joint_load[1][k]),
-                   M_t = wide_load(&w->joint_load[2][k]);
-        const wide F_y = wide_load(&w->joint_F_y[k]), F_z = wide_load(&w->joint_F_z[k]);
+        const wide N = wide_load(&joints->load[0][k]), M_r = wide_load(&joints->load[1][k]),
+                   M_t = wide_load(&joints->load[2][k]);
+        const wide F_y = wide_load(&joints->F_y[k]), F_z = wide_load(&joints->F_z[k]);
         wide_store(&force[X][k], -N);
         wide_store(&force[ABOUT_Y][k], s * M_t - c * M_r - r_z * N);
         wide_store(&force[ABOUT_Z][k], r_y * N - s * M_r - c * M_t);
@@ -123,27 +117,28 @@ static void fast_accelerations(const Model *model, const double *y, const Work *
 
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
 {
-    const ElasticHalf *half = model->elastic;
-    fast_accelerations(model, y, w, fast->modes, fast->rigid);
+    const ElasticHalf *half = model->modes;
+    const ElasticJoints *joints = &w->elastic.joints;
+    fast_accelerations(model, y, joints, fast->modes, fast->rigid);
     fast->omega_2 = cage_elastic_speed_2(w);
     for (int h = 0; h < 2; h++) {
-        memcpy(fast->touch_x[h], w->touch_x[h], sizeof fast->touch_x[h]);
-        memcpy(fast->touch_t[h], w->touch_t[h], sizeof fast->touch_t[h]);
-        memcpy(fast->touch_k[h], w->touch_k[h], sizeof fast->touch_k[h]);
-        memcpy(fast->touch_rate[h], w->touch_rate[h], sizeof fast->touch_rate[h]);
+        memcpy(fast->touch_x[h], w->elastic.touch_x[h], sizeof fast->touch_x[h]);
+        memcpy(fast->touch_t[h], w->elastic.touch_t[h], sizeof fast->touch_t[h]);
+        memcpy(fast->touch_k[h], w->elastic.touch_k[h], sizeof fast->touch_k[h]);
+        memcpy(fast->touch_rate[h], w->elastic.touch_rate[h], sizeof fast->touch_rate[h]);
         memcpy(fast->touch_Q[h], w->pocket[h].Q, sizeof fast->touch_Q[h]);
     }
-    memcpy(fast->e, w->e, sizeof fast->e);
-    memcpy(fast->u_y, w->u_y, sizeof fast->u_y);
-    memcpy(fast->u_z, w->u_z, sizeof fast->u_z);
-    memcpy(fast->T, w->T, sizeof fast->T);
-    memcpy(fast->N_plate, w->N_plate, sizeof fast->N_plate);
+    memcpy(fast->e, joints->e, sizeof fast->e);
+    memcpy(fast->u_y, joints->u_y, sizeof fast->u_y);
+    memcpy(fast->u_z, joints->u_z, sizeof fast->u_z);
+    memcpy(fast->T, joints->rivet[0], sizeof fast->T);
+    memcpy(fast->N_plate, joints->N_plate, sizeof fast->N_plate);
     give(model, &w->half[0], -1.0, fast->rigid, Y_CAGE_V_X, f);
     for (int i = 0; i < N_MODES; i++) {
         f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
         f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
     }
-    f[Y_WORK] += ball_array_sum(w->joint_dissipated) + w->modes_dissipated;
+    f[Y_WORK] += ball_array_sum(w->joint_dissipated) + w->elastic.dissipated;
 }
 
 // Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across
@@ -157,7 +152,7 @@ typedef struct {
 static void rigid_velocities(const Model *model, const Work *w, JointVelocities *v)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const double inv_R = model->d->inv_R;
     double Omega[3];
     for (int i = 0; i < 3; i++) Omega[i] = h1->Omega[i] - h0->Omega[i];
     const double about_y = dot3(h0->b_y, Omega), about_z = dot3(h0->b_z, Omega);
@@ -203,11 +198,12 @@ static void turn_in(double s, double t, const JointVelocities *middle, const dou
     }
 }
 
-// Moves the joints in w for the time h with velocities of the rigid halves, more by `relative`, and of the modes' pads.
+// Moves the joints for the time h with velocities of the rigid halves, more by `relative`, and of the modes' pads.
 static void move_joints(const Model *model, double h, const JointVelocities *v,
-                        const double relative[RELATIVE_MOTIONS], ball_array out[3], ball_array in[2], Work *w)
+                        const double relative[RELATIVE_MOTIONS], ball_array out[3], ball_array in[2],
+                        ElasticJoints *joints)
 {
-    const double inv_R = 2.0 / rivet_table.joint.d_m;
+    const double inv_R = model->d->inv_R;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide r_y = wide_load(&model->d->rivet_y[k]), r_z = wide_load(&model->d->rivet_z[k]);
         const wide c = r_y * inv_R, s = r_z * inv_R, r = wide_load(&in[0][k]), t = wide_load(&in[1][k]);
@@ -216,13 +212,14 @@ static void move_joints(const Model *model, double h, const JointVelocities *v,
                                wide_load(&v->out[1][k]) + (c * relative[ABOUT_Y] + s * relative[ABOUT_Z]),
                                wide_load(&v->out[2][k]) + (c * relative[ABOUT_Z] - s * relative[ABOUT_Y])};
         for (int i = 0; i < 3; i++)
-            wide_store(&w->e[i][k], wide_load(&w->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
+            wide_store(&joints->e[i][k],
+                       wide_load(&joints->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
         const wide v_y = wide_load(&v->y[k]) + (relative[ACROSS_Y] - r_z * relative[SPIN]) + (c * r - s * t);
         const wide v_z = wide_load(&v->z[k]) + (relative[ACROSS_Z] + r_y * relative[SPIN]) + (s * r + c * t);
-        wide_store(&w->v_jy[k], v_y);
-        wide_store(&w->v_jz[k], v_z);
-        wide_store(&w->u_y[k], wide_load(&w->u_y[k]) + h * v_y);
-        wide_store(&w->u_z[k], wide_load(&w->u_z[k]) + h * v_z);
+        wide_store(&joints->v_y[k], v_y);
+        wide_store(&joints->v_z[k], v_z);
+        wide_store(&joints->u_y[k], wide_load(&joints->u_y[k]) + h * v_y);
+        wide_store(&joints->u_z[k], wide_load(&joints->u_z[k]) + h * v_z);
     }
 }
 
@@ -256,7 +253,7 @@ static void move_modes(const HalfDamping *damping, double h, const double *fast,
 // Power that the modes' damping takes at the velocities v.
 static double modes_lose(const Model *model, const double *v)
 {
-    const double *c = model->elastic->damping, *v_S = v, *v_D = v + N_MODES;
+    const double *c = model->modes->damping, *v_S = v, *v_D = v + N_MODES;
     double part[8] = {0.0};
     for (int i = 0; i < N_MODES; i += 8)
         for (int k = 0; k < 8; k++) part[k] += c[i + k] * (v_S[i + k] * v_S[i + k] + v_D[i + k] * v_D[i + k]);
@@ -310,7 +307,7 @@ static int find_touches(const ElasticHalf *half, const FastState *fast, const do
 static void slow_accelerations(const Model *model, double t, const double *at_start, const Touch *touches,
                                int count, const double *q, double slow[2 * N_MODES])
 {
-    const ElasticHalf *half = model->elastic;
+    const ElasticHalf *half = model->modes;
     memcpy(slow, at_start, 2 * N_MODES * sizeof *slow);
     for (const Touch *touch = touches; touch < touches + count; touch++) {
         const double u = touch_motion(half, touch, q) - touch->from;
@@ -331,9 +328,9 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
 }
 
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             Foreseen *foreseen, Work *w)
+                             Foreseen *foreseen, const Work *w)
 {
-    const ElasticHalf *half = model->elastic;
+    const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
     const double sub = h / steps;
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
@@ -345,12 +342,16 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     Touch touches[2 * Z];
     HalfDamping damping;
 
-    // where the joints are, and what the step holds
-    memcpy(w->e, fast->e, sizeof fast->e);
-    memcpy(w->u_y, fast->u_y, sizeof fast->u_y);
-    memcpy(w->u_z, fast->u_z, sizeof fast->u_z);
-    memcpy(w->T, fast->T, sizeof fast->T);
-    memcpy(w->N_plate, fast->N_plate, sizeof fast->N_plate);
+    // the joints at the step's start
+    ElasticJoints joints;
+    const JointStiffness k_in = cage_elastic_stiffness(model);
+    const JointMotion at = {joints.u_y,      joints.u_z,     joints.v_y, joints.v_z,
+                            joints.rivet[0], joints.N_plate, NULL};
+    memcpy(joints.e, fast->e, sizeof fast->e);
+    memcpy(joints.u_y, fast->u_y, sizeof fast->u_y);
+    memcpy(joints.u_z, fast->u_z, sizeof fast->u_z);
+    memcpy(joints.rivet[0], fast->T, sizeof fast->T);
+    memcpy(joints.N_plate, fast->N_plate, sizeof fast->N_plate);
     memcpy(modes, fast->modes, sizeof modes);
     memcpy(rigid, fast->rigid, sizeof rigid);
     const double s = w->half[0].s;
@@ -379,16 +380,16 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         ball_array out[3], in[2];
         cage_elastic_out(half, v_m, out);
         cage_elastic_in(half, v_m + N_MODES, in);
-        move_joints(model, sub, &middle, relative, out, in, w);
-        y[Y_WORK] -= cage_joint_advance(model, w, sub, y) + sub * modes_lose(model, v_m);
+        move_joints(model, sub, &middle, relative, out, in, &joints);
+        y[Y_WORK] -= cage_joint_advance(model, sub, &k_in, &at, y) + sub * modes_lose(model, v_m);
         slow_accelerations(model, step * sub, &f[Y_MODE_S_DOT], touches, count, q, foreseen->modes);
         if (step == steps) break;
 
         // accelerations there, of which the second half
-        cage_elastic_loads(model, P, w);
-        cage_joint_shear(model, y, w);
-        cage_elastic_pull(model, w);
-        fast_accelerations(model, y, w, modes, rigid);
+        cage_elastic_loads(model, P, &joints);
+        cage_joint_shear(model, y, &k_in, joints.u_y, joints.u_z, joints.F_y, joints.F_z);
+        cage_elastic_pull(model, &joints);
+        fast_accelerations(model, y, &joints, modes, rigid);
         turn_out(s * (step * sub - 0.5 * h), rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
@@ -400,4 +401,14 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     give(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     give(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
     return sub;
+}
+
+void cage_substeps_finish(const Model *model, const Work *w, double substep, const FastState *fast,
+                          const FastState *before, double *y)
+{
+    double rigid[RELATIVE_MOTIONS];
+    for (int i = 0; i < 2 * N_MODES; i++)
+        y[Y_MODE_S_DOT + i] += 0.5 * substep * (fast->modes[i] - (before ? before->modes[i] : 0.0));
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = fast->rigid[i] - (before ? before->rigid[i] : 0.0);
+    give(model, &w->half[0], 0.5 * substep, rigid, Y_CAGE_V_X, y);
 }

@@ -36,9 +36,10 @@ typedef struct {
 // the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             Foreseen *foreseen, Work *w);
+                             Foreseen *foreseen, const Work *w);
 
-// Adds to the velocities of both halves in y what the relative accelerations `rigid` give in the time h [s].
-#define cage_substeps_kick FOR_ISA(cage_substeps_kick)
-void cage_substeps_kick(const Model *model, const Work *w, double h, const double rigid[RELATIVE_MOTIONS],
-                        double *y);
+// Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the
+// fast accelerations at `fast`, less those at `before` if there are any.
+#define cage_substeps_finish FOR_ISA(cage_substeps_finish)
+void cage_substeps_finish(const Model *model, const Work *w, double substep, const FastState *fast,
+                          const FastState *before, double *y);

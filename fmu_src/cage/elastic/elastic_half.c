@@ -1,6 +1,7 @@
 // What a scene takes of a half's vibration modes: see elastic_half.h.
 #include "cage/elastic/elastic_half.h"
 
+#include "cage/common/centrifugal.h"
 #include "numbers/elementary.h"
 #include "numbers/elimination.h"
 #include "rivet/rivet_rom.h"
@@ -406,8 +407,7 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
-                if (p->cage.centrifugal == SWITCH_ON && coordinate == 0)
-                    half->spin[i] = denser * unit * mode->spin;
+                if (coordinate == 0) half->centrifugal[i] = cage_centrifugal(p) * unit * mode->spin;
             }
         for (int entry = taken; entry < table->entries; entry++)
             if (has(&table->entry[entry], coordinate)) leave_mode(table, entry, coordinate, half, R);
@@ -443,7 +443,7 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
     double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, behind[PAD_OUT], load[PAD_OUT], rivet[3], U;
     for (int i = 0; i < half->n; i++) {
         const double moment = half->alike[i] ? Z * half->out[i][2 * FIRST] * x[1] : 0.0;
-        S[i] = (root * half->spin[i] * omega_2 - moment) / (p->cage.m * half->omega_2[i]);
+        S[i] = (root * half->centrifugal[i] * omega_2 - moment) / (p->cage.m * half->omega_2[i]);
         e[0] += 0.5 * S[i] * half->out[i][0];
         e[2] += 0.5 * S[i] * half->out[i][2 * FIRST];
     }
@@ -480,7 +480,7 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
                          double *S)
 {
     double x[2] = {0.0, 0.0};
-    find_rest(p, half, omega * omega, fmax(d->P_mean + d->spin[ROW_DP] * omega * omega, 0.0), x, S);
+    find_rest(p, half, omega * omega, fmax(d->P_mean + d->centrifugal[ROW_DP] * omega * omega, 0.0), x, S);
     return x[0];
 }
 

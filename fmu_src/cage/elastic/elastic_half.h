@@ -45,7 +45,7 @@ struct ElasticHalf {
     int count[2], octets;                            // coordinates a and b; blocks of eight of the more
     int entry[MODES];                                // of the table, of each coordinate
     double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
-    double spin[MODES];                              // modal force per (rad/s)^2
+    double centrifugal[MODES];                       // modal force per (rad/s)^2
     bool alike[MODES];                               // moves all joints alike and does not twist them
     bool pair[MODES];                                // one of two modes of the same frequency
     _Alignas(64) double out[MODES][8 * OUT_OCTETS];  // motions of the pads against each other by S, in rows
@@ -128,17 +128,6 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);
-
-// Energy of all joints between the halves, and of what the modes leave of the halves around them, from e, L^ and U.
-INLINE scalar elastic_potential(const Work *w)
-{
-    scalar V = 0.0;
-    for (int k = 0; k < Z; k++) {
-        for (int a = 0; a < PAD_OUT; a++) V += 0.5 * w->e[a][k] * w->joint_behind[a][k];
-        V -= w->joint_U[k];
-    }
-    return 2.0 * V;
-}
 
 // Sum over the modes in one order for every lane width.
 INLINE scalar elastic_sum(const ElasticHalf *half, const scalar *x, const scalar *y)

@@ -3,18 +3,6 @@
 
 #include "numbers/octet.h"
 
-void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
-                scalar V_y[Z], scalar V_z[Z])
-{
-    const double R = 0.5 * d_m;
-    const scalar shear = wrench[3] / (Z * R);
-    for (int k = 0; k < Z; k++) {
-        N[k] = wrench[0] / Z + 2.0 * (wrench[4] * s[k] - wrench[5] * c[k]) / (Z * R);
-        V_y[k] = wrench[1] / Z - shear * s[k];
-        V_z[k] = wrench[2] / Z + shear * c[k];
-    }
-}
-
 enum { TERMS = 6, NODE = TERMS * Z * ROWS };  // of a node: terms, numbers of all terms
 
 _Static_assert(ROWS == 8, "the rows of a joint are an octet");

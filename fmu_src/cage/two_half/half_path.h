@@ -1,5 +1,4 @@
-// From pocket forces to the loads that bonded joints of elastic halves would carry, and the rigid share of the
-// circle of rivets.
+// From pocket forces to the loads that bonded joints of halves that bend would carry.
 //
 // Seen from +X, the rivets are at the body angles 2 pi (k + 1/2)/Z on the circle of diameter d_m, the pockets
 // at 2 pi j/Z; e_x is axial, e_r points outward, e_t toward growing angle (right-handed x, r, t).
@@ -21,10 +20,6 @@
 // pocket j depend on (k - j) mod Z only.  push_t < 0 acts as the mirror image about the pocket does (rivet
 // -1 - i for i; V_t, M_r and dm_r change sign), a force on the -x half as its mirror image on the +x half does
 // (V changes sign).
-//
-// Rigid share: a wrench between two rigid halves acts on Z equal elastic rivets (bolt group; the rivets' own
-// bending stiffness is neglected),
-//     N_k = F_x/Z + 2 (M_y r_z,k - M_z r_y,k)/(Z R^2),     V_k = (F_y, F_z)/Z + M_x e_t,k/(Z R),    R = d_m/2.
 #pragma once
 
 #include "numbers/isa.h"
@@ -50,9 +45,3 @@ typedef struct {
 // Sets the rows of all joints by the forces on the halves 0 (-x) and 1 (+x).  Returns false and sets nothing if no
 // pocket is touched.
 bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows);
-
-// Rigid share.  wrench: (F_x, F_y, F_z, M_x, M_y, M_z) that acts on the +x half and that the rivets must
-// carry, taken at the centre of the circle.  c[k], s[k]: cosine and sine of the rivets' angles in the frame
-// of the wrench.  Sets N, V_y, V_z at each rivet [N].
-void bolt_group(double d_m, const scalar wrench[6], const double c[Z], const double s[Z], scalar N[Z],
-                scalar V_y[Z], scalar V_z[Z]);

@@ -1,11 +1,54 @@
-// Joints that open and slip: see joint_law.h for the equations.
-#include "cage/common/joint_law.h"
+// Joints that open and slip: see joint_open.h for the equations.
+#include "cage/two_half/joint_open.h"
 
 enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
 
 static const double NEAR = 0.05, CHANGE = 0.01;
 
 // ---- opening --------------------------------------------------------------------------------------------------------
+// |N| + (|M_r| + |M_t|)/l.
+INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
+{
+    return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
+}
+
+// What all joints have in common, of the table's `alike` for c and P, in newtons.
+ONCE void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
+{
+    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
+    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), law->alike_count - 2.0);
+    const double *from = law->alike[i], *to = law->alike[i + 1];
+    const scalar up = x - i;
+    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
+    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
+}
+
+// Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
+typedef scalar JointMoves[3][2 * Z + LANES];
+
+// L* of all joints by the moves of their neighbours.
+INLINE void find_alone(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide alone[PACKETS][3])
+{
+    for (int p = 0; p < PACKETS; p++)
+        for (int i = 0; i < 3; i++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+    for (int n = 0; n < law->neighbours; n++)
+        for (int m = 0; m < 3; m++) {
+            const scalar *move = &moves[m][Z - law->neighbour[n]];
+            for (int i = 0; i < 3; i++) {
+                const wide K = wide_set(-law->K[n][i][m]);
+                for (int p = 0; p < PACKETS; p++)
+                    alone[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), alone[p][i]);
+            }
+        }
+}
+
+// The move of a joint that carries nothing: K_0 move = L*.
+ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
+{
+    for (int i = 0; i < 3; i++) move[i] = load[i];
+    solve_3(K[0], move);
+}
+
 // What is sought: moves of all joints, L* that the joints have answered to, loads of the rivets.
 typedef struct {
     JointMoves move;
@@ -96,14 +139,41 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
 }
 
-int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
+// Asks the law for the joints that are wanted.
+static void ask_law(const JointLaw *law, const ball_array P, const constants intact, const Wanted *wanted,
+                    Opening *o)
+{
+    LawPlaces at;
+    int placed = 0;  // packets whose places are found
+    for (int n = 0; n < wanted->count; n++) {
+        const int k = wanted->joint[n];
+        scalar move[3], carried[3] = {0.0, 0.0, 0.0}, energy;
+        if (intact[k] > 0.0) {
+            for (; placed <= k; placed += LANE_WIDTH) {
+                if (placed + LANE_WIDTH <= k) continue;
+                const wide L[3] = {wide_load(&o->alone[0][placed]), wide_load(&o->alone[1][placed]),
+                                   wide_load(&o->alone[2][placed])};
+                law_places(law, L, wide_load(&P[placed]), placed, &at);
+            }
+            law_answer(law, &at, k, o->alone[1][k], move, carried, &energy);
+        } else {
+            const scalar load[3] = {o->alone[0][k], o->alone[1][k], o->alone[2][k]};
+            joint_free(law->K_0, load, move);
+        }
+        for (int i = 0; i < 3; i++) {
+            o->move[i][k] = o->move[i][Z + k] = move[i];
+            o->rivet[i][k] = carried[i];
+        }
+    }
+}
+
+void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                 scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
     scalar at[ALIKE_WIDTH];
     wide L[PACKETS][3];
     Opening o;
     Wanted wanted;
-    int asked = 0;
     o.rivet = rivet;
     find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
     find_alone_alike(law, bonded, at, L);
@@ -113,22 +183,7 @@ int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, c
             find_alone(law, bonded, o.move, L);
             answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
-        asked += wanted.count;
-        for (int n = 0; n < wanted.count; n++) {
-            const int k = wanted.joint[n];
-            const scalar alone[3] = {o.alone[0][k], o.alone[1][k], o.alone[2][k]};
-            scalar move[3], carried[3];
-            if (intact[k] > 0.0)
-                joint_law(law, alone, P[k], move, carried, NULL);
-            else {
-                joint_free(law->K_0, alone, move);
-                carried[0] = carried[1] = carried[2] = 0.0;
-            }
-            for (int i = 0; i < 3; i++) {
-                o.move[i][k] = o.move[i][Z + k] = move[i];
-                rivet[i][k] = carried[i];
-            }
-        }
+        ask_law(law, P, intact, &wanted, &o);
     }
     for (int i = 0; i < 3; i++) {
         const wide K[3] = {wide_set(-law->K_0[i][0]), wide_set(-law->K_0[i][1]), wide_set(-law->K_0[i][2])};
@@ -138,7 +193,6 @@ int joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, c
             wide_store(&load[i][k], left);
         }
     }
-    return asked;
 }
 
 // ---- slip -----------------------------------------------------------------------------------------------------------

@@ -1,0 +1,331 @@
+"""The cage as the rest of the model knows it: all that may be called from outside this folder.
+
+Two kinds of cage stand behind these functions, and only this file asks which one runs:
+  two_half/   two rigid halves held by springs and friction of their joints; a static load path to the rivets
+  elastic/    two halves that vibrate; their joints follow from the motion of both pads
+common/ has the parts of both: poses and accelerations of the halves, films, pockets, joints' friction.
+
+             half 0 (-x)   half 1 (+x)
+       ball --> wall | joint k | wall <-- ball        joint k between the pockets k and k + 1
+"""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bearing_model.cage.common.cage_joint import cage_joint_kinematics
+from bearing_model.cage.common.films import N_HALVES, film_matrix, film_rates
+from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
+from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
+from bearing_model.cage.elastic.cage_elastic import (
+    cage_elastic_acceleration,
+    cage_elastic_joints,
+    cage_elastic_kinematics,
+    cage_elastic_rivets,
+    cage_elastic_stiffness,
+)
+from bearing_model.cage.elastic.cage_substeps import (
+    FastState,
+    add_rates,
+    cage_substeps_advance,
+    cage_substeps_finish,
+    cage_substeps_split,
+)
+from bearing_model.cage.elastic.elastic_half import elastic_half_derive, elastic_half_rest
+from bearing_model.cage.two_half.two_half import (
+    TwoHalfMemory,
+    two_half_advance,
+    two_half_correct,
+    two_half_joints,
+    two_half_loads,
+    two_half_matrices,
+    two_half_remember,
+    two_half_stiffness,
+)
+from bearing_model.generated.variables import (
+    CAGE_BETA,
+    CAGE_GAMMA,
+    CAGE_PSI,
+    CAGE_X,
+    CAGE_Y,
+    CAGE_Z,
+    JOINT_HEAD_Y,
+    JOINT_HEAD_Z,
+    JOINT_PLATE_Y,
+    JOINT_PLATE_Z,
+    MODE_D,
+    MODE_D_DOT,
+    MODE_S,
+    MODE_S_DOT,
+    CageModel,
+)
+from bearing_model.numbers.lanes import ball_array_sum, maximum
+from bearing_model.numbers.vec import vec_cross, vec_dot
+from bearing_model.physics.hertz import hertz_energy, hertz_load
+from bearing_model.physics.rotor import rotor_roll
+
+ROW_DP = 5
+PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes
+
+
+@dataclass
+class CageMemory:
+    """Carried from an evaluation to the next step, of the kind of cage that runs."""
+
+    path: TwoHalfMemory = None
+    fast: FastState = None
+
+
+@dataclass
+class CageStep:
+    """Between the stages of a step: slow accelerations at the end as the halves' own substeps foresee them, of the modes
+    [2, n] and of the halves [12]; length of the substeps [s], 0 without any.
+    """
+
+    modes: np.ndarray = 0.0
+    halves: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
+    substep: float = 0.0
+
+
+# ------------------------------------------------------------------------------------------------------------ parameters
+
+
+def cage_refusal(p, table):
+    """The reason why there is no such cage, or None."""
+    if p.scene.cage == CageModel.TWO_HALF:
+        return None
+    if p.scene.cage != CageModel.ELASTIC:
+        return (
+            "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes the same time, "
+            "and elastic (3)"
+        )
+    if table.modes is None:
+        return "scene.cage = elastic: the rivet table has no vibration modes"
+    return None
+
+
+def cage_vibrates(p):
+    """Whether the state has modes."""
+    return p.scene.cage == CageModel.ELASTIC
+
+
+def cage_derive(p, d, table):
+    """Model.modes: the vibration modes of elastic halves, else None."""
+    return elastic_half_derive(p, d, table) if cage_vibrates(p) else None
+
+
+def cage_orbit_scale(p):
+    """Part of the velocity scale that a ball's velocity along its orbit gets: it decides how the ball meets its pocket, less
+    so where walls give way.
+    """
+    return 1.0 / 3.75 if cage_vibrates(p) else 1.0 / 6.0
+
+
+def cage_rest(model, omega, y):
+    """Puts the cage, which turns steadily with the speed omega [rad/s], into its rest under the centrifugal load: modes, and
+    elastic halves as far apart as their bodies are then.
+    """
+    if model.modes is None:
+        return
+    P = max(model.d.P_mean + model.d.centrifugal[ROW_DP] * omega**2, 0.0)
+    S, (apart, _) = elastic_half_rest(model.modes, model.p.cage.m, omega**2, P)
+    y[MODE_S][: len(S)] = S
+    beta, gamma = y[CAGE_BETA][0], y[CAGE_GAMMA][0]
+    along = np.sqrt(1.0 - beta**2 - gamma**2), gamma, -beta
+    for place, a in zip((CAGE_X, CAGE_Y, CAGE_Z), along, strict=True):
+        y[place] += 0.5 * apart * a * np.array([-1.0, 1.0])
+
+
+# ------------------------------------------------------------------------------------------- one evaluation, in this order
+
+
+def cage_kinematics(model, y, w):
+    """Poses and velocities of the halves; coordinates of the modes."""
+    halves_kinematics(model, y, w)
+    if model.modes:
+        cage_elastic_kinematics(model, y, w)
+
+
+def cage_pockets(model, w):
+    """Contacts of balls and pockets: adds to balls and halves (race_contact_force before)."""
+    (pocket_elastic if model.modes else pocket_rigid)(model, w)
+
+
+def cage_joints(model, y, w):
+    """Forces of the joints on the halves, rates of their friction, tension of the rivets."""
+    cage_joint_kinematics(model, w)
+    (cage_elastic_joints if model.modes else two_half_joints)(model, y, w)
+
+
+def cage_acceleration(model, y, w, y_dot):
+    """Rates of all states of the cage under the forces on the halves."""
+    halves_acceleration(model, y, w, y_dot)
+    y_dot[..., JOINT_PLATE_Y], y_dot[..., JOINT_PLATE_Z] = w.plate_y_dot, w.plate_z_dot
+    y_dot[..., JOINT_HEAD_Y], y_dot[..., JOINT_HEAD_Z] = w.head_y_dot, w.head_z_dot
+    if model.modes:
+        cage_elastic_acceleration(model, y, w, y_dot)
+
+
+# --------------------------------------------------------------------------------- one step of the default method (verlet.py)
+
+
+def cage_split(model, y, w, f):
+    """Separates the part that the cage advances by itself from the rates f at the state y, where w was evaluated; returns
+    it as CageMemory.
+    """
+    if model.modes:
+        return CageMemory(fast=cage_substeps_split(model, y, w, f))
+    return CageMemory(path=two_half_remember(w))
+
+
+def cage_advance(model, h, y_0, f, memory, middle, y, w):
+    """Over a step h [s] from the state y_0, its rates f and its memory: rotations, friction states and modes in y, whose
+    other rows have their values at the end; middle: the state in the middle.  Returns the CageStep.
+    """
+    halves_kinematics(model, middle, w)
+    y[CAGE_PSI] = y_0[CAGE_PSI] + h * np.concatenate([half.s - rotor_roll(half) for half in w.half])
+    cage_joint_kinematics(model, w)
+    if not model.modes:
+        two_half_advance(model, h, memory.path, w, y)
+        return CageStep()
+    substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, y, w)
+    return CageStep(modes, halves.ravel(), substep)
+
+
+def cage_predict(model, w, step, memory, y):
+    """Predicted velocities in y for the evaluation at the end."""
+    if model.modes:
+        add_rates(model, 0.5 * step.substep * step.modes, y)
+        cage_substeps_finish(model, w, step.substep, memory.fast, None, y)
+
+
+def cage_arrive(model, w, step, before, y, f):
+    """After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
+    the last substep.  Returns the CageMemory.
+    """
+    memory = cage_split(model, y, w, f)
+    if model.modes:
+        cage_substeps_finish(model, w, step.substep, memory.fast, before.fast, y)
+    return memory
+
+
+def cage_foreseen(step):
+    """Changes of the halves' accelerations [12] as their substeps foresee them."""
+    return step.halves
+
+
+def cage_films(model, film, gamma, v):
+    """(1 + gamma A)^-1 v of the halves' velocities v [12] by films of the given matrices [2, 2, 2] alone."""
+    return np.linalg.solve(np.eye(N_HALVES) + gamma * film_rates(model, film), v)
+
+
+def cage_film_matrices(w):
+    """-dF/dv [2, 2, 2] of the films of both lands [N.s/m]."""
+    return np.array([film_matrix(film) for film in w.film])
+
+
+def cage_matrices(model, w, gamma):
+    """Rates by the films; rates and stiffnesses of the joints along the axis, stiffness across it, a factor of the matrix of
+    its own, [12, 12] each; weights of the position corrections along the axis and across it.
+    """
+    films = film_rates(model, cage_film_matrices(w), [float(film.spin[0]) for film in w.film])
+    none = np.zeros((N_HALVES, N_HALVES))
+    return films, *((none, none, none, 0.0, 0.0) if model.modes else two_half_matrices(model, w, gamma))
+
+
+def cage_correct(model, w, gamma, axial, shear, delta, y):
+    """Positions and friction states in y follow the corrections delta [12] of the velocities."""
+    if not model.modes:
+        two_half_correct(model, w, gamma, axial, shear, delta, y)
+
+
+def cage_remember(model, step, h, second, start, end, error):
+    """Rates of the modes at the end of a step from `start` to `end` (VerletState), their history and their error; second:
+    h^2 over the mean of the last two steps.
+    """
+    if not model.modes:
+        return
+    n = model.modes.n
+    add_rates(model, 0.5 * h * (np.array([end.f[block][:n] for block in (MODE_S_DOT, MODE_D_DOT)]) - step.modes), end.y)
+    end.jerk[RATES] = (end.f - start.f)[RATES] / h
+    error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
+    end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
+
+
+def cage_longest_step(model, film):
+    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of elastic halves three substeps, or
+    the time 1/A that a film of the rate A allows, but two substeps at least.
+    """
+    if not model.modes:
+        return np.inf
+    rate, d = np.max(np.trace(film, axis1=1, axis2=2)), model.modes.substep
+    return min(3.0 * d, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
+
+
+# ------------------------------------------------------------------------------------------------- read from an evaluation
+
+
+def cage_loads(model, w):
+    """JointLoads of all joints, of which the stress table takes those of the rivets."""
+    return (cage_elastic_rivets if model.modes else two_half_loads)(model, w)
+
+
+def joints_in_plane(model, w):
+    """Offsets (y, z) [2, ..., Z] of the joints in the plane [m], and their stiffnesses."""
+    if model.modes:
+        return w.elastic.joints.u, cage_elastic_stiffness(model)
+    return w.u[1:], two_half_stiffness(model.d)
+
+
+def cage_slip(model, w):
+    """Slip of half 1 against half 0 at each joint, in the plane [m]."""
+    return np.hypot(*joints_in_plane(model, w)[0])
+
+
+def pocket_energy(model, w):
+    """Elastic energy of all pockets [J], [..., Z]; of elastic walls also that in their compliance, beside their modes."""
+    d, E = model.d, 0.0
+    for h, delta in enumerate(w.delta_c):
+        load, energy, _ = pocket_share(d, h, pocket_gap(model, w, h).n_x, delta)
+        E = E + energy * hertz_energy(d.pocket.K, delta)
+        if model.modes:
+            Q = load * hertz_load(d.pocket.K, delta)
+            E = E + 0.5 * model.modes.compliance * Q * Q
+    return E
+
+
+def joint_energy(model, y, w):
+    """Elastic energy of the joints [J], [..., Z]: out of the plane, friction states and holes."""
+    d, (u, k) = model.d, joints_in_plane(model, w)
+    if model.modes:  # of the joints, and of the halves around them beside their modes
+        j = w.elastic.joints
+        axial = 2.0 * (0.5 * np.sum(j.e * j.trial, axis=0) - j.U)
+    else:
+        axial = 0.5 * (w.two_half.pull**2 / d.k_rivet + w.two_half.push**2 / d.k_plate)
+    plates, heads = (
+        y[..., a] ** 2 + y[..., b] ** 2 for a, b in ((JOINT_PLATE_Y, JOINT_PLATE_Z), (JOINT_HEAD_Y, JOINT_HEAD_Z))
+    )
+    bearing = maximum(np.sqrt(u[0] * u[0] + u[1] * u[1] + 1e-30) - d.hole_gap, 0.0)
+    return axial + 0.5 * (k.plate * plates + k.head * heads + k.hole * bearing**2)
+
+
+def cage_energy(model, y, w):
+    """Kinetic energy of the halves, elastic energy of pockets, joints and modes [J] by name, each [..., 1]."""
+    p, d, motion = model.p, model.d, 0.0
+    for half in w.half:
+        v = half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
+        motion = motion + 0.5 * (p.cage.m * vec_dot(v, v) + d.J_t * vec_dot(half.a_dot, half.a_dot) + d.J_p * half.s**2)
+    terms = {
+        "motion of the cage": motion,
+        "pockets, elastic": ball_array_sum(pocket_energy(model, w)),
+        "joints, elastic": ball_array_sum(joint_energy(model, y, w)),
+    }
+    return terms | {"modes of the cage": w.elastic.energy} if model.modes else terms
+
+
+def cage_flex(model, w, h):
+    """Motions (x, r, t) [3, ..., Z] of half h at the rivets by its modes [m]; half 0 is the mirror image of half 1."""
+    if not model.modes:
+        return np.zeros((3, *w.x.shape))
+    side = 1.0 if h == 1 else -1.0
+    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], w.elastic.q[h][..., 0, :], model.modes.pad[:, :3])

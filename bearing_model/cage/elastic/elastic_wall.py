@@ -1,0 +1,49 @@
+"""The walls of an elastic half's pockets: motions by the modes where balls touch them.  Equations in half_modes.py."""
+
+import numpy as np
+
+from bearing_model.numbers.lanes import absolute, maximum
+
+
+def elastic_wall_shape(half, side, n_x, n_t):
+    """Motions (x, r, t) [3, ..., Z, n] of the walls by all modes where the contacts are, and their slopes over the
+    wall's angle.
+    """
+    chi = maximum(np.arctan(side * n_x / maximum(absolute(n_t), 1e-30)), 0.0)
+    i = np.clip(np.searchsorted(half.chi, np.real(chi), side="right") - 1, 0, len(half.chi) - 2)
+    h = half.chi[i + 1] - half.chi[i]
+    u = (chi - half.chi[i]) / h
+    v = 1.0 - u
+    terms = half.pocket[i], half.slope[i], half.pocket[i + 1], half.slope[i + 1]  # [..., Z, n, 3, 2]
+    value = v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v), -h * u * u * v
+    slope = -6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)
+    back = np.where(np.real(n_t) < 0.0, -1.0, 1.0)[..., None, None, None] * np.array(
+        [[0.0, 1.0], [0.0, 1.0], [1.0, 0.0]]
+    ) + [
+        [1.0, 0.0],
+        [1.0, 0.0],
+        [0.0, 1.0],
+    ]
+    wave = np.moveaxis(half.wave, 2, 0)[:, :, None, :]  # [Z, n, 1, 2]
+
+    def shapes(weights):
+        A = sum(w[..., None, None, None] * term for w, term in zip(weights, terms, strict=True))
+        return np.moveaxis(np.sum(A * back * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(
+            -1, *[1] * (A.ndim - 2)
+        )
+
+    on_wall = np.real(side * n_x) > 0.0
+    return shapes(value), shapes(slope) * on_wall[..., None]
+
+
+def elastic_wall(model, w, h, n_x, n_t, S, delta):
+    """Motion and velocity (x, r, t) [3, ..., Z] of the walls of half h along the ball's pocket axes; slope of n.u
+    across n; the modes' shapes there.
+    """
+    shape, shape_chi = elastic_wall_shape(model.modes, 2 * h - 1, n_x, n_t)
+    q, q_dot = w.elastic.q[h], w.elastic.q_dot[h]
+    near = np.real(delta) + w.elastic.reach[h] > 0.0  # others cannot have been reached
+    u, u_dot, u_chi = (np.sum(a * b, axis=-1) * near for a, b in ((shape, q), (shape, q_dot), (shape_chi, q)))
+    turn = (2 * h - 1) * np.where(np.real(n_t) < 0.0, -1.0, 1.0)
+    slope = (n_t * u[0] - n_x * u[2] + turn * (n_x * u_chi[0] + n_t * u_chi[2])) / S
+    return u, u_dot, slope, shape

@@ -1,0 +1,228 @@
+"""Rigid cage halves and the loads of their rivets.
+
+Joint k, along the axis: springs between the halves, u_x the distance of the holes beyond their place under preload,
+
+    pull = max(0, P + k_rivet u_x)     the rivet and the flanges under its heads
+    push = max(0, P - k_plate u_x)     the plates, damped by c v_x push/(push + F_floor)
+
+A rigid half carries the load of a pocket straight to all joints.  A half that bends also pries at the joints beside the
+pocket, and the cage's own centrifugal load pries at all of them.  So the joint's load is the rigid share, pull - push,
+and the load of bonded joints of halves that bend (half_path.py).  Joints that open and slip relieve it (joint_open.py);
+in the plane they have for it the friction and the play that the rigid share leaves.  T, the tension of the rivet, and
+N_plate = T - N, the force between the plates, are those of this load: friction has them, and so have the outputs.  The
+springs alone move the halves.
+
+The work of the added loads is that of the halves' elastic deformation, which rigid halves do not have: on rigid halves
+the centrifugal loads of all parts balance, so that they do no work and the energy balance has no term for them.
+
+In a frame that turns, the centrifugal load is that of the speed in the fixed frame; a uniform field of gravity or of
+the frame's acceleration acts on a half as its own acceleration does, and is in the load path's balance of forces.
+
+The tangential inertia load of a cage whose speed changes (Euler's) is to the centrifugal one as omega_dot to omega^2:
+1.3 % in a run-up to 18,238 r/min within 0.1 s, 0.013 % within 10 s, so it is left out.
+
+Loads are on the +x half, in the frames (x, r, t) of the rivets, at body angles 2 pi (k + 1/2)/Z of half 0.
+Smoothness: C0 at opening, where a spring of finite stiffness begins.
+"""
+
+from dataclasses import dataclass
+from types import SimpleNamespace
+
+import numpy as np
+
+from bearing_model.cage.common.cage_joint import (
+    JointMotion,
+    JointStiffness,
+    cage_joint_advance,
+    cage_joint_carried,
+    cage_joint_force,
+    cage_joint_loads,
+)
+from bearing_model.cage.common.films import HALF, N_HALVES
+from bearing_model.cage.two_half.half_path import half_path_rows
+from bearing_model.cage.two_half.joint_open import joints_open, joints_slip
+from bearing_model.generated.variables import (
+    CAGE_BETA,
+    CAGE_GAMMA,
+    CAGE_PSI,
+    CAGE_X,
+    CAGE_Y,
+    CAGE_Z,
+    JOINT_HEAD_Y,
+    JOINT_HEAD_Z,
+    JOINT_PLATE_Y,
+    JOINT_PLATE_Z,
+    Z,
+)
+from bearing_model.numbers.lanes import maximum
+
+ROW_M_T, ROW_DP = 4, 5
+
+
+@dataclass
+class TwoHalfMemory:
+    """Part of the rivets' tension and of the plates' force that the springs do not have [N], [Z]: the addition of the load
+    path.  It is carried from an evaluation to the middle of the next step.
+    """
+
+    T: np.ndarray
+    N_plate: np.ndarray
+
+
+def two_half_stiffness(d):
+    """Stiffnesses of the joints in the plane."""
+    return JointStiffness(d.k_plate_t, d.k_head, d.k_hole)
+
+
+# --------------------------------------------------------------------------------------------------------------- joints
+
+
+def springs(d, u_x):
+    """Pull and push of the springs at distances u_x [..., Z] of the holes [N]."""
+    return d.intact * maximum(d.P + d.k_rivet * u_x, 0.0), maximum(d.P - d.k_plate * u_x, 0.0)
+
+
+def bonded_rows(model, w, omega_2):
+    """Rows [..., Z, 8] of bonded joints by pocket forces and the centrifugal load; omega_2: square of the halves' speed in
+    space [..., 1].
+    """
+    half = model.d.table.half
+    rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F) for h, on in enumerate(w.pocket))
+    return rows + omega_2[..., None] * model.d.centrifugal
+
+
+def open_joints(model, w):
+    """Loads of the joints by their springs' forces and the load path: sets load, rivet [3, ..., Z], N_plate, bonded_V."""
+    d, t = model.d, w.two_half
+    omega_2 = 0.5 * ((w.half[0].s + w.frame_omega) ** 2 + (w.half[1].s + w.frame_omega) ** 2)
+    N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(bonded_rows(model, w, omega_2), -1, 0)
+    t.bonded_V = np.array([V_r, V_t])
+    bonded = np.stack([t.pull - t.push + N, M_r, M_t], axis=-1)
+    P = d.intact * maximum(d.P + dP, 0.0)
+    spin_M, spin_P = omega_2 * d.centrifugal[ROW_M_T], maximum(d.P_mean + omega_2 * d.centrifugal[ROW_DP], 0.0)
+    load, rivet, _ = joints_open(
+        d.table.half.law, bonded, P, spin_M[..., 0], spin_P[..., 0], intact=np.asarray(d.intact) > 0.0
+    )
+    t.load, (T, m_r, m_t) = np.moveaxis(load, -1, 0), np.moveaxis(rivet, -1, 0)
+
+    # The plates of a joint without a rivet are pressed by the springs alone.
+    T = maximum(T, 0.0)
+    t.N_plate = np.where(d.intact > 0.0, maximum(T - t.load[0], 0.0), t.push)
+    t.rivet = np.array([T, d.intact * (m_r + dm_r), d.intact * (m_t + dm_t)])
+
+
+def two_half_joints(model, y, w):
+    """Forces of the joints (cage_joint_kinematics before), tension of the rivets."""
+    t = w.two_half = SimpleNamespace()
+    t.pull, t.push = springs(model.d, w.u[0])
+    open_joints(model, w)
+    damping = model.d.c_joint * t.push / (t.push + model.p.joint.F_floor)
+    F_x = t.push - t.pull - damping * w.v_j[0]
+    at = JointMotion(w.u[1:], w.v_j[1:], t.rivet[0], t.N_plate, F_x)
+    cage_joint_force(model, y, two_half_stiffness(model.d), at, w)
+    w.joint_dissipated = w.joint_dissipated + damping * w.v_j[0] * w.v_j[0]
+
+
+# ---------------------------------------------------------------------------------------------------- loads of the rivets
+
+
+def two_half_loads(model, w):
+    """JointLoads of all joints and their rivets."""
+    d, t, mu, shear = model.d, w.two_half, model.p.joint.mu, cage_joint_carried(model, w)
+    plates, heads = (
+        np.maximum(mu * load - np.hypot(*carried), 0.0) for load, carried in ((t.N_plate, w.S), (t.rivet[0], w.H))
+    )
+    gap = np.maximum(d.hole_gap - np.hypot(w.u[1], w.u[2]), 0.0)
+    V = np.moveaxis(t.bonded_V, 0, -1)
+    more = joints_slip(d.table.half.law, V, gap, plates, heads, d.k_head, d.k_hole)[:3]
+    for name, loads in zip(("plates", "heads", "shank"), more, strict=True):
+        setattr(shear, name, getattr(shear, name) + np.moveaxis(loads, -1, 0))
+    return cage_joint_loads(model, t.load, t.rivet, shear)
+
+
+# --------------------------------------------------------------------------------------------------------------- a step
+
+
+def two_half_remember(w):
+    """TwoHalfMemory of an evaluation."""
+    t = w.two_half
+    return TwoHalfMemory(t.rivet[0] - t.pull, t.N_plate - t.push)
+
+
+def two_half_advance(model, h, memory, w, y):
+    """Friction states in y over a step h [s]; w has the kinematics of the joints in its middle."""
+    pull, push = springs(model.d, w.u[0])
+    T, N_plate = maximum(pull + memory.T, 0.0), maximum(push + memory.N_plate, 0.0)
+    cage_joint_advance(model, h, two_half_stiffness(model.d), JointMotion(w.u[1:], w.v_j[1:], T, N_plate), y)
+
+
+def vibration_weights(x_2):
+    """Weights of a vibration between the halves that turns by x = omega h a step, given x^2: of K in the matrix, of the
+    position correction.
+    """
+    part = x_2**2 / (x_2**2 + 1.0)
+    return 1.0 / 3.0 + part * (1.5 - 1.0 / 3.0), 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0)
+
+
+def turned_rivets(model, w):
+    """Places (y, z) [2, Z] of the rivets, turned with half 0."""
+    d, h0 = model.d, w.half[0]
+    return [d.rivet_y * h0.b_y[i] + d.rivet_z * h0.b_z[i] for i in (1, 2)]
+
+
+def joint_matrix(model, w):
+    """Force per axial velocity and per axial offset of half 1 against half 0 [12, 12], of all joints; b = (1, z, -y) of v_x,
+    beta_dot, gamma_dot.  The rivet is stiff while it is tense, the plates while they are pressed together.
+    """
+    d, t, (y, z) = model.d, w.two_half, turned_rivets(model, w)
+    B = np.zeros((Z, N_HALVES))
+    B[:, HALF[[0, 3, 4], 1]] = np.array([np.ones(Z), z, -y]).T
+    B[:, HALF[[0, 3, 4], 0]] = -B[:, HALF[[0, 3, 4], 1]]
+    c = d.c_joint * t.push / (t.push + model.p.joint.F_floor)
+    k = d.k_rivet * (t.pull > 0.0) + d.k_plate * (t.push > 0.0)
+    return B.T * c @ B, B.T * k @ B
+
+
+def shear_matrix(model, w, gamma):
+    """Force per offset [12, 12] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z + s y).
+
+    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the
+    velocity by gamma/(1 + gamma D) within a step.
+    """
+    d, (y, z) = model.d, turned_rivets(model, w)
+    k = d.k_plate_t / (1.0 + gamma * w.plate_rate) + d.k_head / (1.0 + gamma * w.head_rate) + w.k_bearing
+    B = np.zeros((2, Z, N_HALVES))
+    B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T
+    B[1][:, HALF[[1, 2, 5], 1]] = np.array([np.zeros(Z), np.ones(Z), y]).T
+    B[:, :, HALF[:, 0]] = -B[:, :, HALF[:, 1]]
+    return sum(b.T * k @ b for b in B)
+
+
+def two_half_matrices(model, w, gamma):
+    """Rates A and stiffnesses K along the axis, K across it, [12, 12] each, with the weights of the vibrations; weights of
+    the position corrections along the axis and across it.
+    """
+    p, d = model.p, model.d
+    M = np.repeat([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p], 2)[:, None]
+    A, K = (force / M for force in joint_matrix(model, w))
+    K_shear = shear_matrix(model, w, gamma) / M
+    weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A + gamma**2 * K)[HALF[[0, 3, 4], 0]]))
+    weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
+    return weight * A, weight * K, weight_shear * K_shear, axial, shear
+
+
+def two_half_correct(model, w, gamma, axial, shear, delta, y):
+    """Positions and friction states in y follow the corrections delta [12] of the velocities: half 1 against half 0 with
+    weights; z_{n+1} += c gamma u/(1 + gamma D), u the change of the joint's velocity.
+    """
+    d, h0 = model.d, w.half[0]
+    relative = delta[HALF[:, 1]] - delta[HALF[:, 0]]
+    weights = (axial, shear, shear, axial, axial, shear)
+    for q, change, c in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), relative, weights, strict=True):
+        y[q] += 0.5 * c * gamma * change * np.array([-1.0, 1.0])
+    _, dv_y, dv_z, _, _, ds = relative
+    u_y, u_z = (axis[1] * dv_y + axis[2] * dv_z for axis in (h0.b_y, h0.b_z))
+    u = u_y - ds * d.rivet_z, u_z + ds * d.rivet_y
+    for rate, blocks in ((w.plate_rate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (w.head_rate, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
+        for u_i, z in zip(u, blocks, strict=True):
+            y[z] += shear * gamma * u_i / (1.0 + gamma * rate)

@@ -1,0 +1,85 @@
+// The door to the cage, its other half: the choice between the kinds of halves, and whatever happens outside of a step.
+#include "cage/cage.h"
+
+#include "cage/elastic/elastic_half.h"
+#include "numbers/saved_numbers.h"
+
+const char *cage_refusal(const Parameters *p)
+{
+    if (p->scene.cage == CAGE_MODEL_TWO_HALF) return NULL;
+    if (p->scene.cage != CAGE_MODEL_ELASTIC)
+        return "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes "
+               "the same "
+               "time, and elastic (3)";
+    if (rivet_table.modes.modes < p->scene.modes)
+        return "scene.cage = elastic: the embedded rivet table has no vibration modes; build an FMU with a "
+               "table by "
+               "finite elements, or set scene.cage = two_half";
+    return NULL;
+}
+
+bool cage_vibrates(const Parameters *p)
+{
+    return p->scene.cage == CAGE_MODEL_ELASTIC;
+}
+
+size_t cage_size(const Parameters *p)
+{
+    return cage_vibrates(p) ? elastic_half_size() : 0;
+}
+
+const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memory)
+{
+    if (!cage_vibrates(p)) return NULL;
+    elastic_half_derive(p, d, memory);
+    return memory;
+}
+
+double cage_orbit_scale(const Parameters *p)
+{
+    return cage_vibrates(p) ? 1.0 / 3.75 : 1.0 / 6.0;
+}
+
+// Elastic halves are as far apart as their bodies are under the centrifugal load.
+void cage_rest(const Model *model, double omega, double *y)
+{
+    if (!model->modes) return;
+    const double beta = y[Y_CAGE_BETA], gamma = y[Y_CAGE_GAMMA];
+    const double apart = elastic_half_rest(model->p, model->d, model->modes, omega, &y[Y_MODE_S]);
+    const double along[3] = {sqrt(1.0 - beta * beta - gamma * gamma), gamma, -beta};
+    for (int i = 0; i < 3; i++)
+        for (int h = 0; h < 2; h++) y[Y_CAGE_X + 2 * i + h] += (h == 0 ? -0.5 : 0.5) * apart * along[i];
+}
+
+// Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
+// that it has three substeps at most.  Films of the rate A, which the substeps leave out, allow 1/A, or two substeps,
+// which are always stable.
+double cage_longest_step(const Model *model, double film[2][3])
+{
+    if (!model->modes) return INFINITY;
+    const double d = model->modes->substep;
+    const double rate = fmax(film[0][0] + film[0][2], film[1][0] + film[1][2]);
+    return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / rate));
+}
+
+bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
+{
+    // Motions and loads of the joints up to those of anything that holds, fast accelerations.
+    const bool elastic = cage_vibrates(p);
+    const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0, path = elastic ? 0.0 : 1e9,
+                 acceleration = elastic ? 1e15 : 0.0;
+    const FastState *fast = &memory->fast;
+    return values_are_within(memory->path.T, LANES, path) &&
+           values_are_within(memory->path.N_plate, LANES, path) &&
+           values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
+           values_are_within(fast->u_z, LANES, motion) && values_are_within(fast->T, LANES, load) &&
+           values_are_within(fast->N_plate, LANES, load) &&
+           values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch_k[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+           values_are_within(fast->touch_rate[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
+           values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
+           values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
+           values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
+           values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);
+}

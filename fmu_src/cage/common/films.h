@@ -1,0 +1,68 @@
+// The films of the lands in the implicit step: what holds back one half of the cage.
+//
+// A land's film holds back the velocity u of the land at the lever x, u_y = v_y + gamma_dot x and u_z = v_z - beta_dot x.
+// Because u has two components, the inverse of the body's 4 x 4 block needs a 2 x 2 inverse only (Woodbury): with the
+// film matrix C the impulse is (C^-1/gamma + 1/m + x^2/J_t)^-1 u = (yy, yz; yz, zz) u.
+#pragma once
+
+#include "physics/model.h"
+
+// Velocities of one half.
+typedef struct {
+    double x, y, z, beta, gamma, s;
+} HalfVelocity;
+
+// A land's film ready to be solved for one half.
+typedef struct {
+    double m, J_p, J_t;  // inertia of the half
+    double x;            // lever of the land from the half's centre of mass
+    double yy, yz, zz;   // impulse of the film per velocity u that the land would have without it
+    double spin;         // gamma A of the spin
+} HalfFilm;
+
+#ifndef DUAL
+// The film of half h.
+INLINE HalfFilm half_film(const Model *model, const LandFilm *film, int h, double gamma)
+{
+    const Parameters *p = model->p;
+    const double m = p->cage.m, J_p = model->d->J_p, J_t = model->d->J_t;
+    const double x = (h == 0 ? -p->cage.land_x : p->cage.land_x) - model->d->com_x[h];
+    const double inv_m = 1.0 / m + x * x / J_t;  // of the land against a force there
+    const double yy = gamma * film->yy, yz = gamma * film->yz, zz = gamma * film->zz;
+
+    // (1 + gamma C inv_m)^-1 gamma C, by Cramer's rule; it is symmetric.
+    const double a = 1.0 + inv_m * yy, b = inv_m * yz, c = 1.0 + inv_m * zz, inv_det = 1.0 / (a * c - b * b);
+    const double impulse_yy = (yy * c - yz * b) * inv_det;
+    const double impulse_yz = (yz * a - yy * b) * inv_det;
+    const double impulse_zz = (zz * a - yz * b) * inv_det;
+    return (HalfFilm){m, J_p, J_t, x, impulse_yy, impulse_yz, impulse_zz, gamma * film->spin / J_p};
+}
+
+// v = (1 + gamma A)^-1 v, A of this film.
+INLINE void half_film_solve(const HalfFilm *f, HalfVelocity *v)
+{
+    const double u_y = v->y + v->gamma * f->x, u_z = v->z - v->beta * f->x;
+    const double I_y = f->yy * u_y + f->yz * u_z, I_z = f->yz * u_y + f->zz * u_z;
+    v->y -= I_y / f->m;
+    v->z -= I_z / f->m;
+    v->gamma -= f->x * I_y / f->J_t;
+    v->beta += f->x * I_z / f->J_t;
+    v->s /= 1.0 + f->spin;
+}
+
+INLINE HalfVelocity half_velocity_load(const double *v, int h)
+{
+    return (HalfVelocity){.x = v[Y_CAGE_V_X + h],
+                          .y = v[Y_CAGE_V_Y + h],
+                          .z = v[Y_CAGE_V_Z + h],
+                          .beta = v[Y_CAGE_BETA_DOT + h],
+                          .gamma = v[Y_CAGE_GAMMA_DOT + h],
+                          .s = v[Y_CAGE_S + h]};
+}
+
+INLINE void half_velocity_store(const HalfVelocity *half, double *v, int h)
+{
+    v[Y_CAGE_V_X + h] = half->x, v[Y_CAGE_V_Y + h] = half->y, v[Y_CAGE_V_Z + h] = half->z;
+    v[Y_CAGE_BETA_DOT + h] = half->beta, v[Y_CAGE_GAMMA_DOT + h] = half->gamma, v[Y_CAGE_S + h] = half->s;
+}
+#endif

@@ -1,0 +1,48 @@
+// Results of one evaluation that elastic halves alone have.
+#pragma once
+
+#include "numbers/lanes.h"
+#include "variables.h"
+
+enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
+
+enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
+
+// One number for each mode of a half; eight modes side by side may reach beyond the last one.
+typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
+
+// The joints between both halves, in the frame of half 0.  At an evaluation they are written by cage_elastic.c; in the
+// substeps, which have their own, by cage_substeps.c.
+typedef struct {
+    // half of the pads' motion against each other out of the plane (x, about r, about t); offset and velocity in it
+    ball_array e[3], u_y, u_z, v_y, v_z;
+
+    // trial loads L^, loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of their rivets, energy U of the law, force
+    // between the plates
+    ball_array trial[3], load[3], rivet[3], U, N_plate;
+
+    // force on half 1 in the plane; forces of the joints on the modes [N]: to be taken off S, on D
+    ball_array F_y, F_z;
+    mode_array pull_S, pull_D;
+} ElasticJoints;
+
+typedef struct {
+    // coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have moved [m]; moment of inertia
+    // that the modes add [kg.m2] and its rate (cage_elastic.c)
+    mode_array q[2], q_dot[2];
+    scalar reach[2], more_J[2], more_J_dot[2];
+
+    // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t)
+    // (cage_elastic.c)
+    ball_array pad_out[3], pad_in[2], pad_in_dot[2];
+
+    // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c)
+    mode_array wall_force[2];
+
+    // contacts with the walls (pocket.c): direction (x, t) from the pocket's axis to the ball, stiffness along it [N/m],
+    // 0 without contact, and the rate of the approach by ball and half as rigid bodies [m/s]
+    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
+
+    ElasticJoints joints;
+    scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
+} ElasticWork;
