@@ -1,5 +1,5 @@
 # SUNDIALS 7.1.1, static and hidden, only what is used.  A source build: an FMU with a distribution's library would need it on every machine.
-# Sought in this order: FETCHCONTENT_SOURCE_DIR_SUNDIALS, the user's cache, upstream's release, Debian's source package, an installed SUNDIALS.
+# Sought in this order: FETCHCONTENT_SOURCE_DIR_SUNDIALS, the user's cache, upstream's release, Debian's source package.
 
 set(sundials_version 7.1.1)
 set(sundials_url https://github.com/LLNL/sundials/releases/download/v7.1.1/sundials-7.1.1.tar.gz)
@@ -169,27 +169,27 @@ set(sundials_files
     sundials/sundials_adaptcontroller.c sundials/sundials_context.c sundials/sundials_errors.c sundials/sundials_hashmap.c sundials/sundials_logger.c
     sundials/sundials_math.c sundials/sundials_nvector.c)
 
-# Target sundials: its objects, or the installed libraries.  sundials_objects: what else a binary links.
+# Target sundials: its objects.  sundials_objects: what else a binary links.
 find_sundials_source(sundials_source)
-if(sundials_source)
-    set(sundials_headers ${PROJECT_BINARY_DIR}/_deps/sundials-include)
-    configure_sundials(${sundials_source} ${sundials_headers})
-    list(TRANSFORM sundials_files PREPEND ${sundials_source}/src/)
-    add_compile_options(-ffile-prefix-map=${sundials_source}=sundials)
-    set(sundials_folders ${sundials_headers} ${sundials_source}/include ${sundials_source}/src/sundials ${sundials_source}/src/arkode)
-    add_library(sundials OBJECT ${sundials_files})
-    target_include_directories(sundials SYSTEM PUBLIC ${sundials_folders})
-    target_compile_options(sundials PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
-    set(sundials_objects $<TARGET_OBJECTS:sundials>)
-else()
-    find_package(SUNDIALS ${sundials_version} QUIET COMPONENTS arkode)
-    set(advice "The source of SUNDIALS ${sundials_version} cannot be reached.  Give -DFETCHCONTENT_SOURCE_DIR_SUNDIALS=<folder> for a build from source.")
-    if(NOT SUNDIALS_FOUND)
-        message(FATAL_ERROR "${advice}")
-    endif()
-    message(WARNING "${advice}  Using the installed one: the FMU needs it on every machine.")
-    add_library(sundials INTERFACE)
-    target_link_libraries(sundials INTERFACE SUNDIALS::arkode)
-    set(sundials_files "")
-    set(sundials_objects "")
+if(NOT sundials_source)
+    message(FATAL_ERROR "The source of SUNDIALS ${sundials_version} cannot be reached.  Give -DFETCHCONTENT_SOURCE_DIR_SUNDIALS=<folder>.  "
+        "An installed SUNDIALS is not enough: the default step is a time-stepping module of ARKODE, whose header arkode_impl.h is not installed.")
 endif()
+if(EXISTS ${sundials_source}/CMakeLists.txt)  # a folder that was given; of an archive the checksum is known
+    file(STRINGS ${sundials_source}/CMakeLists.txt given REGEX "set\\(PACKAGE_VERSION_(MAJOR|MINOR|PATCH)")
+    string(REGEX REPLACE "[^0-9;]" "" given "${given}")
+    string(REPLACE ";" "." given "${given}")
+    if(NOT given STREQUAL sundials_version)
+        message(FATAL_ERROR "${sundials_source} is SUNDIALS ${given}, wanted is ${sundials_version}: the default step is a time-stepping module of ARKODE, "
+            "whose private header arkode_impl.h changes between versions.  Read its changes, then change fmu_src/solver/bearing_step.c and cmake/sundials.cmake.")
+    endif()
+endif()
+set(sundials_headers ${PROJECT_BINARY_DIR}/_deps/sundials-include)
+configure_sundials(${sundials_source} ${sundials_headers})
+list(TRANSFORM sundials_files PREPEND ${sundials_source}/src/)
+add_compile_options(-ffile-prefix-map=${sundials_source}=sundials)
+set(sundials_folders ${sundials_headers} ${sundials_source}/include ${sundials_source}/src/sundials ${sundials_source}/src/arkode)
+add_library(sundials OBJECT ${sundials_files})
+target_include_directories(sundials SYSTEM PUBLIC ${sundials_folders})
+target_compile_options(sundials PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
+set(sundials_objects $<TARGET_OBJECTS:sundials>)

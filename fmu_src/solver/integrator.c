@@ -5,9 +5,9 @@
 //   explicit   classical Runge-Kutta 4(3), stepped by ARKODE: for tolerances below 2e-5, and as a check
 //
 // Order, error estimate and step-size control are derived in docs/method.md; bearing_model/solver/verlet.py has the
-// control again.  The step sizes of both methods come from a SUNAdaptController: of the explicit one from SUNDIALS'
-// PID controller, of the default one from step_estimate below.  SUNDIALS steps the explicit method, carries its
-// vectors and reports its errors.
+// control again.  ARKodeEvolve steps both methods, by a module of its own the default one (bearing_step.h), by ERKStep
+// the explicit one; their lengths come from a SUNAdaptController: of the explicit method from SUNDIALS' PID controller,
+// of the default one from step_estimate below.
 //
 // Determinism: an advance is a function of IntegratorState, model and t_stop alone, bit for bit, so that a
 // restored state and another instance go on alike.  For this ARKODE is reset at the start of every advance,
@@ -19,6 +19,8 @@
 #include "numbers/elementary.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
+#include "solver/bearing_step.h"
+#include "solver/state_vector.h"
 #include "solver/stepping.h"
 
 #include <arkode/arkode_erkstep.h>
@@ -43,180 +45,26 @@ struct Integrator {
     IntegratorLog *log;
     void *context;
     SUNContext sun;
-    N_Vector y;  // the step's result
-    void *arkode;
-    SUNAdaptController control;  // of the default method
+    N_Vector y;    // the explicit step's result
+    void *arkode;  // memory of ERKStep
+
+    // of the default method
+    N_Vector view;      // the end of the step, see verlet_take
+    void *bearing;      // memory of its module
+    BearingStep step;
+    SUNAdaptController control;
+    VerletState *now, *next;  // the step's start and its end: they change places at every accepted step
+    double goal;              // length that the controller wants of the next step [s]
+
     const VectorOps *ops;        // of the scene
     double weight[N_ALL_STATES];
     double orbit_weight;      // of a ball's velocity along its orbit, at a high speed
-    const VerletState *from;  // where the default method's step starts
     VerletState trial;
     const double *latest;       // where ARKODE keeps the latest evaluation
     bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
     bool warming_up;            // dy/dt = 0, see warm_up
     unsigned nonfinite_stages;  // stages of this advance whose derivative is not a number
 };
-
-// ---- vectors of ARKODE: fixed length, operations of this processor's instruction set ----------------------
-
-enum { LINE = 8 };  // numbers in a cache line
-
-typedef struct {
-    const VectorOps *const *ops;  // where the integrator keeps them
-    double *value;                // the first whole cache line of `block`
-    double block[N_ALL_STATES + LINE - 1];
-} Content;
-
-static double *data(N_Vector v)
-{
-    return ((Content *)v->content)->value;
-}
-
-static const VectorOps *ops(N_Vector v)
-{
-    return *((const Content *)v->content)->ops;
-}
-
-static int states(N_Vector v)
-{
-    return ops(v)->states;
-}
-
-static N_Vector_ID vector_id(N_Vector v)
-{
-    (void)v;
-    return SUNDIALS_NVEC_CUSTOM;
-}
-
-static sunindextype vector_length(N_Vector v)
-{
-    return states(v);
-}
-
-static Content *content_new(const VectorOps *const *vector_operations)
-{
-    Content *content = malloc(sizeof *content);
-    if (content == NULL) return NULL;
-    const uintptr_t line = LINE * sizeof(double), at = (uintptr_t)content->block;
-    content->ops = vector_operations;
-    content->value = (double *)((at + line - 1) / line * line);
-    return content;
-}
-
-static N_Vector vector_clone(N_Vector like)
-{
-    N_Vector v = N_VNewEmpty(like->sunctx);
-    if (v == NULL) return NULL;
-    N_VCopyOps(like, v);
-    v->content = content_new(((const Content *)like->content)->ops);
-    if (v->content == NULL) {
-        N_VFreeEmpty(v);
-        return NULL;
-    }
-    return v;
-}
-
-static void vector_destroy(N_Vector v)
-{
-    if (v == NULL) return;
-    free(v->content);
-    N_VFreeEmpty(v);
-}
-
-static void vector_linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
-{
-    ops(z)->linear_sum(a, data(x), b, data(y), data(z));
-}
-
-static SUNErrCode vector_linear_combination(int n, sunrealtype *c, N_Vector *x, N_Vector z)
-{
-    enum { MAX_VECTORS = 8 };  // more than the stages and the state
-
-    double *values[MAX_VECTORS];
-    if (n > MAX_VECTORS) return SUN_ERR_ARG_OUTOFRANGE;
-    for (int i = 0; i < n; i++) values[i] = data(x[i]);
-    ops(z)->linear_combination(n, c, values, data(z));
-    return SUN_SUCCESS;
-}
-
-static double vector_wrms_norm(N_Vector x, N_Vector w)
-{
-    return ops(x)->wrms_norm(data(x), data(w));
-}
-
-static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
-{
-    if (c == 1.0) {
-        if (x != z) memcpy(data(z), data(x), sizeof(double) * (size_t)states(z));
-    } else {
-        for (int i = 0; i < states(z); i++) data(z)[i] = c * data(x)[i];
-    }
-}
-
-static void vector_const(sunrealtype c, N_Vector z)
-{
-    if (c == 0.0)
-        memset(data(z), 0, sizeof(double) * (size_t)states(z));
-    else
-        for (int i = 0; i < states(z); i++) data(z)[i] = c;
-}
-
-// ARKODE checks that these operations exist.  It calls them only to choose a first step, which is always
-// given.
-static void vector_div(N_Vector x, N_Vector y, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] / data(y)[i];
-}
-
-static void vector_abs(N_Vector x, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = fabs(data(x)[i]);
-}
-
-static void vector_inv(N_Vector x, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = 1.0 / data(x)[i];
-}
-
-static void vector_add_const(N_Vector x, sunrealtype b, N_Vector z)
-{
-    for (int i = 0; i < states(z); i++) data(z)[i] = data(x)[i] + b;
-}
-
-static double vector_max_norm(N_Vector x)
-{
-    double max = 0.0;
-    for (int i = 0; i < states(x); i++) max = fmax(max, fabs(data(x)[i]));
-    return max;
-}
-
-static N_Vector vector_new(SUNContext sun, const VectorOps *const *vector_operations)
-{
-    N_Vector v = N_VNewEmpty(sun);
-    if (v == NULL) return NULL;
-    *v->ops = (struct _generic_N_Vector_Ops){0};
-    v->ops->nvgetvectorid = vector_id;
-    v->ops->nvclone = vector_clone;
-    v->ops->nvdestroy = vector_destroy;
-    v->ops->nvgetlength = vector_length;
-    v->ops->nvlinearsum = vector_linear_sum;
-    v->ops->nvlinearcombination = vector_linear_combination;
-    v->ops->nvwrmsnorm = vector_wrms_norm;
-    v->ops->nvscale = vector_scale;
-    v->ops->nvconst = vector_const;
-    v->ops->nvdiv = vector_div;
-    v->ops->nvabs = vector_abs;
-    v->ops->nvinv = vector_inv;
-    v->ops->nvaddconst = vector_add_const;
-    v->ops->nvmaxnorm = vector_max_norm;
-    v->content = content_new(vector_operations);
-    if (v->content == NULL) {
-        N_VFreeEmpty(v);
-        return NULL;
-    }
-    vector_const(0.0, v);
-    return v;
-}
 
 // ---- what ARKODE calls ------------------------------------------------------------------------------------
 
@@ -241,14 +89,14 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
-    evaluate(user, t, data(y), data(f));
+    evaluate(user, t, state_vector_data(y), state_vector_data(f));
     return 0;
 }
 
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
-    memcpy(data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)states(ewt));
+    memcpy(state_vector_data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)state_vector_length(ewt));
     return 0;
 }
 
@@ -271,14 +119,18 @@ static double ratio_of(double error)
 
 // After a step that is accepted, the digital filter H211b of Soderlind (2003) with b = 4: lengths that change
 // smoothly, so that the errors of a contact's rise and fall cancel.  After one that is refused, the ratio itself.
+// A step that was cut short to meet the stop time says nothing against the goal before it.
 static SUNErrCode step_estimate(SUNAdaptController control, sunrealtype h, int order, sunrealtype error,
                                 sunrealtype *h_next)
 {
     (void)order;
-    const VerletState *from = *(const VerletState **)control->content;
+    Integrator *in = control->content;
+    const VerletState *from = in->now;
     const double ratio = ratio_of(error), smooth = ratio * (from->ratio * from->h / h);
     const double factor = error <= 1.0 && from->ratio > 0.0 ? sqrt(sqrt(smooth)) : ratio;
-    *h_next = h * fmin(fmax(factor, MIN_FACTOR), MAX_FACTOR);
+    const double proposed = h * fmin(fmax(factor, MIN_FACTOR), MAX_FACTOR);
+    if (!(error <= 1.0) || h == in->goal || proposed < h) in->goal = proposed;
+    *h_next = in->goal;
     return SUN_SUCCESS;
 }
 
@@ -296,16 +148,72 @@ static SUNErrCode control_destroy(SUNAdaptController control)
     return SUN_SUCCESS;
 }
 
-// from: where the integrator keeps the state that its steps start at.
-static SUNAdaptController control_new(SUNContext sun, const VerletState **from)
+static SUNAdaptController control_new(SUNContext sun, Integrator *in)
 {
     SUNAdaptController control = SUNAdaptController_NewEmpty(sun);
     if (control == NULL) return NULL;
-    control->content = from;
+    control->content = in;
     control->ops->gettype = control_type;
     control->ops->estimatestep = step_estimate;
     control->ops->destroy = control_destroy;
     return control;
+}
+
+// ---- the default method's step ------------------------------------------------------------------------------
+
+// Part of a step by which the last step before t_stop may be longer than the controller wants: the rounding
+// of time must not leave a last step of no length.
+static const double LAST_STEP = 1e-9;
+
+// Length of the next step: the controller's goal, no longer than the cage bears, or `left`, or half of that if two steps
+// are needed.
+static double verlet_length(void *context, double left)
+{
+    Integrator *in = context;
+    if (in->warming_up) return left;
+    in->goal = fmin(in->goal, cage_longest_step(in->model, in->now->film));
+    if (in->goal >= left * (1.0 - LAST_STEP)) return left;
+    return left < 2.0 * in->goal ? 0.5 * left : in->goal;
+}
+
+// ARKODE's vectors show the states where they are: no number is copied before or behind the step.
+static double verlet_take(void *context, double t, double h, N_Vector y_0, N_Vector y)
+{
+    Integrator *in = context;
+    if (in->warming_up) return 0.0;
+    state_vector_show(y_0, in->now->y);
+    state_vector_show(y, in->next->y);
+    const double error = in->kernels->verlet(in->model, t, h, in->weight, in->now, in->next, in->w);
+    in->next->ratio = ratio_of(error);
+    in->s->rhs_evals += 1.0;
+    return error;
+}
+
+// Called by ARKODE with the time and the state behind an accepted step.
+static int verlet_accepted(sunrealtype t, N_Vector y, void *user)
+{
+    (void)y;
+    Integrator *in = user;
+    if (in->warming_up) return 0;
+    VerletState *const before = in->now;
+    in->now = in->next, in->next = before;
+    in->s->t = t;
+    in->s->steps += 1.0;
+    in->hook(in->context, in->now->h, in->w);
+    return 0;
+}
+
+// The step has weighed its error itself.
+static int no_weights(N_Vector y, N_Vector ewt, void *user)
+{
+    (void)y, (void)ewt, (void)user;
+    return 0;
+}
+
+static double no_norm(N_Vector x, N_Vector w)
+{
+    (void)x, (void)w;
+    return 0.0;
 }
 
 // ---- creation ---------------------------------------------------------------------------------------------
@@ -319,8 +227,9 @@ static void report(int line, const char *function, const char *file, const char 
     stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
-// No interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an impact).
-static int set_up(void *arkode, Integrator *in)
+// What both methods have: no interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an
+// impact).
+static int set_up(void *arkode, ARKEwtFn weights, Integrator *in)
 {
     if (ARKodeSetUserData(arkode, in) != ARK_SUCCESS) return -1;
     if (ARKodeWFtolerances(arkode, weights) != ARK_SUCCESS) return -1;
@@ -353,15 +262,38 @@ static int explicit_table(void *arkode)
 
 // Takes one step of dy/dt = 0: ARKODE allocates memory in its first step, which must not happen in
 // fmi2DoStep.
-static bool warm_up(Integrator *in)
+static bool warm_up(Integrator *in, void *arkode, N_Vector y)
 {
     double t;
     in->warming_up = true;
-    const bool fine = ARKodeSetInitStep(in->arkode, 1.0) == ARK_SUCCESS &&
-                      ARKodeSetStopTime(in->arkode, 1.0) == ARK_SUCCESS &&
-                      ARKodeEvolve(in->arkode, 1.0, in->y, &t, ARK_ONE_STEP) >= 0;
+    const bool fine = ARKodeSetInitStep(arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeSetStopTime(arkode, 1.0) == ARK_SUCCESS &&
+                      ARKodeEvolve(arkode, 1.0, y, &t, ARK_ONE_STEP) >= 0;
     in->warming_up = false;
     return fine;
+}
+
+static bool create_explicit(Integrator *in)
+{
+    in->y = state_vector_new(in->sun, &in->ops);
+    if (in->y == NULL) return false;
+    in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
+    return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
+           explicit_table(in->arkode) == ARK_SUCCESS && warm_up(in, in->arkode, in->y);
+}
+
+static bool create_bearing(Integrator *in)
+{
+    in->step = (BearingStep){verlet_length, verlet_take, in};
+    in->control = control_new(in->sun, in);
+    in->view = state_vector_new(in->sun, &in->ops);
+    if (in->control == NULL || in->view == NULL) return false;
+    in->view->ops->nvwrmsnorm = no_norm;
+    in->bearing = bearing_step_create(in->sun, in->view, &in->step);
+    return in->bearing != NULL && set_up(in->bearing, no_weights, in) == 0 &&
+           ARKodeSetAdaptController(in->bearing, in->control) == ARK_SUCCESS &&
+           ARKodeSetPostprocessStepFn(in->bearing, verlet_accepted) == ARK_SUCCESS &&
+           warm_up(in, in->bearing, in->view);
 }
 
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
@@ -372,20 +304,15 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     memset(in, 0, sizeof *in);
     in->kernels = kernels, in->ops = kernels->ops_all, in->model = model, in->w = w, in->s = state;
     in->hook = hook, in->log = log, in->context = context;
+    in->now = &state->now, in->next = &in->trial;
     in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
     reserved_memory_use(&in->memory);
+    for (int i = 0; i < N_ALL_STATES; i++) in->weight[i] = 1.0;  // for the warm-up, until integrator_tolerance
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
-        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS &&
-               (in->y = vector_new(in->sun, &in->ops)) != NULL &&
-               (in->control = control_new(in->sun, &in->from)) != NULL;
-    }
-    if (fine) {  // error weights of 1 for the warm-up, until integrator_tolerance
-        in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
-        fine = in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS;
-        for (int i = 0; i < N_ALL_STATES; i++) in->weight[i] = 1.0;
-        fine = fine && warm_up(in);
+        fine = SUNContext_PushErrHandler(in->sun, report, in) == SUN_SUCCESS && create_explicit(in) &&
+               create_bearing(in);
     }
     reserved_memory_use(NULL);
     if (!fine) {
@@ -400,8 +327,10 @@ void integrator_destroy(Integrator *in)
     if (in == NULL) return;
     reserved_memory_use(&in->memory);
     if (in->arkode != NULL) ARKodeFree(&in->arkode);
+    if (in->bearing != NULL) ARKodeFree(&in->bearing);
     if (in->control != NULL) SUNAdaptController_Destroy(in->control);
     if (in->y != NULL) N_VDestroy(in->y);
+    if (in->view != NULL) N_VDestroy(in->view);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
     reserved_memory_use(NULL);
     aligned_delete(in);
@@ -429,10 +358,6 @@ void integrator_evaluate(Integrator *in)
     s->f_is_current = 1;
 }
 
-// Part of a step by which the last step before t_stop may be longer than the controller wants: the rounding
-// of time must not leave a last step of no length.
-static const double LAST_STEP = 1e-9;
-
 static int step_underflow(const Integrator *in, const char *method, double h)
 {
     char text[128];
@@ -440,14 +365,6 @@ static int step_underflow(const Integrator *in, const char *method, double h)
              method, h);
     in->log(in->context, text);
     return ARK_ERR_FAILURE;
-}
-
-// Length of the next step: the controller's goal, or what is left to t_stop, or half of that if two steps are
-// needed.
-static double step_length(double goal, double left)
-{
-    if (goal >= left * (1.0 - LAST_STEP)) return left;
-    return left < 2.0 * goal ? 0.5 * left : goal;
 }
 
 // The speed with which ball and pocket meet goes with the orbital speed against the outer ring, and so does
@@ -467,47 +384,23 @@ static void weigh_orbit(Integrator *in)
 
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
-    weigh_orbit(in);
     IntegratorState *s = in->s;
-    VerletState *now = &s->now, *next = &in->trial;  // they change places at every accepted step
-    double goal = s->h;
-    int status = 0;
-    while (status == 0 && s->t < t_stop) {
-        if (max_steps-- <= 0) {
-            status = ARK_TOO_MUCH_WORK;
-            break;
-        }
-        goal = fmin(goal, cage_longest_step(in->model, now->film));
-        const double left = t_stop - s->t, h = step_length(goal, left);
-        if (s->t + h == s->t || h < DBL_MIN) {  // 1/h of a subnormal h overflows
-            status = step_underflow(in, "Verlet", h);
-            break;
-        }
-        const double error = in->kernels->verlet(in->model, s->t, h, in->weight, now, next, in->w);
-        double proposed;
-        in->from = now;
-        SUNAdaptController_EstimateStep(in->control, h, ORDER, error, &proposed);
-        s->rhs_evals += 1.0;
+    weigh_orbit(in);
+    in->now = &s->now, in->next = &in->trial, in->goal = s->h;
 
-        // Refused, also if the error is not a number: the same step again, shorter.
-        if (!(error <= 1.0)) {
-            s->error_tests_failed += 1.0;
-            goal = proposed;
-            continue;
-        }
-
-        // Accepted.  A step that was cut short to meet t_stop says nothing against the goal before it.
-        VerletState *const before = now;
-        now = next, next = before;
-        now->ratio = ratio_of(error);
-        s->t = h == left ? t_stop : s->t + h;
-        s->steps += 1.0;
-        if (h == goal || proposed < h) goal = proposed;
-        in->hook(in->context, h, in->w);
-    }
-    if (now != &s->now) s->now = *now;
-    s->h = goal;
-    return status;
+    // ARKODE forgets what it knows of the steps before and begins at the state; verlet_length begins with the goal.
+    double t;
+    int status = ARKodeReset(in->bearing, s->t, in->view);
+    if (status == ARK_SUCCESS) status = ARKodeSetStopTime(in->bearing, t_stop);
+    if (status == ARK_SUCCESS) status = ARKodeSetMaxNumSteps(in->bearing, max_steps);
+    long failed_before = 0, failed = 0;
+    ARKodeGetNumErrTestFails(in->bearing, &failed_before);
+    if (status == ARK_SUCCESS) status = ARKodeEvolve(in->bearing, t_stop, in->view, &t, ARK_NORMAL);
+    ARKodeGetNumErrTestFails(in->bearing, &failed);
+    s->error_tests_failed += (double)(failed - failed_before);
+    if (in->now != &s->now) s->now = *in->now;
+    s->h = in->goal;
+    return status < 0 ? status : 0;
 }
 
 // The shortest step that ARKODE begins with [s].  It multiplies the time to t_stop by the step size of the run
@@ -528,7 +421,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 
     // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
-    memcpy(data(in->y), s->now.y, sizeof s->now.y);
+    memcpy(state_vector_data(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
     if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
@@ -552,7 +445,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
             status = step_underflow(in, "Runge-Kutta", h_last);
             break;
         }
-        const double h = stepping_accept(s, t, data(in->y));
+        const double h = stepping_accept(s, t, state_vector_data(in->y));
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
