@@ -126,6 +126,9 @@ void cage_remember(const Model *model, const CageStep *step, double h, double h_
 // The longest step that the cage bears from a state with these films and of this mass [s].
 double cage_longest_step(const Model *model, double film[2][3]);
 
+// The step of a fixed length [s]: of elastic halves the longest one, with the films of the start.
+double cage_fixed_step(const Model *model, double film[2][3]);
+
 // Whether steps can have made the memory.
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p);
 

@@ -62,6 +62,14 @@ double cage_longest_step(const Model *model, double film[2][3])
     return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / rate));
 }
 
+// A ball touches its pocket for 70 to 100 us; a tenth of that resolves the pulse.
+static const double TENTH_OF_A_PULSE = 1e-5;
+
+double cage_fixed_step(const Model *model, double film[2][3])
+{
+    return fmin(cage_longest_step(model, film), TENTH_OF_A_PULSE);
+}
+
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
 {
     // Motions and loads of the joints up to those of anything that holds, fast accelerations.

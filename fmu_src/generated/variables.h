@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{64da0723-02df-fa6f-1842-3558e6bd3bd3}"  // digest of the table
+#define MODEL_GUID "{1abdb122-dd50-91f2-a41e-a40b0bfd9241}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -70,6 +70,7 @@ enum {  // Drag
 enum {  // Method
     METHOD_VERLET = 1,  // velocity Verlet, linearly implicit in what is stiff
     METHOD_EXPLICIT = 2,  // classical Runge-Kutta 4(3)
+    METHOD_FIXED = 3,  // the steps of verlet, all of one length: a fixed cost for real time
 };
 
 typedef struct {
@@ -238,6 +239,7 @@ typedef struct {
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
+        double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
         int max_steps;  // Largest number of internal steps in one communication step
     } solver;
     struct {
@@ -477,7 +479,7 @@ typedef struct {
         scalar step_size;  // [s] Internal step size that the next step starts with
         scalar error_tests_failed;  // [1] Internal steps rejected by the error test
         scalar tolerance;  // [1] Tolerance in force
-        scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta
+        scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
         scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
     } solver;
     struct {
@@ -582,4 +584,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 340 };  // time is the first
+enum { N_VARIABLES = 341 };  // time is the first

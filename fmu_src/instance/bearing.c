@@ -106,6 +106,11 @@ static void report_events(Bearing *b)
     }
 }
 
+static bool is_fixed(const Bearing *b)
+{
+    return b->s.p.solver.method == METHOD_FIXED;
+}
+
 // ---- life cycle -------------------------------------------------------------------------------------------
 Bearing *part_create(const PartHost *host)
 {
@@ -272,6 +277,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
+    if (is_fixed(b)) integrator_fix_step(b->integrator);
     accepted_step(b, 0.0, &b->w);
     report_events(b);
     s->initialized = 1;
@@ -290,7 +296,9 @@ static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], doubl
     b->trajectory.frame_angle = frame_angle;
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
-    if (memcmp(&b->ring_load, &before, sizeof before) == 0) return;
+
+    // With fixed steps, the next evaluation is at the end of the next step: it has the new load.
+    if (is_fixed(b) || memcmp(&b->ring_load, &before, sizeof before) == 0) return;
     s->integrator.f_is_current = 0;
 }
 
@@ -316,6 +324,15 @@ static void inputs_reach(const Parameters *p, double t_0, double t, Inputs u[INP
     memset(&u[1], 0, INPUT_ORDERS * sizeof *u);
 }
 
+// Where the advance that is number `stretch` of a communication step ends.
+static double next_stop(const Bearing *b, double t_begin, double t_end, int stretch)
+{
+    const double edge = pulse_next_edge(&b->s.p, b->s.integrator.t);
+    if (!is_fixed(b) || edge == INFINITY) return fmin(edge, t_end);
+    const double steps = fixed_steps(b->s.integrator.h, t_end - t_begin);
+    return stretch < steps ? t_begin + stretch / steps * (t_end - t_begin) : t_end;
+}
+
 PartStatus part_step(Bearing *b, double t_end)
 {
     InstanceState *s = &b->s;
@@ -334,14 +351,19 @@ PartStatus part_step(Bearing *b, double t_end)
     b->current = 0;
     b->evaluated = false;
 
-    // one advance for each stretch between edges of pulses
+    // one advance for each stretch between edges of pulses; with fixed steps, in which pulses are averaged, for each step
     int status = 0;
-    while (status == 0 && s->integrator.t < t_end) {
+    for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
+        const double stop = next_stop(b, t_begin, t_end, stretch);
         begin_trajectory(b, u, t_begin, frame_angle);
-        const double edge = pulse_next_edge(&s->p, s->integrator.t);
+        if (is_fixed(b)) pulse_average(&s->p, stop, 0.5 * (stop - s->integrator.t), &b->trajectory);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
-        status = integrator_advance(b->integrator, fmin(edge, t_end), left);
+        status = integrator_advance(b->integrator, stop, left);
         end_trajectory(b);
+    }
+    if (is_fixed(b) && s->integrator.f_is_current) {  // outputs are those of the last evaluation
+        memcpy(b->y_dot, s->integrator.now.f, sizeof b->y_dot);
+        b->evaluated = true;
     }
 
     // the inputs stay where they are now; temperatures that have moved meanwhile act from here on

@@ -123,7 +123,7 @@ typedef struct {
     scalar t_0;                  // communication point [s]
     Inputs u[INPUT_ORDERS + 1];  // inputs there, and their derivatives
     scalar pulse_r, pulse_a;     // radial and axial amplitude of the half-sine in progress [N]; 0 if none is
-    scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]
+    scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
     scalar gravity[2], radius;       // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
     scalar frame_angle;              // by which the frame has turned since the start, at t_0 [rad]
 } InputTrajectory;

@@ -110,6 +110,27 @@ double pulse_next_edge(const Parameters *p, double t)
     return i + 1 < p->pulse.count ? pulse_start(p, i + 1) : INFINITY;
 }
 
+// Integral of a half-sine of amplitude 1 that begins at 0, up to the time t.
+static double pulse_integral(const Parameters *p, double t)
+{
+    const double within = fmin(fmax(t / p->pulse.duration, 0.0), 1.0);
+    return p->pulse.duration / PI * (1.0 - portable_cos(PI * within));
+}
+
+void pulse_average(const Parameters *p, double t, double half, InputTrajectory *trajectory)
+{
+    if (!has_pulses(p) || half <= 0.0) return;
+    double mean = 0.0;
+    const int last = pulse_index(p, t + half);
+    for (int i = last; i >= 0 && pulse_start(p, i) + p->pulse.duration > t - half; i--)
+        mean +=
+            pulse_integral(p, t + half - pulse_start(p, i)) - pulse_integral(p, t - half - pulse_start(p, i));
+    mean /= 2.0 * half;
+    trajectory->pulse_r = p->pulse.F_r * mean;
+    trajectory->pulse_a = p->pulse.F_a * mean;
+    trajectory->pulse_start = trajectory->pulse_rate = 0.0;
+}
+
 void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t,
                              InputTrajectory *trajectory)
 {

@@ -75,6 +75,10 @@ void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *
 // Next start or end of a built-in pulse after t, infinity after the last one.
 double pulse_next_edge(const Parameters *p, double t);
 
+// Replaces the pulses in the trajectory by their mean within +-half [s] of the time t: steps of a fixed length, whose
+// evaluations are `2 half` apart, then have the impulse of the pulses exactly.
+void pulse_average(const Parameters *p, double t, double half, InputTrajectory *trajectory);
+
 // Angles of the rotation with the direction cosines beta, gamma.
 INLINE void ring_tilts(scalar beta, scalar gamma, scalar *tilt_y, scalar *tilt_z)
 {
@@ -168,7 +172,9 @@ INLINE void ring_load_at(const InputTrajectory *trajectory, scalar t, RingLoad *
     Inputs u;
     input_trajectory_at(trajectory, t, &u);
     if (scalar_value(trajectory->pulse_r) != 0.0 || scalar_value(trajectory->pulse_a) != 0.0) {
-        const scalar sine = scalar_sin((t - trajectory->pulse_start) * trajectory->pulse_rate);
+        const bool averaged = scalar_value(trajectory->pulse_rate) == 0.0;
+        const scalar sine =
+            averaged ? 1.0 : scalar_sin((t - trajectory->pulse_start) * trajectory->pulse_rate);
         u.impact.F_r += trajectory->pulse_r * sine;
         u.impact.F_a += trajectory->pulse_a * sine;
     }

@@ -5,6 +5,7 @@
 
 #include <arkode_impl.h>
 #include <float.h>
+#include <math.h>
 
 // Called once before the first step and after each reset.
 static int step_init(ARKodeMem ark, int init_type)
@@ -19,8 +20,11 @@ static int step_take(ARKodeMem ark, sunrealtype *error, int *flag)
 {
     const BearingStep *step = ark->step_mem;
     ark->h = step->length(step->context, ark->tstop - ark->tn);
-    if (ark->tn + ark->h == ark->tn || ark->h < DBL_MIN) return ARK_ERR_FAILURE;  // 1/h of a subnormal h overflows
+    if (ark->tn + ark->h == ark->tn || ark->h < DBL_MIN)
+        return ARK_ERR_FAILURE;  // 1/h of a subnormal h overflows
     *error = step->take(step->context, ark->tn, ark->h, ark->yn, ark->ycur);
+    if (ark->fixedstep && !(*error < INFINITY))
+        return ARK_RHSFUNC_FAIL;  // a step that cannot be repeated shorter
     ark->tcur = ark->tn + ark->h;
     *flag = ARK_SUCCESS;
     return ARK_SUCCESS;

@@ -49,16 +49,17 @@ struct Integrator {
     void *arkode;  // memory of ERKStep
 
     // of the default method
-    N_Vector view;      // the end of the step, see verlet_take
-    void *bearing;      // memory of its module
+    N_Vector view;  // the end of the step, see verlet_take
+    void *bearing;  // memory of its module
     BearingStep step;
     SUNAdaptController control;
     VerletState *now, *next;  // the step's start and its end: they change places at every accepted step
     double goal;              // length that the controller wants of the next step [s]
+    bool steps_are_fixed;     // as ARKODE was told last
 
-    const VectorOps *ops;        // of the scene
+    const VectorOps *ops;  // of the scene
     double weight[N_ALL_STATES];
-    double orbit_weight;      // of a ball's velocity along its orbit, at a high speed
+    double orbit_weight;  // of a ball's velocity along its orbit, at a high speed
     VerletState trial;
     const double *latest;       // where ARKODE keeps the latest evaluation
     bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
@@ -96,7 +97,8 @@ static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
-    memcpy(state_vector_data(ewt), ((const Integrator *)user)->weight, sizeof(double) * (size_t)state_vector_length(ewt));
+    memcpy(state_vector_data(ewt), ((const Integrator *)user)->weight,
+           sizeof(double) * (size_t)state_vector_length(ewt));
     return 0;
 }
 
@@ -161,16 +163,22 @@ static SUNAdaptController control_new(SUNContext sun, Integrator *in)
 
 // ---- the default method's step ------------------------------------------------------------------------------
 
+static bool is_fixed(const Integrator *in)
+{
+    return in->model->p->solver.method == METHOD_FIXED;
+}
+
 // Part of a step by which the last step before t_stop may be longer than the controller wants: the rounding
 // of time must not leave a last step of no length.
 static const double LAST_STEP = 1e-9;
 
 // Length of the next step: the controller's goal, no longer than the cage bears, or `left`, or half of that if two steps
-// are needed.
+// are needed.  A fixed length is the same for all steps of an advance.
 static double verlet_length(void *context, double left)
 {
     Integrator *in = context;
     if (in->warming_up) return left;
+    if (is_fixed(in)) return in->goal >= left * (1.0 - LAST_STEP) ? left : in->goal;
     in->goal = fmin(in->goal, cage_longest_step(in->model, in->now->film));
     if (in->goal >= left * (1.0 - LAST_STEP)) return left;
     return left < 2.0 * in->goal ? 0.5 * left : in->goal;
@@ -307,7 +315,8 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     in->now = &state->now, in->next = &in->trial;
     in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
     reserved_memory_use(&in->memory);
-    for (int i = 0; i < N_ALL_STATES; i++) in->weight[i] = 1.0;  // for the warm-up, until integrator_tolerance
+    for (int i = 0; i < N_ALL_STATES; i++)
+        in->weight[i] = 1.0;  // for the warm-up, until integrator_tolerance
     bool fine = SUNContext_Create(SUN_COMM_NULL, &in->sun) == SUN_SUCCESS;
     if (fine) {
         SUNContext_ClearErrHandlers(in->sun);
@@ -382,25 +391,49 @@ static void weigh_orbit(Integrator *in)
     for (int j = 0; j < Z; j++) in->weight[Y_BALL_OMEGA_M + j] = in->orbit_weight / part;
 }
 
+// Equal steps, or steps by their errors, as the scene wants.  A first step, which ARKODE must not look for, is always
+// given.
+static int set_fixed(Integrator *in)
+{
+    if (!is_fixed(in) && !in->steps_are_fixed) return ARK_SUCCESS;
+    in->steps_are_fixed = is_fixed(in);
+    const int status = ARKodeSetFixedStep(in->bearing, is_fixed(in) ? in->goal : 0.0);
+    return status == ARK_SUCCESS ? ARKodeSetInitStep(in->bearing, in->goal) : status;
+}
+
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
     weigh_orbit(in);
     in->now = &s->now, in->next = &in->trial, in->goal = s->h;
+    if (is_fixed(in)) in->goal = (t_stop - s->t) / fixed_steps(s->h, t_stop - s->t);
 
     // ARKODE forgets what it knows of the steps before and begins at the state; verlet_length begins with the goal.
     double t;
     int status = ARKodeReset(in->bearing, s->t, in->view);
     if (status == ARK_SUCCESS) status = ARKodeSetStopTime(in->bearing, t_stop);
     if (status == ARK_SUCCESS) status = ARKodeSetMaxNumSteps(in->bearing, max_steps);
+    if (status == ARK_SUCCESS) status = set_fixed(in);
     long failed_before = 0, failed = 0;
     ARKodeGetNumErrTestFails(in->bearing, &failed_before);
     if (status == ARK_SUCCESS) status = ARKodeEvolve(in->bearing, t_stop, in->view, &t, ARK_NORMAL);
     ARKodeGetNumErrTestFails(in->bearing, &failed);
     s->error_tests_failed += (double)(failed - failed_before);
     if (in->now != &s->now) s->now = *in->now;
-    s->h = in->goal;
+    if (!is_fixed(in)) s->h = in->goal;
     return status < 0 ? status : 0;
+}
+
+// Rounding of the host's time must not change the number of steps.
+double fixed_steps(double step, double length)
+{
+    return fmax(ceil(length / step * (1.0 - LAST_STEP)), 1.0);
+}
+
+void integrator_fix_step(Integrator *in)
+{
+    const double given = in->model->p->solver.step;
+    in->s->h = given > 0.0 ? given : cage_fixed_step(in->model, in->s->now.film);
 }
 
 // The shortest step that ARKODE begins with [s].  It multiplies the time to t_stop by the step size of the run

@@ -35,6 +35,12 @@ void integrator_tolerance(Integrator *integrator, double tolerance);
 // Makes now.f the derivative at the present state, if it is not.
 void integrator_evaluate(Integrator *integrator);
 
+// Sets the step of solver.method = fixed for the whole run, from the state at the start.
+void integrator_fix_step(Integrator *integrator);
+
+// Number of equal steps of that method in an advance of some length [s].
+double fixed_steps(double step, double length);
+
 // Steps to t_stop under the present load of the ring, at most max_steps.  Returns 0, or a negative code of
 // ARKODE if it cannot go on; the state is then that of the last accepted step.
 int integrator_advance(Integrator *integrator, double t_stop, long max_steps);
