@@ -63,10 +63,15 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
 
 
 def made_modes(elastic, alone, cage, count=None, progress=lambda done, total: None):
-    """HalfModes of a condensed half and what the header says of their error; cage: HalfData."""
-    modes, found = half_modes.half_modes(elastic, alone, count or half_modes.default_count(elastic.Z), progress)
+    """HalfModes of a condensed half and what the header says of their error; cage: HalfData.
+
+    Raises ValueError for a number of modes that is not allowed.
+    """
+    count = half_modes.default_count(elastic.Z) if count is None else count
+    half_modes.check_count(count, elastic.Z)
+    modes, found = half_modes.half_modes(elastic, alone, count, progress)
     inertia = half_shape.Inertia(cage.m, cage.x_c, cage.J_p, cage.J_t)
-    return modes, impacts.modes_error(elastic.g, inertia, modes, found)
+    return half_modes.with_law(modes, alone), impacts.modes_error(elastic.g, inertia, modes, found)
 
 
 def other_modes(table, count=None, progress=_quiet):
@@ -116,7 +121,7 @@ def main(arguments=None):
     parser.add_argument("geometry", nargs="?")
     parser.add_argument("--coarse", action="store_true")
     parser.add_argument(
-        "--modes", type=int, help="modes of a cage half, a pair counted as two (default: 20 for three rivets)"
+        "--modes", type=int, help="modes of a cage half, a pair counted as two (default: 40 for nine rivets)"
     )
     parser.add_argument("--workers", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args(arguments)

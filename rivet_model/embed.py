@@ -19,9 +19,10 @@ BINS = 256  # RIVET_BINS in fmu_src/rivet/rivet_rom.h
 
 
 def _array(name, values, kind="double"):
+    """C text of a constant array, aligned to lines of the cache."""
     text = [repr(value) + "f" * (kind == "float") for value in np.ravel(values).tolist()]
     lines = [", ".join(text[i : i + 8]) for i in range(0, len(text), 8)]
-    return f"static const {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
+    return f"static const _Alignas(64) {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
 
 
 def bin_cells(knots):
@@ -65,7 +66,8 @@ def uniform_coefficients(law):
     """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the
     same function.
     """
-    values = law.coefficients
+    energy = law.energy if isinstance(law, joint_law.LawBehind) else np.zeros(law.coefficients.shape[:-1])
+    values = np.insert(law.coefficients, 3, energy, axis=-1)
     for axis, name in enumerate(joint_law.AXES):
         knots = law.knots[name]
         cells = uniform_cells(name, knots)
@@ -77,8 +79,7 @@ def uniform_coefficients(law):
             uniform[np.arange(len(at)), cell + k] = weight
         clamped = splines.collocation(knots, knots[0] + (knots[-1] - knots[0]) * at / cells)
         values = np.moveaxis(np.tensordot(np.linalg.solve(uniform, clamped), values, axes=(1, axis)), 0, axis)
-    zero = np.zeros((*values.shape[:-1], 1))
-    return np.concatenate([values[..., :3], zero, values[..., 3:], zero], axis=-1)
+    return np.append(values, np.zeros((*values.shape[:-1], 1)), axis=-1)
 
 
 def alike_rows(alike):
@@ -142,6 +143,7 @@ def _modes_source(t):
     ]
     residual, law = modes.residual, modes.law
     arrays = [
+        f'_Static_assert({modes.room} <= Y_MODE_D - Y_MODE_S, "the rivet table has {modes.count.sum()} vibration modes");\n',
         f"static const HalfMode mode_entry[{len(entries)}] = {{\n    " + ",\n    ".join(entries) + "};\n",
         _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=2)),
         f"static const double residual_pad[{t.Z}][PADS][PADS] = {_braces(residual.pad)};\n",

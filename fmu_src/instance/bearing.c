@@ -220,10 +220,9 @@ static void derive_at(Bearing *b, const Inputs *u)
 static bool room_for_modes(Bearing *b)
 {
     if (b->s.p.scene.cage != CAGE_MODEL_ELASTIC || b->elastic != NULL) return true;
-    b->elastic = aligned_new(elastic_half_size());
+    b->elastic = aligned_new(sizeof *b->elastic);
     if (b->elastic == NULL)
         bearing_log(b, LOG_ERROR, "scene.cage = elastic: no memory for the modes of the halves");
-    if (b->elastic != NULL) b->elastic->law_modes = 0;
     return b->elastic != NULL;
 }
 

@@ -62,10 +62,10 @@ void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD
 }
 
 // Sum over the modes in one order for every lane width.
-static scalar elastic_dot(const ElasticHalf *half, const double *x, const scalar *y)
+static scalar elastic_dot(const double *x, const scalar *y)
 {
     scalar part[8] = {0};
-    for (int i = 0; i < 8 * half->blocks; i += 8)
+    for (int i = 0; i < N_MODES; i += 8)
         for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
@@ -89,10 +89,10 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
             stored[i] = half->weight[i] * w->q[h][i];
             moved[i] = fabs(scalar_value(w->q[h][i]));
         }
-        w->reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->q[h]))) +
-                      elastic_dot(half, half->widest, moved);
-        w->more_J[h] = 2.0 * elastic_dot(half, half->spin, w->q[h]);
-        w->more_J_dot[h] = 2.0 * elastic_dot(half, half->spin, w->q_dot[h]);
+        w->reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(stored, w->q[h]))) +
+                      elastic_dot(half->widest, moved);
+        w->more_J[h] = 2.0 * elastic_dot(half->spin, w->q[h]);
+        w->more_J_dot[h] = 2.0 * elastic_dot(half->spin, w->q_dot[h]);
     }
 }
 
@@ -186,14 +186,14 @@ void cage_elastic_loads(const Model *model, const ball_array P, Work *w)
                 K[0] * wide_load(&w->e[0][k]) + K[1] * wide_load(&w->e[1][k]) + K[2] * wide_load(&w->e[2][k]);
             wide_store(&w->joint_behind[a][k], L[a]);
         }
-        law_places(&half->law, L, wide_load(&P[k]), k, &at);
+        law_places(half->law, L, wide_load(&P[k]), k, &at);
     }
     for (int k = 0; k < Z; k++) {
         octet S;
         scalar weight[LAW_AXES][3];
         for (int a = 0; a < LAW_AXES; a++)
             for (int i = 0; i < 3; i++) weight[a][i] = at.weight[a][i][k];
-        law_sum(&half->law, (int)scalar_value(at.cell[k]), weight, &S);
+        law_sum(half->law, (int)scalar_value(at.cell[k]), weight, &S);
         const scalar s = at.size[k], across = scalar_value(w->joint_behind[1][k]) < 0.0 ? -s : s;
         w->joint_load[0][k] = s * S.x[0], w->joint_rivet[0][k] = s * S.x[4];
         w->joint_load[1][k] = across * S.x[1], w->joint_rivet[1][k] = across * S.x[5];
@@ -327,8 +327,8 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
     for (int i = half->n; i < MODES; i++)
         y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
-    w->modes_energy = 0.5 * m * elastic_sum(half, rates, one);
-    w->modes_dissipated = m * elastic_sum(half, lost, one);
+    w->modes_energy = 0.5 * m * elastic_sum(rates, one);
+    w->modes_dissipated = m * elastic_sum(lost, one);
     for (int h = 0; h < 2; h++)
         w->modes_energy +=
             0.5 * w->more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);

@@ -47,7 +47,7 @@ typedef struct {
     const double *wall_to;  // [chi][value, slope][Z][SEATS][x, r, t] by forces on the wall of pocket 0
     double spin[SEATS];     // per (rad/s)^2, at any rivet
     const double *wall;     // [chi][value, slope] of the wall under the contact, along its normal [m/N]
-    // over L^ = L + K_0 delta, K_0 what a number of modes leaves of the stiffness around a joint: gives L in
-    // place of delta, because L^ - K_0 delta is a small difference; without neighbours
+    // over L^ = L + K_0 delta, K_0 the stiffness that the modes leave around a joint: gives L in place of delta,
+    // because L^ - K_0 delta is a small difference, and U, whose slope is delta; without neighbours
     JointLaw law;
 } HalfModes;
