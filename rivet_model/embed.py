@@ -129,32 +129,28 @@ def _modes_source(t):
     if modes is None:
         return [], "{0}"
     entries = [
-        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {_braces(rim)}, {spin!r}}}"
-        for omega, n, parity, count, at, rim, spin in zip(
+        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {spin!r}}}"
+        for omega, n, parity, count, at, spin in zip(
             modes.omega.tolist(),
             modes.harmonic.tolist(),
             modes.parity.tolist(),
             modes.count.tolist(),
-            np.concatenate([modes.pad, modes.rivet], axis=1),
-            modes.rim,
+            modes.pad,
             modes.spin.tolist(),
             strict=True,
         )
     ]
-    residual, law = modes.residual, modes.law
+    law = modes.law
     arrays = [
         f'_Static_assert({modes.room} <= Y_MODE_D - Y_MODE_S, "the rivet table has {modes.count.sum()} vibration modes");\n',
         f"static const HalfMode mode_entry[{len(entries)}] = {{\n    " + ",\n    ".join(entries) + "};\n",
         _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=2)),
-        f"static const double residual_pad[{t.Z}][PADS][PADS] = {_braces(residual.pad)};\n",
-        f"static const double residual_rivet[{t.Z}][SEATS - PADS][PADS] = {_braces(residual.rivet)};\n",
-        _array("residual_wall_to", np.stack([residual.pocket, modes.residual_slope], axis=1)),
-        _array("residual_wall", np.stack([residual.wall, modes.wall_slope], axis=1)),
+        _array("residual_wall", modes.residual.wall),
         _array("behind_coefficients", uniform_coefficients(law)),
     ]
     text = f"""{{
-        .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket, .pad = residual_pad,
-        .rivet = residual_rivet, .wall_to = residual_wall_to, .spin = {_braces(residual.spin)}, .wall = residual_wall,
+        .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket,
+        .pad = {_braces(modes.residual.pad[0])}, .wall = residual_wall,
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = behind_coefficients,
                  .K_0 = {_braces(law.stiffness)}}}}}"""
     return arrays, text

@@ -455,7 +455,7 @@ def settings(fmu, name):
             lambda values: [1, *values[1:]],
             "modes.parity: 1 or -1 of harmonics 0 and Z/2, 0 of the others is needed",
         ),
-        ("pad", lambda values: values[1:], r"modes.pad has shape \(32, 6\); \(33, 6\) is needed"),
+        ("pad", lambda values: values[1:], r"modes.pad has shape \(20, 6\); \(21, 6\) is needed"),
         (
             "residual",
             lambda values: values | {"pad": (-np.array(values["pad"])).tolist()},

@@ -297,7 +297,7 @@ static bool check_table(Bearing *b)
         "table; build an FMU for this cage",
         b->s.p.cage.x_c, rivet_table.half.x_c);
     fine &=
-        require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes > 0.0,
+        require(b, b->s.p.scene.cage != CAGE_MODEL_ELASTIC || rivet_table.modes.modes > 0,
                 "scene.cage = elastic: the embedded rivet table has %g vibration modes; build an FMU with a "
                 "table by finite elements",
                 rivet_table.modes.modes, 0.0);

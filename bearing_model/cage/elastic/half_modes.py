@@ -96,12 +96,6 @@ class HalfModes:
         beyond = pocket[-2][::-1] * EVEN[:, None] * MIRROR
         return cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.concatenate([pocket, beyond[None]]))
 
-    @cached_property
-    def wall_slope(self):
-        """Of `residual.wall` over chi."""
-        wall = self.residual.wall
-        return cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.append(wall, wall[-2]))
-
 
 def phases(modes, shift):
     """cos and sin of n 2 pi (j + shift)/Z [entries, Z]."""

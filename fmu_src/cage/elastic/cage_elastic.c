@@ -15,7 +15,7 @@
 //
 //     L^ = K e,     (L, T, m_r, m_t) = law(L^, P)
 //
-// with the joint's law over K (elastic_half.c): its pads move by delta, L = K (e - delta).  So each joint
+// with the rivet table's law over K: its pads move by delta, L = K (e - delta).  So each joint
 // follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
 // 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
 // contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.

@@ -278,11 +278,11 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
         half->step[node] = half->chi[node + 1] - half->chi[node];
         half->inv_step[node] = 1.0 / half->step[node];
     }
-    half->compliance = table->wall[2 * WALL_NODE];
+    half->compliance = table->wall[WALL_NODE];
     take_modes(p, half);
     take_residual(&table->law, half);
-    const double (*pad)[PADS] = table->pad[0];
-    const double shear = pad[PAD_R][PAD_R] + pad[PAD_T][PAD_T];  // mean over r and t, of both halves
+    // mean over r and t, of both halves
+    const double shear = table->pad[PAD_R][PAD_R] + table->pad[PAD_T][PAD_T];
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
 

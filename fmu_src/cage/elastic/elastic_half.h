@@ -68,8 +68,8 @@ struct ElasticHalf {
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // what is left of the holes' [N/m]
     double substep;    // of the default method, at most [s]
-    const JointLaw *
-        law;  // the joints' law over L^ = L + K delta, which gives L; the fourth number is U, whose slope is delta
+    // the joints' law over L^ = L + K delta, which gives L; the fourth number is U, whose slope is delta
+    const JointLaw *law;
 };
 
 // The half of the rivet table in the scene.
