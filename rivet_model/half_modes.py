@@ -34,6 +34,9 @@ from .cage_half import BODY, SYMMETRIC
 # within 0.3 %, 32 a 99.9 % pocket force 2 % larger.  Below 3.5 a pitch the statics of the modes left out couple the
 # joints, above 5.5 vibrations beyond 50 kHz make the step short.
 USUAL, FEWEST, MOST = 5 / 9, 4 / 9, 2 / 3
+# Modes a pitch that are found at least, about as many again beside them, so that the statics left to the walls do not
+# depend on how many the half keeps.
+FOUND = 20 / 3
 SHIFT = -((2.0 * np.pi * 500.0) ** 2)  # (rad/s)^2 below the rigid motions, whose frequency is 0
 TOLERANCE = 1e-6  # of symmetry: shapes whose real or imaginary part should be 0 (observed 1e-9)
 APART = 1.1e-3  # m between two places of the wall beyond which point loads need no finer cells than those of the half
@@ -225,7 +228,7 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
     Z, massive, places = elastic.Z, MassiveHalf(elastic), Places(elastic, alone)
     everything = np.column_stack([places.rivet, places.pocket, places.spin])
     rims, rows, static = rim_means(elastic), [], []
-    for wave in waves(massive, count, progress):
+    for wave in waves(massive, max(count, round(FOUND * Z)), progress):
         u = everything.T @ (elastic.loads.T @ wave.shape)  # [places, modes]
         rim = rims[wave.n] @ wave.shape
         rows += [(wave.omega[i], wave.n, wave.parity[i], u[:, i], rim[:, i]) for i in range(len(wave.omega))]
