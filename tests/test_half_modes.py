@@ -16,7 +16,7 @@ from test_half import SMALL, whole
 from bearing_model.cage.elastic import half_modes as modes_of
 from bearing_model.rivet import rivet_table
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
-from rivet_model import build, cage_half, closed_form, embed, half, half_loads, half_modes, half_shape, impacts, table
+from rivet_model import cage_half, closed_form, embed, half, half_loads, half_modes, half_shape, impacts, table
 from rivet_model.geometry import Geometry
 from riveted_bearing.fmu import Model, codes
 from riveted_bearing.scene import load_scene
@@ -473,13 +473,12 @@ def test_a_wrong_section_is_refused(tmp_path, key, change, message):
         rivet_table.read(tmp_path / "wrong.json")
 
 
-def test_numbers_of_modes(coarse):
+def test_numbers_of_modes():
     """As many for each pitch as the 6207 has; too few and too many are refused by the value."""
-    elastic, alone, _ = coarse
     assert [half_modes.default_count(Z) for Z in (5, 8, 9, 18, 32)] == [24, 40, 40, 80, 144]
     for count in (31, 49, 40.0):
         with pytest.raises(ValueError, match=f"modes = {count}: a whole number from 32 to 48 is needed for Z = 9"):
-            build.made_modes(elastic, alone, None, count)
+            half_modes.check_count(count, G.Z)
 
 
 def test_closed_forms_have_no_modes(tmp_path):
