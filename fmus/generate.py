@@ -154,14 +154,14 @@ def load_table(bearing=None, path=None):
     path = path or TABLE
     raw = tomllib.loads(Path(path).read_text())
     changes = tomllib.loads(Path(bearing).read_text()) if bearing else {}
-    Z = changes.get("Z", raw.get("Z"))
+    Z, modes = (changes.get(name, raw.get(name)) for name in ("Z", "modes"))
     if "Z" in raw and (type(Z) is not int or not Z_MIN <= Z <= Z_MAX):
         raise ValueError(f"{bearing or path}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
     variables = []
     for section, causality in CAUSALITIES.items():
         for entry in raw.get(section, {}).get("list", ()):
-            numbers = {key: number_of(entry[key], Z) for key in ("count", "start", "min", "max") if key in entry}
-            v = Variable(causality=causality, **entry | numbers)
+            count = {"count": Z} if entry.get("count") == "Z" else {}
+            v = Variable(causality=causality, **entry | count)
             v = replace(v, choices=tuple(raw["enumerations"].get(v.type, ())))
             variables.append(replace(v, start=Z) if v.group == "constant" else v)
     for section in ("parameters", "inputs"):
@@ -169,7 +169,7 @@ def load_table(bearing=None, path=None):
             set_start(variables, CAUSALITIES[section], name, value, bearing)
     states, offset = [], 0
     for entry in (*raw["states"]["list"], *raw["states"].get("elastic", ())):
-        count = number_of(entry["count"], Z)
+        count = {"Z": Z, "modes": modes}.get(entry["count"], entry["count"])
         states.append(StateBlock(**entry | {"count": count}, offset=offset, of_balls=entry["count"] == "Z"))
         offset += count
     n_plain = len(raw["states"]["list"])
@@ -187,20 +187,6 @@ def load_table(bearing=None, path=None):
     )
     check_table(table, path, raw.get("retired", ()))
     return table
-
-
-# octets of vibration modes of a cage half per so many balls
-MODES = {"modes": (5, 9), "fewest modes": (4, 9), "most modes": (2, 3)}
-
-
-def number_of(value, Z):
-    """A value of the table, or the number that its name stands for in a bearing of Z balls."""
-    if value == "Z":
-        return Z
-    if value not in MODES:
-        return value
-    octets, balls = MODES[value]
-    return 8 * math.ceil(octets * Z / balls)
 
 
 def flatten(nested, prefix=""):

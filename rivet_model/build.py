@@ -45,6 +45,8 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
         return lambda done, total: progress(name, done, total)
 
     half_shape.check_half(geometry)  # before minutes are spent on the rivet
+    count = half_modes.default_count(geometry.Z) if modes is None else modes
+    half_modes.check_count(count, geometry.Z)
     joint = Joint(geometry, grid, stage("elements"))
     samples = reduction.sample(joint, knots, workers, stage("contacts"))
     fine = Fineness(0.5) if coarse else Fineness()
@@ -52,7 +54,7 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     elastic = half_loads.elastic_half(geometry, half.COARSE if coarse else None)
     alone = half_loads.JointAlone(elastic)
     cage = half_loads.make_half(elastic, alone, stage("cage half"))
-    vibration, report = made_modes(elastic, alone, cage, modes, stage("modes"))
+    vibration, report = made_modes(elastic, alone, cage, count, stage("modes"))
     result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, vibration)
     if hold_out:
         result.errors |= measured_errors(
@@ -62,15 +64,17 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     return result
 
 
-def made_modes(elastic, alone, cage, count=None, progress=lambda done, total: None):
+def made_modes(elastic, alone, cage, count, progress=lambda done, total: None):
     """HalfModes of a condensed half and what the header says of their error; cage: HalfData."""
-    modes, found = half_modes.half_modes(elastic, alone, count or half_modes.default_count(elastic.Z), progress)
+    modes, found = half_modes.half_modes(elastic, alone, count, progress)
     inertia = half_shape.Inertia(cage.m, cage.x_c, cage.J_p, cage.J_t)
-    return modes, impacts.modes_error(elastic.g, inertia, modes, found)
+    return half_modes.with_law(modes, alone), impacts.modes_error(elastic.g, inertia, modes, found)
 
 
 def other_modes(table, count=None, progress=_quiet):
-    """A table of full finite elements with another number of modes."""
+    """A table of full finite elements with its modes made again, or another number of them."""
+    count = half_modes.default_count(table.Z) if count is None else count
+    half_modes.check_count(count, table.Z)
     elastic = half_loads.elastic_half(Geometry(**table.geometry))
     modes, report = made_modes(
         elastic, half_loads.JointAlone(elastic), table.half, count, lambda done, total: progress("modes", done, total)
@@ -116,7 +120,7 @@ def main(arguments=None):
     parser.add_argument("geometry", nargs="?")
     parser.add_argument("--coarse", action="store_true")
     parser.add_argument(
-        "--modes", type=int, help="modes of a cage half, a pair counted as two (default: 20 for three rivets)"
+        "--modes", type=int, help="modes of a cage half, a pair counted as two (default: 40 for nine rivets)"
     )
     parser.add_argument("--workers", type=int, default=min(2, os.cpu_count() or 1))
     options = parser.parse_args(arguments)

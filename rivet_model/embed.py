@@ -19,9 +19,10 @@ BINS = 256  # RIVET_BINS in fmu_src/rivet/rivet_rom.h
 
 
 def _array(name, values, kind="double"):
+    """C text of a constant array, aligned to lines of the cache."""
     text = [repr(value) + "f" * (kind == "float") for value in np.ravel(values).tolist()]
     lines = [", ".join(text[i : i + 8]) for i in range(0, len(text), 8)]
-    return f"static const {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
+    return f"static const _Alignas(64) {kind} {name}[{len(text)}] = {{\n    " + ",\n    ".join(lines) + "};\n"
 
 
 def bin_cells(knots):
@@ -65,7 +66,8 @@ def uniform_coefficients(law):
     """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the
     same function.
     """
-    values = law.coefficients
+    energy = law.energy if isinstance(law, joint_law.LawBehind) else np.zeros(law.coefficients.shape[:-1])
+    values = np.insert(law.coefficients, 3, energy, axis=-1)
     for axis, name in enumerate(joint_law.AXES):
         knots = law.knots[name]
         cells = uniform_cells(name, knots)
@@ -77,8 +79,7 @@ def uniform_coefficients(law):
             uniform[np.arange(len(at)), cell + k] = weight
         clamped = splines.collocation(knots, knots[0] + (knots[-1] - knots[0]) * at / cells)
         values = np.moveaxis(np.tensordot(np.linalg.solve(uniform, clamped), values, axes=(1, axis)), 0, axis)
-    zero = np.zeros((*values.shape[:-1], 1))
-    return np.concatenate([values[..., :3], zero, values[..., 3:], zero], axis=-1)
+    return np.append(values, np.zeros((*values.shape[:-1], 1)), axis=-1)
 
 
 def alike_rows(alike):
@@ -128,31 +129,28 @@ def _modes_source(t):
     if modes is None:
         return [], "{0}"
     entries = [
-        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {_braces(rim)}, {spin!r}}}"
-        for omega, n, parity, count, at, rim, spin in zip(
+        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {spin!r}}}"
+        for omega, n, parity, count, at, spin in zip(
             modes.omega.tolist(),
             modes.harmonic.tolist(),
             modes.parity.tolist(),
             modes.count.tolist(),
-            np.concatenate([modes.pad, modes.rivet], axis=1),
-            modes.rim,
+            modes.pad,
             modes.spin.tolist(),
             strict=True,
         )
     ]
-    residual, law = modes.residual, modes.law
+    law = modes.law
     arrays = [
+        f'_Static_assert({modes.room} <= Y_MODE_D - Y_MODE_S, "the rivet table has {modes.count.sum()} vibration modes");\n',
         f"static const HalfMode mode_entry[{len(entries)}] = {{\n    " + ",\n    ".join(entries) + "};\n",
         _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=2)),
-        f"static const double residual_pad[{t.Z}][PADS][PADS] = {_braces(residual.pad)};\n",
-        f"static const double residual_rivet[{t.Z}][SEATS - PADS][PADS] = {_braces(residual.rivet)};\n",
-        _array("residual_wall_to", np.stack([residual.pocket, modes.residual_slope], axis=1)),
-        _array("residual_wall", np.stack([residual.wall, modes.wall_slope], axis=1)),
+        _array("residual_wall", modes.residual.wall),
         _array("behind_coefficients", uniform_coefficients(law)),
     ]
     text = f"""{{
-        .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket, .pad = residual_pad,
-        .rivet = residual_rivet, .wall_to = residual_wall_to, .spin = {_braces(residual.spin)}, .wall = residual_wall,
+        .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket,
+        .pad = {_braces(modes.residual.pad[0])}, .wall = residual_wall,
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = behind_coefficients,
                  .K_0 = {_braces(law.stiffness)}}}}}"""
     return arrays, text

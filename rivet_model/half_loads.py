@@ -11,9 +11,11 @@ A force on one half is half a mirrored pair of forces, which gives N, M, dP, dm,
 V.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
-from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, law_load
+from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, joint_law, law_load
 from bearing_model.rivet.rivet_table import HalfData
 
 from . import half_shape, splines
@@ -29,6 +31,7 @@ KNOTS = {"tau": np.linspace(0.0, 1.0, 11), "q": np.linspace(-1.0, 1.0, 11), "psi
 KNOTS_BEHIND = KNOTS | {"q": np.linspace(-1.0, 1.0, 41)}
 LENGTH = 1.5e-3  # l of the law of the 6207's joint: about the distance of the pad's edge from the rivet
 NEWTON = 60  # steps at most
+RAY = 48  # intervals of Simpson's rule along a ray of loads
 
 
 class JointAlone:
@@ -254,7 +257,28 @@ def make_law_behind(alone, K):
         return alone.solve_behind(K, load, P, near)
 
     length = law_length(alone.elastic.g)
-    return LawBehind(length, KNOTS_BEHIND, law_coefficients(KNOTS_BEHIND, len(CARRIED), length, answer), K)
+    carried = law_coefficients(KNOTS_BEHIND, len(CARRIED), length, answer)
+    return with_energy(LawBehind(length, KNOTS_BEHIND, carried, None, K))
+
+
+def with_energy(law):
+    """LawBehind with the coefficients of U(L^) = integral of delta dL^, from 0 along the ray of L^, where delta = K^-1
+    (L^ - L).
+    """
+    knots = [law.knots[name] for name in AXES]
+    places = [splines.sites(k) for k in knots]
+    grid = np.array(
+        [[[np.append(*law_load(law.length, a, b, c)) for c in places[2]] for b in places[1]] for a in places[0]]
+    )
+    load, P = grid[..., :3], grid[..., 3]
+    ray = np.linspace(0.0, 1.0, RAY + 1)
+    simpson = np.tile([2.0, 4.0], RAY // 2 + 1)[: RAY + 1] / (3.0 * RAY)
+    simpson[[0, -1]] /= 2.0
+    # without the start of the ray, where no load moves a joint
+    moves = (t * load - joint_law(law, t * load, P)[0] for t in ray[1:])
+    R = np.linalg.inv(law.stiffness)
+    U = sum(w * np.sum(move @ R.T * load, axis=-1) for w, move in zip(simpson[1:], moves, strict=True))
+    return replace(law, energy=splines.interpolate(knots, U))
 
 
 def pair_stiffness(contact, P=20.0):

@@ -96,7 +96,7 @@ class Case:
     @property
     def bearing(self):
         """Geometry and material for the quasi-static model, at the present temperatures and fits."""
-        tables = scaling.parameters_of(self.Z), variables.INPUTS
+        tables = variables.PARAMETERS, variables.INPUTS
         parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in tables)
         p, u = (
             Values(table, {name: self.values[name] for name in table if name in self.values})
@@ -263,9 +263,10 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     Z = document.get("Z")
     if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
-    parameters = scaling.parameters_of(Z or (catalogue.balls(entry)[0] if entry else variables.Z))
     data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
-    given = dict(start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), parameters))
+    given = dict(
+        start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), variables.PARAMETERS)
+    )
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
     found = {
@@ -383,8 +384,6 @@ def rules(Z, given, rivet, inputs, data, entry):
         rivet_by_rule = {name: value for name, value in rivet_by_rule.items() if value != RIVET[name]}
         by_rule = {}
     parameters |= scaling.scaled_materials(given)
-    if Z != variables.Z or own_shape:
-        parameters["scene.modes"] = scaling.modes(Z)
     return (
         Z,
         {name: value for name, value in parameters.items() if name not in given},

@@ -161,7 +161,8 @@ def start_document(case, path):
     table, sections = read_table(path, case.Z), {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
-    return {"Z": case.Z, "description": fmu_description(case, table), "origin": case.origin} | start
+    modes = {"modes": table.modes.room} if table.modes else {}
+    return {"Z": case.Z} | modes | {"description": fmu_description(case, table), "origin": case.origin} | start
 
 
 def cage_of(case, table):

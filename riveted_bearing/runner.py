@@ -125,18 +125,16 @@ def closing_names(model):
 
 
 def vibrations(model, parameters):
-    """Frequencies [Hz] of a free half, of the modes that the run took, by the table inside the FMU; nothing if the
-    halves are rigid or the FMU lists none.
+    """Frequencies [Hz] of a free half by the table inside the FMU; nothing if the halves are rigid or the FMU lists
+    none.
 
-    A half is as much denser than the table's as `cage.m` is larger, and takes whole pairs of modes
-    (bearing_model/cage/elastic/half_modes.py: denser, fewer).
+    A half is as much denser than the table's as `cage.m` is larger (bearing_model/cage/elastic/half_modes.py: denser).
     """
     if parameters.get("scene.cage") != "elastic" or not model.cage_modes:
         return {}
     modes = model.cage_modes
-    kept = int(np.searchsorted(np.cumsum(modes["modes"]), parameters["scene.modes"], side="right"))
     denser = parameters["cage.m"] / modes["mass"]
-    return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"][:kept]]}
+    return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"]]}
 
 
 def provenance(model, scene):

@@ -10,7 +10,7 @@ radially, a sixth of that axially where no load is given, else 0 for those that 
 """
 
 import math
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from types import SimpleNamespace
 
 from bearing_model.generated import variables
@@ -53,20 +53,6 @@ SPEED = 8.0  # n d_m, 480,000 mm/min [m/s]
 def start(name):
     """Default of a parameter, the 6207's."""
     return variables.PARAMETERS[name].start
-
-
-def modes(Z):
-    """Vibration modes of a half as many a ball as the 6207 has, in octets."""
-    return parameters_of(Z)["scene.modes"].start
-
-
-def parameters_of(Z):
-    """The variable table's parameters by name, with the start and the limits that hold for Z balls (fmus/generate.py,
-    number_of).
-    """
-    v = variables.PARAMETERS["scene.modes"]
-    start, low, high = (8 * math.ceil(number * Z / (8 * variables.Z)) for number in (v.start, v.min, v.max))
-    return variables.PARAMETERS | {v.name: replace(v, start=start, min=low, max=high)}
 
 
 def rounded(value):

@@ -279,13 +279,13 @@ def print_tables(counts=(240, 120, 60, 50, 40, 30, 20), sequences=12, opening=2)
     expected = full.transfer()
     expected = np.stack([expected.loads(f) for f in force])
     for n in counts:
-        modes = modes_of.fewer(found, min(n, int(found.count.sum())))
+        modes = half_modes.fewer(found, min(n, int(found.count.sum())))
         transfer = modal_transfer(g, inertia, modes, lever)
         rms, p999 = errors(np.stack([transfer.loads(f) for f in force]), expected)
         print("bonded ", n, *(f"{100 * e:.1f}" for e in (*rms[:5], *p999[:5])), flush=True)
     spin, expected = t.half.spin[[4, 5]] * 754.0**2, None
     for n in counts:
-        modes = modes_of.fewer(found, min(n, int(found.count.sum())))
+        modes = half_modes.fewer(found, min(n, int(found.count.sum())))
         loads = np.stack(
             [
                 np.concatenate(opened(g, inertia, modes, f, t.half.law, 20.0, spin, lever), axis=1)

@@ -100,10 +100,7 @@ class Model:
         self.pointer.p, self.pointer.d, self.pointer.ring_load = self.p, self.d, self.ring_load
         self.elastic = core.ffi.NULL
         if self.p.scene.cage == variables.CageModel.ELASTIC:
-            self.elastic = core.ffi.gc(
-                core.ffi.cast("ElasticHalf *", core.lib.test_allocate(core.lib.elastic_half_size())), core.lib.free
-            )
-            core.lib.elastic_half_derive(self.p, self.d, self.elastic)
+            self.elastic = core.ffi.gc(core.lib.test_elastic_half(self.p, self.d), core.lib.free)
         self.pointer.elastic = self.elastic
         self.states = variables.N_ALL_STATES if self.elastic else variables.N_STATES
         self.isa = isa or core.ffi.string(core.lib.kernels_select().name).decode()

@@ -5,7 +5,6 @@ from library import TWO_HALF
 from python_core import Body, PythonWork
 
 from bearing_model.cage.elastic.cage_elastic import mode_order
-from bearing_model.cage.elastic.half_modes import fewer
 from bearing_model.generated import variables
 from bearing_model.physics.derived import default_table
 from bearing_model.physics.hertz_exact import HertzContact, hertz_ellipse
@@ -139,11 +138,6 @@ def pocket_loads(model):
     return np.array([list(model.work.pocket[h].Q)[:Z] for h in range(2)])
 
 
-def modes_of(p):
-    """Number of modes that the scene takes of the 6207's halves."""
-    return int(fewer(default_table().modes, p.scene.modes).count.sum())
-
-
 def running_state(model, rng, *, pockets=True, slip=1.0):
     """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted,
     joints offset and slipping.
@@ -171,7 +165,7 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
         phi + (rng.choice([-1.0, 1.0], Z) * play + shift[1] * np.cos(phi) - shift[0] * np.sin(phi)) / r_0
     )
     if p.scene.cage == variables.CageModel.ELASTIC:
-        order, _, _ = mode_order(fewer(default_table().modes, p.scene.modes))
+        order, _, _ = mode_order(default_table().modes)
         n = len(order)
         for block in (variables.MODE_S, variables.MODE_D):  # lower modes farther, all with the same acceleration
             y[block][:n] += 1e-6 * rng.uniform(-1.0, 1.0, n) / (1.0 + order)

@@ -159,7 +159,7 @@ def test_the_default_rivet_takes_the_shipped_table(tmp_path):
     """Whether asked for the full one or not asked; a coarse or closed one is made."""
     case = bearing_case("6207")
     assert given_table(None, case, None, None) == given_table(None, case, "full", None) == rivet_table.DEFAULT_TABLE
-    with pytest.raises(UserError, match="6207: modes = 8: a whole number from Z = 9 to 20 Z = 180 is needed"):
+    with pytest.raises(UserError, match="6207: modes = 8: a whole number from 32 to 48 is needed for Z = 9"):
         given_table(None, case, None, None, 8)
     with pytest.raises(UserError, match="--modes 40: a table of closed forms has none; allowed: coarse or full"):
         given_table(None, case, "closed-form", None, 40)

@@ -6,7 +6,6 @@ from library import TWO_HALF
 from mechanics import SLICE, Instance, Z, pocket_loads, running_state, view
 
 from bearing_model.cage.elastic.cage_elastic import mode_order
-from bearing_model.cage.elastic.half_modes import fewer
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     MODE_D,
@@ -205,7 +204,7 @@ def modal_image(y, image, act):
     """The state whose rigid part is `image` and whose modes are act(a - i b, harmonic): a mode of a pair or alone has
     the coordinates a (cos) and b (sin).
     """
-    modes = fewer(default_table().modes, variables.PARAMETERS["scene.modes"].start)
+    modes = default_table().modes
     _, entry, part = mode_order(modes)
     n, is_b, alone = modes.harmonic[entry], part > 0.0, modes.parity[entry] != 0
     z = np.concatenate([image, np.zeros(len(y) - N_STATES)])

@@ -1,5 +1,6 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory
 // as the kernels want it.
+#include "cage/elastic/elastic_half.h"
 #include "instance/part.h"
 #include "numbers/elementary.h"
 #include "numbers/lanes.h"
@@ -12,6 +13,7 @@
 #include <stdlib.h>
 
 void *test_allocate(size_t size);
+ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d);
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
 void test_ring_load_at(const InputTrajectory *trajectory, double t, RingLoad *ring_load);
 void test_pow(int n, double y, const double *x, double *power);
@@ -36,6 +38,13 @@ void *test_allocate(size_t size)
     size = (size + 63) / 64 * 64;
     void *memory = aligned_alloc(64, size);
     return memory ? memset(memory, 0, size) : NULL;
+}
+
+ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d)
+{
+    ElasticHalf *half = test_allocate(sizeof *half);
+    if (half) elastic_half_derive(p, d, half);
+    return half;
 }
 
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)

@@ -149,22 +149,3 @@ def test_possible_bearings_are_accepted(settings, tmp_path):
 
 def test_there_are_forty_of_each():
     assert len(IMPOSSIBLE) >= 40 and len(POSSIBLE) >= 40
-
-
-def test_vibration_modes_by_number_of_balls(tmp_path):
-    """4/9 to 2/3 octets of modes a ball (fmus/generate.py): 32 to 48 for 9 balls, 64 to 96 for 18, 32 to 48 for the
-    eight of the catalogue's 6308.
-    """
-    mine = tmp_path / "mine.toml"
-    for Z, few, many in ((9, 32, 48), (18, 64, 96), (32, 120, 176)):
-        for value, allowed in ((few - 1, False), (few, True), (many, True), (many + 1, False)):
-            mine.write_text(
-                f'Z = {Z}\n[parameters]\nbearing.D = "8 mm"\nbearing.d_m = "{5 * Z} mm"\nscene.modes = {value}\n'
-            )
-            assert complaint(mine) == (
-                "" if allowed else f"{mine}: parameters.scene.modes = {value}: not an integer in {few} ... {many}"
-            )
-    mine.write_text('designation = "6308"\n[parameters]\nscene.modes = 49\n')
-    assert complaint(mine).endswith("scene.modes = 49: not an integer in 32 ... 48")
-    mine.write_text("Z = 18\n[parameters]\nscene.modes = 64.5\n")
-    assert complaint(mine).endswith("scene.modes = 64.5: not an integer in 64 ... 96")

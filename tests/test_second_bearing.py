@@ -44,7 +44,7 @@ def test_elastic_halves_of_many_balls(tmp_path, Z, sizes):
         if cage == "elastic":  # by the FMU's own table, pairs named once
             table, named = read(build_folder(ROOT, str(path)) / "rivet_table.json", Z), found.about["mode_frequencies"]
             heavier = found.parameters["cage.m"] / table.half.m
-            assert len(named) > Z and named == pytest.approx(table.modes.omega[: len(named)] / 2 / np.pi / heavier**0.5)
+            assert len(named) > Z and named == pytest.approx(table.modes.omega / 2 / np.pi / heavier**0.5)
     (evaluations, tension), (evaluations_rigid, tension_rigid) = runs
     assert evaluations < 3.0 * evaluations_rigid
     assert tension == pytest.approx(tension_rigid, rel=0.1)

@@ -4,14 +4,17 @@ import importlib.util
 import re
 import subprocess
 import sys
+from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from fmpy.model_description import read_model_description
 from library import ROOT
 from lxml import etree
 
+from bearing_model.cage.elastic.half_modes import HalfModes
 from bearing_model.generated import variables
-from riveted_bearing import scaling
+from bearing_model.rivet import rivet_table
 
 spec = importlib.util.spec_from_file_location("generate", ROOT / "fmus" / "generate.py")
 generate = importlib.util.module_from_spec(spec)
@@ -189,16 +192,21 @@ def test_bearing_file_sets_balls_and_start_values(tmp_path):
     assert table.guid != TABLE.guid
 
 
-def test_modes_of_a_half_by_number_of_balls(tmp_path):
-    """As many a ball as the 6207 has, by the variable table and by the rule of a bearing file."""
-    for Z in range(5, 33):
-        table = generate.load_table(write(tmp_path / "b.toml", f"Z = {Z}\n"))
-        modes, place = table.named("scene.modes"), {block.name: block for block in table.elastic_states}
-        rule = scaling.parameters_of(Z)["scene.modes"]
-        assert (modes.min, modes.start, modes.max) == (rule.min, rule.start, rule.max)
-        assert modes.start == scaling.modes(Z) and modes.min <= modes.start <= modes.max == place["mode_s"].count
-        assert 4.4 * Z <= modes.start < 4.5 * Z + 8
-    assert [getattr(TABLE.named("scene.modes"), name) for name in ("min", "start", "max")] == [32, 40, 48]
+def test_the_state_has_room_for_the_modes_of_the_table(tmp_path):
+    """As many octets as the shipped table's modes need; a bearing of other balls says how many its own table does."""
+    modes = rivet_table.read(rivet_table.DEFAULT_TABLE).modes
+    assert {block.count for block in TABLE.elastic_states} == {modes.room} == {40}
+    table = generate.load_table(write(tmp_path / "b.toml", "Z = 18\nmodes = 80\n"))
+    assert {block.count for block in table.elastic_states} == {80}
+
+
+@pytest.mark.parametrize(
+    ("pairs", "a", "b", "room"), [(15, 2, 0, 40), (16, 0, 0, 32), (24, 0, 0, 48), (24, 1, 0, 56), (19, 1, 0, 40)]
+)
+def test_room_for_modes(pairs, a, b, room):
+    """Octets for all modes; half of the room, in octets too, takes the coordinates of one kind."""
+    parity = np.array([0] * pairs + [1] * a + [-1] * b)
+    assert HalfModes.room.fget(SimpleNamespace(parity=parity, count=np.where(parity == 0, 2, 1))) == room
 
 
 @pytest.mark.parametrize(

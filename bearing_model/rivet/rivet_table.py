@@ -21,7 +21,7 @@ from bearing_model.cage.elastic.half_modes import PAD, RIVET, HalfModes, Residua
 from bearing_model.cage.two_half import half_path
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[2] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-5"
+FORMAT = "rivet-table-6"
 # numbered from 1: the output rivet.table_kind
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}
 SECTIONS = ("header", "shank", "fit_eff", "joint", "half", "modes")
@@ -164,7 +164,8 @@ def _sections(path):
         raise ValueError(f"{path}: not a rivet table (JSON text): {error}") from error
     except (KeyError, TypeError) as error:
         raise ValueError(f"{path}: not a rivet table: {error} is missing") from error
-    _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed")
+    again = "make the table again: `riveted-bearing build` does so for a bearing or a geometry of its rivet"
+    _need(known_format == FORMAT, path, f"format is {known_format!r}; {FORMAT!r} is needed: {again}")
     _need(
         digest_of({k: data[k] for k in data if k != "header"}) == digest,
         path,
@@ -263,7 +264,14 @@ def _read_modes(path, section, Z, chi):
     lengths = np.array([1.0, 1e3, 1e3])  # of rotations 1 mrad
     least = np.linalg.eigvalsh(np.outer(lengths, lengths) * 0.5 * (stiffness + stiffness.T)).min()
     _need(least > 0.0, path, f"modes.law.stiffness is none: a motion takes work of {least:g} N/m")
-    law = joint_law.LawBehind(law.number("length"), knots, coefficients, stiffness)
+    energy = law.numbers("energy")
+    _need(
+        energy.size * len(joint_law.CARRIED) == coefficients.size,
+        path,
+        f"modes.law: {energy.size} coefficients of the energy; {coefficients.size // len(joint_law.CARRIED)} are needed",
+    )
+    energy = energy.reshape(coefficients.shape[:-1])
+    law = joint_law.LawBehind(law.number("length"), knots, coefficients, energy, stiffness)
     shapes = {"pocket": (len(chi), 3, 2), "pad": (len(PAD),), "rivet": (len(RIVET),), "rim": (2,), "spin": ()}
     arrays = {key: section.array(key, (len(omega), *shape)) for key, shape in shapes.items()}
     return HalfModes(

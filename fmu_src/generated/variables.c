@@ -41,10 +41,10 @@ const StateBlock STATE_BLOCKS[N_ALL_BLOCKS] = {
     {Y_BALL_OMEGA_X, Z, SCALE_SPIN, "ball_omega_x"},
     {Y_BALL_OMEGA_R, Z, SCALE_SPIN, "ball_omega_r"},
     {Y_BALL_OMEGA_T, Z, SCALE_SPIN, "ball_omega_t"},
-    {Y_MODE_S, 48, SCALE_LENGTH, "mode_s"},
-    {Y_MODE_D, 48, SCALE_LENGTH, "mode_d"},
-    {Y_MODE_S_DOT, 48, SCALE_MODE, "mode_s_dot"},
-    {Y_MODE_D_DOT, 48, SCALE_MODE, "mode_d_dot"},
+    {Y_MODE_S, 40, SCALE_LENGTH, "mode_s"},
+    {Y_MODE_D, 40, SCALE_LENGTH, "mode_d"},
+    {Y_MODE_S_DOT, 40, SCALE_MODE, "mode_s_dot"},
+    {Y_MODE_D_DOT, 40, SCALE_MODE, "mode_d_dot"},
 };
 
 // name, unit, value reference, count, type, causality, group, state, offset, start, min, max, built
@@ -177,7 +177,6 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"scene.lubrication", "1", 1803, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.lubrication), 1.0, 1.0, 2.0, false},
     {"scene.stress", "1", 1804, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.stress), 3.0, 1.0, 4.0, false},
     {"scene.statistics", "1", 1805, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.statistics), 1.0, 1.0, 2.0, false},
-    {"scene.modes", "1", 1810, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.modes), 40.0, 32.0, 48.0, false},
     {"solver.tol", "1", 1901, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.tol), 0.001, 1e-10, 0.1, false},
     {"solver.method", "1", 1902, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.method), 1.0, 1.0, 3.0, false},
     {"solver.max_steps", "1", 1903, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.max_steps), 10000000.0, 10.0, 2000000000.0, false},

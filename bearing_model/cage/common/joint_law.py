@@ -92,6 +92,7 @@ class LawBehind:
     length: float  # l [m]
     knots: dict  # AXES -> knots
     coefficients: np.ndarray  # [tau, q, psi, CARRIED], per newton
+    energy: np.ndarray  # of U [tau, q, psi], whose slope over L^ is delta, per newton squared
     stiffness: np.ndarray  # K [3, 3] of (u, phi_r, phi_t); N/m, N/rad, N.m/rad
 
 

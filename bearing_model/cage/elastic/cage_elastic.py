@@ -115,7 +115,7 @@ def cage_elastic_loads(model, P, j):
     trial = e @ law.stiffness.T
     places = law_places(law, trial, P + 0.0 * trial[..., 0])
     load, rivet = law_answer(law, places, trial[..., 1])
-    j.U = places[0] ** 2 * law_sum(half.energy[..., None], places)[..., 0]
+    j.U = places[0] ** 2 * law_sum(half.law.energy[..., None], places)[..., 0]
     if not np.all(intact > 0.0):
         broken = broken_answer(law.stiffness, trial)
         U = 0.5 * np.sum(e * trial, axis=-1) - 0.5 * half.R[0, 0] * broken[..., 0] ** 2

@@ -38,8 +38,6 @@ RIVET = ("dP", "dm_r", "dm_t")
 EVEN = np.array([1.0, 1.0, -1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
 MIRROR = np.array([1.0, 1.0, -1.0])  # of x, r, t
 OUT = [0, 4, 5]  # of PAD: relative motions of two pads out of the plane of the split
-# of the half whose residual the joints' law is made for; for other numbers of modes it is found from that
-LAW_MODES_PER_PITCH = 4.5
 OTHER_HALF = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of PAD: the other half is the mirror image in the split
 
 
@@ -71,12 +69,18 @@ class HalfModes:
     rim: np.ndarray  # [entries, outer and inner] amplitude of the radial displacement cos(n theta): mean over the rim
     spin: np.ndarray  # [entries] force per (rad/s)^2 at mass m
     residual: Residual
-    law: LawBehind  # of the joints, made for the residual of LAW_MODES_PER_PITCH Z modes
+    law: LawBehind  # of the joints, around the stiffness that these modes leave
 
     @property
     def count(self):
         """Modes of each entry: 2 of a pair, else 1."""
         return np.where(self.parity == 0, 2, 1)
+
+    @property
+    def room(self):
+        """Least room for them in the state, in octets: half of it, in octets too, takes the coordinates of one kind."""
+        one = max(np.sum(self.parity >= 0), np.sum(self.parity <= 0))
+        return int(max(8 * -(-self.count.sum() // 8), 16 * -(-one // 8) - 8))
 
     @cached_property
     def slope(self):
@@ -91,12 +95,6 @@ class HalfModes:
         pocket = self.residual.pocket
         beyond = pocket[-2][::-1] * EVEN[:, None] * MIRROR
         return cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.concatenate([pocket, beyond[None]]))
-
-    @cached_property
-    def wall_slope(self):
-        """Of `residual.wall` over chi."""
-        wall = self.residual.wall
-        return cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.append(wall, wall[-2]))
 
 
 def phases(modes, shift):
@@ -142,45 +140,6 @@ def rivet_shapes(modes):
 def spin_load(modes):
     """Modal forces of all coordinates per (rad/s)^2 [n]."""
     return coordinates(modes, modes.spin, 0.0 * modes.spin)
-
-
-def fewer(modes, n):
-    """The first modes, n of them or one less where a pair would be parted; the residual takes the statics of the
-    others.
-
-    n: 0 leaves none.  Raises ValueError if there are not so many.
-    """
-    total = int(modes.count.sum())
-    if not 0 <= n <= total:
-        raise ValueError(f"modes = {n}: a number from 0 to {total} is needed, as many as the rivet table has")
-    kept = int(np.searchsorted(np.cumsum(modes.count), n, side="right"))
-    arrays = {
-        name: getattr(modes, name) for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "spin")
-    }
-    rest = replace(modes, **{name: values[kept:] for name, values in arrays.items()})
-    return replace(
-        modes, **{name: values[:kept] for name, values in arrays.items()}, residual=softer(modes.residual, rest)
-    )
-
-
-def joint_residual(modes):
-    """Compliance [3, 3] between the pads of one joint, out of the plane, that the modes leave; m/N, rad/N, rad/(N.m)."""
-    return modes.residual.pad[0][np.ix_(OUT, OUT)]
-
-
-def softer(residual, modes):
-    """The residual with the static displacements of modes."""
-    compliance = 1.0 / frequencies(modes) ** 2
-    at, wall = rivet_shapes(modes), pocket_shapes(modes)[:, 0, :, 0]  # [n, Z, 9], pocket 0, t > 0 [n, chi, 3]
-    own = np.einsum("nka,nb,n->kab", at, at[:, 0, : len(PAD)], compliance)
-    normal = np.stack([np.sin(modes.chi), 0.0 * modes.chi, np.cos(modes.chi)], axis=1)
-    return Residual(
-        pad=residual.pad + own[:, : len(PAD)],
-        rivet=residual.rivet + own[:, len(PAD) :],
-        pocket=residual.pocket + np.einsum("nka,ncf,n->ckaf", at, wall, compliance),
-        spin=residual.spin + np.einsum("na,n,n->a", at[:, 0], spin_load(modes), compliance),
-        wall=residual.wall + np.einsum("nc,n->c", np.einsum("ncf,cf->nc", wall, normal) ** 2, compliance),
-    )
 
 
 def denser(modes, ratio):

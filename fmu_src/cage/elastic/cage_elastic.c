@@ -15,7 +15,7 @@
 //
 //     L^ = K e,     (L, T, m_r, m_t) = law(L^, P)
 //
-// with the joint's law over K (elastic_half.c): its pads move by delta, L = K (e - delta).  So each joint
+// with the rivet table's law over K: its pads move by delta, L = K (e - delta).  So each joint
 // follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
 // 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
 // contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
@@ -63,10 +63,10 @@ void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD
 }
 
 // Sum over the modes in one order for every lane width.
-static scalar elastic_dot(const ElasticHalf *half, const double *x, const scalar *y)
+static scalar elastic_dot(const double *x, const scalar *y)
 {
     scalar part[8] = {0};
-    for (int i = 0; i < 8 * half->blocks; i += 8)
+    for (int i = 0; i < N_MODES; i += 8)
         for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
@@ -91,10 +91,10 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
             stored[i] = half->weight[i] * w->elastic.q[h][i];
             moved[i] = fabs(scalar_value(w->elastic.q[h][i]));
         }
-        w->elastic.reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(half, stored, w->elastic.q[h]))) +
-                              elastic_dot(half, half->widest, moved);
-        w->elastic.more_J[h] = 2.0 * elastic_dot(half, half->centrifugal, w->elastic.q[h]);
-        w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half, half->centrifugal, w->elastic.q_dot[h]);
+        w->elastic.reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(stored, w->elastic.q[h]))) +
+                              elastic_dot(half->widest, moved);
+        w->elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q[h]);
+        w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q_dot[h]);
     }
 }
 
@@ -156,11 +156,11 @@ void cage_elastic_loads(const Model *model, const ball_array P, ElasticJoints *j
                    K[2] * wide_load(&joints->e[2][k]);
             wide_store(&joints->trial[a][k], L[a]);
         }
-        law_places(&half->law, L, wide_load(&P[k]), k, &at);
+        law_places(half->law, L, wide_load(&P[k]), k, &at);
     }
     for (int k = 0; k < Z; k++) {
         scalar load[PAD_OUT], rivet[PAD_OUT];
-        law_answer(&half->law, &at, k, joints->trial[1][k], load, rivet, &joints->U[k]);
+        law_answer(half->law, &at, k, joints->trial[1][k], load, rivet, &joints->U[k]);
         for (int a = 0; a < PAD_OUT; a++) joints->load[a][k] = load[a], joints->rivet[a][k] = rivet[a];
         if (model->d->intact[k] == 0.0) broken_answers(half, joints, k);
     }
@@ -300,8 +300,8 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
     for (int i = half->n; i < MODES; i++)
         y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
-    w->elastic.energy = 0.5 * m * elastic_sum(half, rates, one);
-    w->elastic.dissipated = m * elastic_sum(half, lost, one);
+    w->elastic.energy = 0.5 * m * elastic_sum(rates, one);
+    w->elastic.dissipated = m * elastic_sum(lost, one);
     for (int h = 0; h < 2; h++)
         w->elastic.energy +=
             0.5 * w->elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);

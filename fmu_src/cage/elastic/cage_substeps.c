@@ -268,10 +268,10 @@ typedef struct {
 } Touch;
 
 // Motion of the wall at the coordinates q of S and D.
-static double touch_motion(const ElasticHalf *half, const Touch *touch, const double *q)
+static double touch_motion(const Touch *touch, const double *q)
 {
     double part[8] = {0.0};
-    for (int i = 0; i < 8 * half->blocks; i += 8)
+    for (int i = 0; i < N_MODES; i += 8)
         for (int k = 0; k < 8; k++)
             part[k] += touch->shape[i + k] * (q[i + k] + touch->side * q[N_MODES + i + k]);
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
@@ -296,7 +296,7 @@ static int find_touches(const ElasticHalf *half, const FastState *fast, const do
                     fast->touch_k[h][k], fast->touch_rate[h][k], fast->touch_Q[h][k], side, 0.0, {0.0}};
                 elastic_wall_shape(half, side, k, &places, touch->shape);
                 for (int i = 0; i < N_MODES; i++) touch->shape[i] *= inv_root;
-                touch->from = touch_motion(half, touch, q);
+                touch->from = touch_motion(touch, q);
             }
         }
     return count;
@@ -307,12 +307,11 @@ static int find_touches(const ElasticHalf *half, const FastState *fast, const do
 static void slow_accelerations(const Model *model, double t, const double *at_start, const Touch *touches,
                                int count, const double *q, double slow[2 * N_MODES])
 {
-    const ElasticHalf *half = model->modes;
     memcpy(slow, at_start, 2 * N_MODES * sizeof *slow);
     for (const Touch *touch = touches; touch < touches + count; touch++) {
-        const double u = touch_motion(half, touch, q) - touch->from;
+        const double u = touch_motion(touch, q) - touch->from;
         const double change = fmax(touch->k * (touch->rate * t - u), -touch->Q) / model->p->cage.m;
-        for (int i = 0; i < 8 * half->blocks; i++) {
+        for (int i = 0; i < N_MODES; i++) {
             slow[i] += change * touch->shape[i];
             slow[N_MODES + i] += (touch->side * change) * touch->shape[i];
         }

@@ -1,4 +1,4 @@
-// What a scene takes of a half's vibration modes: see elastic_half.h.
+// A half's vibration modes in a scene: see elastic_half.h.
 #include "cage/elastic/elastic_half.h"
 
 #include "cage/common/centrifugal.h"
@@ -10,19 +10,9 @@
 // 2, and the law's rounding may make a joint stiffer by 30 %.
 static const double SUBSTEP_TURN = 1.6;
 
-enum { RAY = 24 };
-
 enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
-
-size_t elastic_half_size(void)
-{
-    const int *cells = rivet_table.modes.law.cells;
-    size_t count = LAW_WIDTH;
-    for (int a = 0; a < LAW_AXES; a++) count *= (size_t)(cells[a] + 2);
-    return sizeof(ElasticHalf) + count * sizeof(double);
-}
 
 // Value that the real (0) or imaginary (1) part of an amplitude is multiplied by at the angle theta, for the coordinate
 // a (0) or b (1).
@@ -80,190 +70,16 @@ double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, in
     return sign * row[motion * FIRST + (mirrored ? Z - 1 - k : k)];
 }
 
-static void invert_3(const double *K, double inverse[3][3])
+// What the modes leave between the pads of a joint, out of the plane: the law's stiffness and its inverse.
+static void take_residual(const JointLaw *law, ElasticHalf *half)
 {
-    for (int k = 0; k < 3; k++) {
-        double A[3][3], x[3] = {k == 0, k == 1, k == 2};
-        memcpy(A, K, sizeof A);
+    half->law = law;
+    memcpy(half->K, law->K_0, sizeof half->K);
+    for (int k = 0; k < PAD_OUT; k++) {
+        double A[PAD_OUT][PAD_OUT], x[PAD_OUT] = {k == 0, k == 1, k == 2};
+        memcpy(A, half->K, sizeof A);
         solve_3(A[0], x);
-        for (int i = 0; i < 3; i++) inverse[i][k] = x[i];
-    }
-}
-
-// What the modes leave between the pads of a joint, of R: compliance [motion][load].
-static void take_residual(double R[PADS][PADS], ElasticHalf *half)
-{
-    for (int a = 0; a < PAD_OUT; a++)
-        for (int b = 0; b < PAD_OUT; b++) half->R[a][b] = R[OUT_PADS[a]][OUT_PADS[b]];
-    invert_3(half->R[0], half->K);
-}
-
-// ---- the law over L^ ------------------------------------------------------------------------------------------------
-static const JointLaw *table_law(void)
-{
-    return &rivet_table.modes.law;
-}
-
-// L + K delta - L^ in newtons where the joint carries L, under the load `at` of the table's law, at + (ratio
-// - 1)(at - L) with ratio = K K_table^-1.
-static void behind_residual(double ratio[3][3], const double at[3], double P, const double behind[3],
-                            double rest[3])
-{
-    const JointLaw *law = table_law();
-    double load[3], rivet[3], U;
-    joint_law(law, at, P, load, rivet, &U);
-    for (int i = 0; i < 3; i++) {
-        rest[i] = load[i] - behind[i];
-        for (int k = 0; k < 3; k++) rest[i] += ratio[i][k] * (at[k] - load[k]);
-        if (i > 0) rest[i] /= law->length;
-    }
-}
-
-static double size_of(const double rest[3])
-{
-    return fabs(rest[0]) + fabs(rest[1]) + fabs(rest[2]);
-}
-
-// The load `at` of the table's law for L^, by Newton's method with differences; a step is halved until the
-// residual falls.
-static void load_before(double ratio[3][3], const double behind[3], double P, double at[3])
-{
-    const double length = table_law()->length, unit[3] = {1.0, length, length};
-    double rest[3];
-    memcpy(at, behind, 3 * sizeof *at);
-    behind_residual(ratio, at, P, behind, rest);
-    for (int iteration = 0; iteration < 60 && size_of(rest) > 1e-13; iteration++) {
-        double slope[3][3], change[3], trial[3], found[3];
-        const double scale = P + fabs(at[0]) + (fabs(at[1]) + fabs(at[2])) / length;
-        for (int k = 0; k < 3; k++) {
-            const double step = 1e-6 * scale;
-            memcpy(trial, at, sizeof trial);
-            trial[k] += step * unit[k];
-            behind_residual(ratio, trial, P, behind, found);
-            for (int i = 0; i < 3; i++) slope[i][k] = (found[i] - rest[i]) / step;
-        }
-
-        for (int k = 0; k < 3; k++) change[k] = rest[k];
-        solve_3(slope[0], change);
-        for (int k = 0; k < 3; k++) change[k] *= -unit[k];
-        double part = 1.0;
-        for (int halving = 0; halving < 12; halving++, part *= 0.5) {
-            for (int k = 0; k < 3; k++) trial[k] = at[k] + part * change[k];
-            behind_residual(ratio, trial, P, behind, found);
-            if (size_of(found) < size_of(rest)) break;
-        }
-        memcpy(at, trial, sizeof trial);
-        memcpy(rest, found, sizeof found);
-    }
-}
-
-// (N, M_r, M_t) and P of s = 1 N at the coordinates of the law, M_r >= 0.
-static double law_load(double length, const double at[LAW_AXES], double load[3])
-{
-    const double m = 1.0 - fabs(at[AXIS_Q]), a = 1.0 - fabs(at[AXIS_PSI]), b = at[AXIS_PSI];
-    const double W = at[AXIS_TAU] / sqrt(at[AXIS_Q] * at[AXIS_Q] + m * m), M = length / sqrt(a * a + b * b);
-    load[0] = W * at[AXIS_Q], load[1] = W * m * M * a, load[2] = W * m * M * b;
-    return 1.0 - at[AXIS_TAU];
-}
-
-// Place s of n + 2 on an axis of n cells, in cells: the ends and the middles.
-static double site(int s, int cells)
-{
-    return s == 0 ? 0.0 : s == cells + 1 ? cells : s - 0.5;
-}
-
-// Coefficients of uniform quadratic splines from their values at the sites of one axis, in place: the first
-// and the last equation give the outer coefficients, (c_0 + c_1)/2 = v_0, and the others are (c_i + 6 c_(i+1)
-// + c_(i+2))/8 = v.
-static void interpolate_axis(double *values, int cells, int stride)
-{
-    enum { MOST = 64 };
-
-    double upper[MOST], right[MOST], c[MOST];
-    const int count = cells + 2;
-    for (int s = 0; s < count; s++) {
-        const bool end = s == 0 || s == count - 1;
-        const double lower = s == 0 ? 0.0
-                             : end  ? 0.5
-                                    : 0.125,
-                     middle = end ? 0.5 : 0.75,
-                     above = s == 0 ? 0.5
-                             : end  ? 0.0
-                                    : 0.125;
-        const double pivot = middle - (s > 0 ? lower * upper[s - 1] : 0.0);
-        upper[s] = above / pivot;
-        right[s] = (values[s * stride] - (s > 0 ? lower * right[s - 1] : 0.0)) / pivot;
-    }
-    for (int s = count - 1; s >= 0; s--) c[s] = right[s] - (s < count - 1 ? upper[s] * c[s + 1] : 0.0);
-    for (int s = 0; s < count; s++) values[s * stride] = c[s];
-}
-
-// The same for one of the numbers of the law, on all three axes.
-static void interpolate(const int cells[LAW_AXES], double *values)
-{
-    const int count[LAW_AXES] = {cells[0] + 2, cells[1] + 2, cells[2] + 2};
-    const int stride[LAW_AXES] = {count[1] * count[2] * LAW_WIDTH, count[2] * LAW_WIDTH, LAW_WIDTH};
-    for (int axis = 0; axis < LAW_AXES; axis++) {
-        const int second = (axis + 1) % LAW_AXES, third = (axis + 2) % LAW_AXES;
-        for (int a = 0; a < count[second]; a++)
-            for (int b = 0; b < count[third]; b++)
-                interpolate_axis(values + a * stride[second] + b * stride[third], cells[axis], stride[axis]);
-    }
-}
-
-// Values at a site of the law: loads of joint and rivet under L^ (first pass); U, the work of the moves along
-// the ray from 0 to L^, by Simpson's rule (second pass).
-static void site_values(const ElasticHalf *half, double ratio[3][3], const double behind[3], double P,
-                        int pass, double *to)
-{
-    double at[3], load[3], rivet[3], U;
-    if (pass == 0) {
-        load_before(ratio, behind, P, at);
-        joint_law(table_law(), at, P, to, to + 4, &U);
-        return;
-    }
-    double sum = 0.0;
-    for (int i = 1; i <= RAY; i++) {
-        const double t = (double)i / RAY, weight = (i == RAY ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) / (3.0 * RAY);
-        for (int k = 0; k < 3; k++) at[k] = t * behind[k];
-        joint_law(&half->law, at, P, load, rivet, &U);
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < 3; k++) sum += weight * behind[i] * half->R[i][k] * (at[k] - load[k]);
-    }
-    to[LAW_ENERGY] = sum;
-}
-
-static void law_of(ElasticHalf *half)
-{
-    half->law = *table_law();
-    half->law.coefficients = half->coefficients;
-}
-
-// The law over L^, on the same cells.
-static void law_behind(ElasticHalf *half)
-{
-    const JointLaw *law = table_law();
-    const int *cells = law->cells;
-    double inverse[3][3], ratio[3][3] = {{0.0}};
-    invert_3(law->K_0[0], inverse);
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            for (int j = 0; j < 3; j++) ratio[i][k] += half->K[i][j] * inverse[j][k];
-    memset(half->coefficients, 0, elastic_half_size() - sizeof *half);
-    for (int pass = 0; pass < 2; pass++) {
-        double *to = half->coefficients;
-        for (int a = 0; a < cells[0] + 2; a++)
-            for (int b = 0; b < cells[1] + 2; b++)
-                for (int c = 0; c < cells[2] + 2; c++, to += LAW_WIDTH) {
-                    const double at[LAW_AXES] = {site(a, cells[0]) / cells[0],
-                                                 2.0 * site(b, cells[1]) / cells[1] - 1.0,
-                                                 2.0 * site(c, cells[2]) / cells[2] - 1.0};
-                    double behind[3];
-                    const double P = law_load(law->length, at, behind);
-                    site_values(half, ratio, behind, P, pass, to);
-                }
-        for (int number = 0; number < LAW_WIDTH; number++)
-            if ((number == LAW_ENERGY) == (pass == 1)) interpolate(cells, half->coefficients + number);
+        for (int i = 0; i < PAD_OUT; i++) half->R[i][k] = x[i];
     }
 }
 
@@ -354,51 +170,20 @@ static bool has(const HalfMode *mode, int coordinate)
     return coordinate == 0 ? mode->parity >= 0 : mode->parity <= 0;
 }
 
-// How many entries the scene takes, those of the lowest frequencies; counts their coordinates.
-static int count_modes(const Parameters *p, const HalfModes *table, ElasticHalf *half)
-{
-    for (int entry = 0; entry < table->entries; entry++) {
-        int count[2];
-        for (int c = 0; c < 2; c++) count[c] = half->count[c] + has(&table->entry[entry], c);
-        if (count[0] + count[1] > p->scene.modes || count[0] > ENTRIES || count[1] > ENTRIES) return entry;
-        memcpy(half->count, count, sizeof count);
-    }
-    return table->entries;
-}
-
-// Adds the statics of an entry that is not taken to the residual between pads and at the wall.
-static void leave_mode(const HalfModes *table, int entry, int coordinate, ElasticHalf *half,
-                       double R[Z][PADS][PADS])
-{
-    const HalfMode *mode = &table->entry[entry];
-    const double flexibility = 1.0 / (mode->omega * mode->omega), *at = mode->at;
-    const double *wall = wall_of(table, half, entry) + 12 * WALL_NODE;
-    const int n = mode->harmonic;
-    for (int k = 0; k < Z; k++)
-        for (int a = 0; a < PADS; a++)
-            for (int b = 0; b < PADS; b++)
-                R[k][a][b] += at[a] * wave_at(n, coordinate, PAD_ODD[a], 2.0 * PI * (k + 0.5) / Z) * at[b] *
-                              wave_at(n, coordinate, PAD_ODD[b], PI / Z) * flexibility;
-    const double c = portable_cos(half->chi[WALL_NODE]), s = portable_sin(half->chi[WALL_NODE]);
-    const double u = s * wall[coordinate] + c * wall[4 + coordinate];  // on pocket 0, along the normal
-    half->compliance += u * u * flexibility;
-}
-
-// The modes of the lowest frequencies; the statics of the others go to the residual.
-static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS][PADS])
+// All modes of the table.
+static void take_modes(const Parameters *p, ElasticHalf *half)
 {
     const CageHalfData *data = &rivet_table.half;
     const HalfModes *table = &rivet_table.modes;
     const double unit = sqrt(data->m), denser = p->cage.m / data->m;
-    const int taken = count_modes(p, table, half);
+    for (int c = 0; c < 2; c++)
+        for (int entry = 0; entry < table->entries; entry++) half->count[c] += has(&table->entry[entry], c);
     half->n = half->count[0] + half->count[1];
-    half->blocks = (half->n + 7) / 8;
-    half->octets = ((half->count[0] > half->count[1] ? half->count[0] : half->count[1]) + 7) / 8;
 
     for (int coordinate = 0; coordinate < 2; coordinate++) {
         int e = 0;
         for (int single = 0; single < 2; single++)
-            for (int entry = 0; entry < taken; entry++) {
+            for (int entry = 0; entry < table->entries; entry++) {
                 const HalfMode *mode = &table->entry[entry];
                 if (!has(mode, coordinate) || (mode->parity != 0) != single) continue;
                 const int i = coordinate * half->count[0] + e;
@@ -409,8 +194,6 @@ static void take_modes(const Parameters *p, ElasticHalf *half, double R[Z][PADS]
                 half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
                 if (coordinate == 0) half->centrifugal[i] = cage_centrifugal(p) * unit * mode->spin;
             }
-        for (int entry = taken; entry < table->entries; entry++)
-            if (has(&table->entry[entry], coordinate)) leave_mode(table, entry, coordinate, half, R);
     }
 }
 
@@ -449,9 +232,9 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
     }
     for (int a = 0; a < PAD_OUT; a++)
         behind[a] = half->K[a][0] * e[0] + half->K[a][1] * e[1] + half->K[a][2] * e[2];
-    joint_law(&half->law, behind, P, load, rivet, &U);
+    joint_law(half->law, behind, P, load, rivet, &U);
     off[0] = load[0];
-    off[1] = (load[2] - x[1]) / half->law.length;
+    off[1] = (load[2] - x[1]) / half->law->length;
 }
 
 // Newton's method with differences; x: distance and M_t to begin with and as found.
@@ -487,8 +270,7 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfPath *path = &rivet_table.half.path;
-    double R[Z][PADS][PADS];
-    const int before = half->law_modes;  // the law over L^ follows from the number of modes alone and is kept
+    const HalfModes *table = &rivet_table.modes;
     memset(half, 0, sizeof *half);
     half->nodes = path->nodes;
     memcpy(half->chi, path->chi, (size_t)half->nodes * sizeof *half->chi);
@@ -496,17 +278,14 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
         half->step[node] = half->chi[node + 1] - half->chi[node];
         half->inv_step[node] = 1.0 / half->step[node];
     }
-    memcpy(R, rivet_table.modes.pad, sizeof R);
-    half->compliance = rivet_table.modes.wall[2 * WALL_NODE];
-    take_modes(p, half, R);
-    take_residual(R[0], half);
-    const double shear = R[0][PAD_R][PAD_R] + R[0][PAD_T][PAD_T];  // mean over r and t, of both halves
+    half->compliance = table->wall[WALL_NODE];
+    take_modes(p, half);
+    take_residual(&table->law, half);
+    // mean over r and t, of both halves
+    const double shear = table->pad[PAD_R][PAD_R] + table->pad[PAD_T][PAD_T];
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
 
     find_reach(half);
-    law_of(half);
-    if (before != p->scene.modes) law_behind(half);
-    half->law_modes = p->scene.modes;
     half->substep = longest_substep(p, d, half);
 }

@@ -1,4 +1,4 @@
-// The vibration modes of a cage half, and what a scene takes of them.
+// The vibration modes of a cage half in a scene.
 //
 // The half is a ring of Z equal pitches.  An entry of the table is a mode of harmonic n, for 0 < n < Z/2 a pair of the
 // same frequency with the coordinates a (cos) and b (sin).  A place whose complex amplitude on pitch 0 is A moves by
@@ -6,10 +6,10 @@
 //     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
 //                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
 //
-// (half_modes.h, bearing_model/cage/elastic/half_modes.py).  A scene takes the modes of the lowest frequencies, without
-// dividing a pair; the statics of all others are the residual.  Here the modes have no dimension and the
-// modal mass is the half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs
-// first; then all b, the same.  So what a pair moves at a place follows from U and two sums of its coordinates:
+// (half_modes.h, bearing_model/cage/elastic/half_modes.py).  The rivet table has the modes of the lowest frequencies;
+// the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
+// half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs first; then all b,
+// the same.  So what a pair moves at a place follows from U and two sums of its coordinates:
 //
 //     u_j = U' a' + U'' b',     a' = a cos nu + b sin nu,  b' = b cos nu - a sin nu
 //
@@ -40,9 +40,7 @@ enum { ENTRY_OCTETS = ENTRIES / 8 };
 enum { WALL_NODES = 16 };  // at most
 
 struct ElasticHalf {
-    int law_modes;                                   // scene.modes of the coefficients below; 0: none yet
-    int n, blocks;                                   // modes, blocks of eight of them
-    int count[2], octets;                            // coordinates a and b; blocks of eight of the more
+    int n, count[2];                                 // modes; coordinates a and b
     int entry[MODES];                                // of the table, of each coordinate
     double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
     double centrifugal[MODES];                       // modal force per (rad/s)^2
@@ -69,14 +67,11 @@ struct ElasticHalf {
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // what is left of the holes' [N/m]
     double substep;    // of the default method, at most [s]
-    JointLaw law;      // the joints' law over L^ = L + K delta with the K above, which gives L
-    _Alignas(64) double coefficients[];  // of the law; the fourth number is U, whose slope is delta
+    // the joints' law over L^ = L + K delta, which gives L; the fourth number is U, whose slope is delta
+    const JointLaw *law;
 };
 
-// Bytes of an ElasticHalf.
-size_t elastic_half_size(void);
-
-// What the scene takes of the modes in the rivet table.
+// The half of the rivet table in the scene.
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
 
 // Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the
@@ -130,10 +125,10 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);
 
 // Sum over the modes in one order for every lane width.
-INLINE scalar elastic_sum(const ElasticHalf *half, const scalar *x, const scalar *y)
+INLINE scalar elastic_sum(const scalar *x, const scalar *y)
 {
     scalar part[8] = {0};
-    for (int i = 0; i < 8 * half->blocks; i += 8)
+    for (int i = 0; i < N_MODES; i += 8)
         for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }

@@ -117,7 +117,7 @@ scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallP
     const Turn turn = turn_of(half, j);
     wide sums[PARTS];
     for (int i = 0; i < PARTS; i++) sums[i] = wide_set(0.0);
-    for (int block = 0; block < half->octets; block++)
+    for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < PARTS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             sums[i] = wide_fma(normal_motions(&normal, 0, m), turned_a(&turn, m, q), sums[i]);
@@ -131,12 +131,12 @@ void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlac
     const NormalMotion normal = normal_motion(half, side, j, at);
     const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];
-    for (int m = 0; m < 8 * half->octets; m += LANE_WIDTH) {
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
         const wide by_a = normal_motions(&normal, 0, m), by_b = normal_motions(&normal, 1, m);
         wide_store(&shape[m], back_to_a(&turn, m, by_a, by_b));
         wide_store(&b[m], back_to_b(&turn, m, by_a, by_b));
     }
-    memcpy(&shape[turn.b], b, (size_t)(8 * half->octets) * sizeof *b);
+    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }
 
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
@@ -156,7 +156,7 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
         tilted[2][t] = wide_set(n_t * slope - n_x * at->value[t][j]);
     }
     for (int i = 0; i < PARTS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
-    for (int block = 0; block < half->octets; block++)
+    for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < PARTS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
@@ -185,7 +185,7 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 {
     const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];
-    for (int m = 0; m < 8 * half->octets; m += LANE_WIDTH) {
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
         wide by[2];
         for (int part = 0; part < 2; part++)
             by[part] = F[0] * wide_load(&shape->motion[0][part][m]) +
@@ -194,6 +194,6 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
         wide_store(&modal[m], wide_load(&modal[m]) + back_to_a(&turn, m, by[0], by[1]));
         wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
     }
-    for (int m = 0; m < 8 * half->octets; m += LANE_WIDTH)
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH)
         wide_store(&modal[turn.b + m], wide_load(&modal[turn.b + m]) + wide_load(&b[m]));
 }
