@@ -16,6 +16,7 @@ import sys
 import tomllib
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import jinja2
 from lxml import etree
@@ -74,7 +75,7 @@ class Variable:
     state: str | None = None
     derivative_of: str | None = None
     depends: tuple | None = None  # patterns of names; default: the group's
-    choices: tuple = ()  # names of an enumeration's items
+    choices: dict = field(default_factory=dict)  # numbers of an enumeration's items, by name
     built: bool = False  # whether the build fixes the value, for rivet table and run alike
     table: bool = False  # whether the build makes the rivet table from the value, which a run may change
     needs: dict = field(default_factory=dict)  # other values without which a run does not feel this one
@@ -88,8 +89,12 @@ class Variable:
     def limits(self):
         """Smallest and largest allowed value, infinite where none is given."""
         if self.choices:
-            return 1, len(self.choices)
+            return min(self.choices.values()), max(self.choices.values())
         return -math.inf if self.min is None else self.min, math.inf if self.max is None else self.max
+
+    def allows(self, value):
+        """Whether a number lies within the limits, and is that of an item."""
+        return value in self.choices.values() if self.choices else self.limits[0] <= value <= self.limits[1]
 
     @property
     def is_array(self):
@@ -133,6 +138,7 @@ class Table:
     assumptions: dict
     origin: dict  # where the values of another bearing come from, by name
     essentials: dict  # names by question
+    retired_items: dict  # of enumerations: number and reason, by name
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
 
     def named(self, name):
@@ -157,12 +163,13 @@ def load_table(bearing=None, path=None):
     Z, modes = (changes.get(name, raw.get(name)) for name in ("Z", "modes"))
     if "Z" in raw and (type(Z) is not int or not Z_MIN <= Z <= Z_MAX):
         raise ValueError(f"{bearing or path}: Z = {Z!r}: allowed is an integer from {Z_MIN} to {Z_MAX}")
+    enumerations = {name: numbered(items) for name, items in raw["enumerations"].items()}
     variables = []
     for section, causality in CAUSALITIES.items():
         for entry in raw.get(section, {}).get("list", ()):
             count = {"count": Z} if entry.get("count") == "Z" else {}
             v = Variable(causality=causality, **entry | count)
-            v = replace(v, choices=tuple(raw["enumerations"].get(v.type, ())))
+            v = replace(v, choices={name: item.number for name, item in enumerations.get(v.type, {}).items()})
             variables.append(replace(v, start=Z) if v.group == "constant" else v)
     for section in ("parameters", "inputs"):
         for name, value in flatten(changes.get(section, {})):
@@ -174,7 +181,7 @@ def load_table(bearing=None, path=None):
         offset += count
     n_plain = len(raw["states"]["list"])
     description = ". ".join(filter(None, (raw["description"], changes.get("description", raw.get("case")))))
-    layout = raw["units"], raw["enumerations"], raw["groups"], tuple(variables), tuple(states[:n_plain])
+    layout = raw["units"], enumerations, raw["groups"], tuple(variables), tuple(states[:n_plain])
     table = Table(
         Z,
         raw["model_name"],
@@ -183,10 +190,30 @@ def load_table(bearing=None, path=None):
         raw.get("assumptions", {}),
         changes.get("origin", {}),
         raw.get("essentials", {}),
+        raw.get("retired_items", {}),
         tuple(states[n_plain:]),
     )
     check_table(table, path, raw.get("retired", ()))
     return table
+
+
+class Item(NamedTuple):
+    """One item of an enumeration: its number, and its meaning for readers."""
+
+    number: int
+    text: str
+
+
+def numbered(items):
+    """Items by name: each has the number after the one before it, or one of its own, because a retired number is not
+    used again.
+    """
+    found, number = {}, 0
+    for name, entry in items.items():
+        own = isinstance(entry, dict)
+        number = entry["number"] if own else number + 1
+        found[name] = Item(number, entry["text"] if own else entry)
+    return found
 
 
 def flatten(nested, prefix=""):
@@ -204,9 +231,9 @@ def set_start(variables, causality, name, value, source):
     if name not in places:
         raise ValueError(f"{source}: {name} = {value!r}: unknown {causality}, allowed are {', '.join(places)}")
     v = variables[places[name]]
-    start = v.choices.index(value) + 1 if value in v.choices else value
+    start = v.choices.get(value, value) if isinstance(value, str) else value
     right_type = type(start) in ((int, float) if v.kind == "Real" else (int,))
-    if not right_type or not v.limits[0] <= start <= v.limits[1]:
+    if not right_type or not v.allows(start):
         what = (
             "one of " + ", ".join(v.choices)
             if v.choices
@@ -236,12 +263,17 @@ def check_table(table, path, retired=()):
             f"unknown group {v.group!r}": v.causality in CALCULATED and v.group not in table.groups,
             "no source": v.causality not in CALCULATED and not v.source,
             f"start {v.start!r} outside {v.limits}": v.causality not in CALCULATED
-            and (v.start is None or not v.limits[0] <= v.start <= v.limits[1]),
+            and (v.start is None or not v.allows(v.start)),
         }
         names.add(v.name)
         for problem, found in problems.items():
             if found:
                 raise ValueError(f"{path}: {v.name}: {problem}")
+    for name, items in table.retired_items.items():
+        used = {item.number for item in table.enumerations[name].values()}
+        for item, (number, _) in items.items():
+            if number in used or item in table.enumerations[name]:
+                raise ValueError(f"{path}: {name}: {item} = {number} is retired")
     for name in (name for group in table.essentials.values() for name in group):
         if name not in names:
             raise ValueError(f"{path}: essentials: unknown variable {name}")
@@ -293,7 +325,7 @@ def display_unit(table, unit, display):
 def shown(value, v, table):
     """A value in its display unit, for readers."""
     if v.choices:
-        return v.choices[value - 1]
+        return next(name for name, number in v.choices.items() if number == value)
     factor, offset = display_unit(table, v.unit, v.display)
     digits = f"{value}" if v.type == "Integer" else f"{value * factor + offset:.6g}"
     return digits.replace("-", "−") + ("" if v.unit == "1" else f" {label(v.display or v.unit)}")
@@ -383,8 +415,8 @@ def add_types(root, table):
     definitions = etree.SubElement(root, "TypeDefinitions")
     for name, items in table.enumerations.items():
         enumeration = etree.SubElement(etree.SubElement(definitions, "SimpleType", name=name), "Enumeration")
-        for value, (item, description) in enumerate(items.items(), start=1):
-            etree.SubElement(enumeration, "Item", name=item, value=str(value), description=description)
+        for name_of_item, item in items.items():
+            etree.SubElement(enumeration, "Item", name=name_of_item, value=str(item.number), description=item.text)
 
 
 def add_log_categories(root):

@@ -24,7 +24,7 @@ from fmpy.fmi2 import (
 )
 from fmpy.logging import addLoggerProxy
 
-from bearing_model.generated.variables import MODEL_IDENTIFIER
+from bearing_model.generated.variables import MODEL_IDENTIFIER, RETIRED_ITEMS
 
 from .errors import UserError
 from .units import suffix, symbol_of, to_si, unit_table
@@ -123,7 +123,9 @@ class Model:
         """A parameter's value checked: SI number, integer or item name of its enumeration."""
         if variable.type == "Enumeration":
             if not isinstance(value, str) or value not in codes(variable):
-                raise UserError(f"allowed: {', '.join(codes(variable))}")
+                reasons = RETIRED_ITEMS.get(variable.declaredType.name, {})
+                reason = f"{reasons[value][1]}; " if isinstance(value, str) and value in reasons else ""
+                raise UserError(f"{reason}allowed: {', '.join(codes(variable))}")
             return value
         if variable.type == "Integer":
             if isinstance(value, bool) or not isinstance(value, Integral):

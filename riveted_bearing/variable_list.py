@@ -53,9 +53,11 @@ def row(variable, model=None):
             start = shown(value, variable)
             allowed = f"{shown(variable.min, variable, -math.inf)} ... {shown(variable.max, variable, math.inf)}"
         else:
-            items = [item.name.lower() for item in getattr(variables, variable.type)]
-            start = items[variable.start - 1] if model is None else model.default(model.parameters[variable.name])
-            allowed = ", ".join(items)
+            items = getattr(variables, variable.type)
+            start = (
+                items(variable.start).name.lower() if model is None else model.default(model.parameters[variable.name])
+            )
+            allowed = ", ".join(item.name.lower() for item in items)
     return variable.name, kind, suffix(symbol).strip(), start, allowed, variable.description
 
 

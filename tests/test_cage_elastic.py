@@ -4,6 +4,7 @@ and their own exact derivatives.
 
 import numpy as np
 import pytest
+from bearing_model.rivet.rivets import rivets_load
 from library import TWO_HALF
 from mechanics import Instance, View, running_state
 
@@ -26,7 +27,6 @@ from bearing_model.instance.energy import energy_terms, energy_total, net_power
 from bearing_model.physics.derived import default_table
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import jacobian, rhs
-from bearing_model.rivet.rivets import rivets_load
 from bearing_model.solver.start import start_state
 from bearing_model.solver.verlet import VerletState, advance_positions, verlet_evaluate, verlet_step
 

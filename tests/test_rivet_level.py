@@ -4,6 +4,7 @@ pocket forces of the same instants.
 
 import numpy as np
 import pytest
+from bearing_model.rivet.rivets import rivets_load
 from library import TWO_HALF
 from mechanics import Instance
 
@@ -11,7 +12,6 @@ from bearing_model.generated.variables import Switch, Traction, Z
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import rhs
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
-from bearing_model.rivet.rivets import rivets_load
 from rivet_model import half, half_loads, joint_contact
 from rivet_model.geometry import Geometry
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{3ca02b37-517d-dd0a-b7a3-5ea2395f3ee3}"
+MODEL_GUID = "{06f47e85-f9e8-6656-4d08-47453a9cb747}"
 Z = 9
 
 
@@ -51,7 +51,6 @@ class CageMaterial(IntEnum):
 
 class CageModel(IntEnum):
     TWO_HALF = 1
-    RIGID = 2
     ELASTIC = 3
 
 
@@ -107,6 +106,11 @@ ASSUMPTIONS = {
     "cage.guide_clearance": (0.5, 2.0, 0.21, "0.1 to 0.4 mm are usual in a 6207"),
     "oil.eta": (0.4, 2.1, 0.17, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
     "oil.rho_mix": (0.25, 1.3, 0.03, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
+}
+
+# Items of enumerations that are gone: number and reason by type and name.
+RETIRED_ITEMS = {
+    "CageModel": {"rigid": (2, "one rigid cage is no longer computed: two_half takes the same time and is truer"), },
 }
 
 # What to look at first: names by question.

@@ -97,7 +97,9 @@ def admit(variable, value):
         try:
             return enumeration[value.upper()] if isinstance(value, str) else enumeration(value)
         except (KeyError, ValueError):
-            raise ValueError(f"{variable.name} = {value}: allowed are {allowed}") from None
+            retired = variables.RETIRED_ITEMS.get(variable.type, {}).items()
+            reason = next((f"{why}; " for name, (number, why) in retired if value in (name, number)), "")
+            raise ValueError(f"{variable.name} = {value}: {reason}allowed are {allowed}") from None
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
     unit = "" if variable.unit == "1" else f" {variable.unit}"

@@ -11,7 +11,7 @@ const char *cage_refusal(const Parameters *p)
         return "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes "
                "the same "
                "time, and elastic (3)";
-    if (rivet_table.modes.modes < p->scene.modes)
+    if (rivet_table.modes.modes == 0)
         return "scene.cage = elastic: the embedded rivet table has no vibration modes; build an FMU with a "
                "table by "
                "finite elements, or set scene.cage = two_half";
@@ -25,7 +25,7 @@ bool cage_vibrates(const Parameters *p)
 
 size_t cage_size(const Parameters *p)
 {
-    return cage_vibrates(p) ? elastic_half_size() : 0;
+    return cage_vibrates(p) ? sizeof(ElasticHalf) : 0;
 }
 
 const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memory)

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{3ca02b37-517d-dd0a-b7a3-5ea2395f3ee3}"  // digest of the table
+#define MODEL_GUID "{06f47e85-f9e8-6656-4d08-47453a9cb747}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -32,7 +32,6 @@ enum {  // CageMaterial
 };
 enum {  // CageModel
     CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
-    CAGE_MODEL_RIGID = 2,  // one rigid cage: faster, rivet loads by the rigid-body share
     CAGE_MODEL_ELASTIC = 3,  // two elastic halves held by the rivets: vibration modes move the pockets' walls and load the joints
 };
 enum {  // Traction

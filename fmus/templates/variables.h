@@ -17,8 +17,8 @@ enum { Z = {{ table.Z }} };  // number of balls
 
 {% for name, items in table.enumerations.items() %}
 enum {  // {{ name }}
-{% for item, description in items.items() %}
-    {{ name | screaming }}_{{ item | upper }} = {{ loop.index }},  // {{ description }}
+{% for item, entry in items.items() %}
+    {{ name | screaming }}_{{ item | upper }} = {{ entry.number }},  // {{ entry.text }}
 {% endfor %}
 };
 {% endfor %}

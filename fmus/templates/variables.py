@@ -31,8 +31,8 @@ class Variable:
 {% for name, items in table.enumerations.items() %}
 
 class {{ name }}(IntEnum):
-{% for item in items %}
-    {{ item | upper }} = {{ loop.index }}
+{% for item, entry in items.items() %}
+    {{ item | upper }} = {{ entry.number }}
 {% endfor %}
 
 {% endfor %}
@@ -42,6 +42,13 @@ class {{ name }}(IntEnum):
 ASSUMPTIONS = {
 {% for name, entry in table.assumptions.items() %}
     {{ name | quoted }}: ({{ entry.low }}, {{ entry.high }}, {{ entry.stress }}, {{ entry.source | quoted }}),
+{% endfor %}
+}
+
+# Items of enumerations that are gone: number and reason by type and name.
+RETIRED_ITEMS = {
+{% for name, items in table.retired_items.items() %}
+    {{ name | quoted }}: { {%- for item, entry in items.items() %}{{ item | quoted }}: ({{ entry[0] }}, {{ entry[1] | quoted }}), {% endfor -%} },
 {% endfor %}
 }
 

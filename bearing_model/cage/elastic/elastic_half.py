@@ -1,4 +1,4 @@
-"""The vibration modes of a cage half as a scene takes them, and the joints' law over the stiffness that they leave.
+"""The vibration modes of a cage half in a scene, and the joints' law over the stiffness that they leave.
 Equations in half_modes.py and cage_elastic.py.
 """
 
@@ -7,33 +7,28 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearing_model.cage.common.centrifugal import cage_centrifugal
-from bearing_model.cage.common.joint_law import LawBehind, joint_law, law_load
+from bearing_model.cage.common.joint_law import LawBehind, joint_law
 from bearing_model.cage.elastic.half_modes import (
     OUT,
     PAD,
     coordinates,
     denser,
-    fewer,
     frequencies,
-    joint_residual,
     phases,
     rivet_shapes,
     spin_load,
 )
-from bearing_model.generated.variables import MODE_S, Z
-from bearing_model.rivet.rivet_splines import interpolate, sites
+from bearing_model.generated.variables import Z
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
 SUBSTEP_TURN = 1.6  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
-RAY = 24  # intervals of Simpson's rule along a ray of loads
-ENTRIES = (MODE_S.stop - MODE_S.start + 15) // 16 * 8  # room for the coordinates of one kind
 
 
 @dataclass
 class ElasticHalf:
-    """A half's modes as a scene takes them; n of them, without dimension, of modal mass m."""
+    """A half's modes in a scene; n of them, without dimension, of modal mass m."""
 
     n: int
     omega: np.ndarray  # [n] rad/s
@@ -55,77 +50,6 @@ class ElasticHalf:
     mirrored: np.ndarray
     substep: float  # of the default method, at most [s]
     law: LawBehind
-    energy: np.ndarray  # coefficients of U, whose slope is delta [tau, q, psi], per newton squared
-
-
-def law_behind(law, K):
-    """The law of the table over L^ = L + K delta for another stiffness K, on the same knots, and the coefficients of
-    U(L^), whose slope is delta.
-    """
-    knots = [law.knots[name] for name in ("tau", "q", "psi")]
-    places = [sites(k) for k in knots]
-    grid = np.array(
-        [[[np.append(*law_load(law.length, a, b, c)) for c in places[2]] for b in places[1]] for a in places[0]]
-    )
-    load, P = grid[..., :3], grid[..., 3]
-    values = np.concatenate(joint_law(law, load_before(law, K, load, P), P), axis=-1)
-    behind = LawBehind(law.length, law.knots, interpolate(knots, values), K)
-    ray = np.linspace(0.0, 1.0, RAY + 1)
-    simpson = np.tile([2.0, 4.0], RAY // 2 + 1)[: RAY + 1] / (3.0 * RAY)
-    simpson[[0, -1]] /= 2.0
-    # without the start of the ray, where no load moves a joint
-    moves = (t * load - joint_law(behind, t * load, P)[0] for t in ray[1:])
-    U = sum(w * np.sum(move @ np.linalg.inv(K).T * load, axis=-1) for w, move in zip(simpson[1:], moves, strict=True))
-    return behind, interpolate(knots, U)
-
-
-LAWS = {}  # found so far, by the numbers that they follow from
-
-
-def kept_law(law, K):
-    """law_behind, found once for each law and stiffness."""
-    key = law.coefficients.tobytes(), K.tobytes()
-    if key not in LAWS:
-        LAWS[key] = law_behind(law, K)
-    return LAWS[key]
-
-
-def load_before(law, K, behind, P):
-    """L^ [..., 3] of the table's law for L^ = behind [..., 3] of the law over K: Newton's method on L + K delta =
-    behind.
-    """
-    ratio_K, unit = K @ np.linalg.inv(law.stiffness), np.array([1.0, law.length, law.length])
-    load = behind.copy()
-
-    def residual(load):
-        carried = joint_law(law, load, P)[0]
-        return carried + (load - carried) @ ratio_K.T - behind
-
-    rest = residual(load)
-    for _ in range(40):
-        step = 1e-6 * unit * (P + np.sum(np.abs(load) / unit, axis=-1))[..., None]
-        slope = np.stack(
-            [(residual(load + step * axis) - rest) / step[..., i : i + 1] for i, axis in enumerate(np.eye(3))], axis=-1
-        )
-        change = np.linalg.solve(slope, -rest[..., None])[..., 0]
-        part = np.ones_like(P)
-        size = np.sum(np.abs(rest) / unit, axis=-1)
-        for _ in range(12):  # halved until the residual falls
-            trial = residual(load + part[..., None] * change)
-            part = np.where(np.sum(np.abs(trial) / unit, axis=-1) > size, 0.5 * part, part)
-        load = load + part[..., None] * change
-        rest = residual(load)
-        if np.max(np.abs(rest) / unit) < 1e-12:
-            break
-    return load
-
-
-def count_modes(p, modes):
-    """How many modes the scene takes: of the lowest frequencies, no pair divided, coordinates a and b of at most
-    ENTRIES each.
-    """
-    a, b = np.cumsum(modes.parity >= 0), np.cumsum(modes.parity <= 0)
-    return int(np.max((a + b)[(a + b <= p.scene.modes) & (np.maximum(a, b) <= ENTRIES)], initial=0))
 
 
 def mode_order(modes):
@@ -142,17 +66,16 @@ def mode_order(modes):
 
 def elastic_half_derive(p, d, table):
     """ElasticHalf of the scene."""
+    if table.modes is None:
+        raise ValueError("scene.cage = elastic: the rivet table has no vibration modes")
     ratio = p.cage.m / table.half.m
-    taken = fewer(table.modes, count_modes(p, table.modes))
-    modes = denser(taken, ratio)
+    modes, law = denser(table.modes, ratio), table.modes.law
     unit = np.sqrt(p.cage.m)  # the table's modes have unit modal mass
     order, entry, part = mode_order(modes)
     c, s = (f[entry] for f in phases(modes, 0.0))
     wave = np.where(part[:, None, None] == 0.0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
     omega, residual = frequencies(modes)[order], modes.residual
-    R = joint_residual(modes)
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
-    behind, energy = kept_law(modes.law, np.linalg.inv(R))
     pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
     pad = unit * np.moveaxis(rivet_shapes(modes)[order][:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
@@ -164,7 +87,7 @@ def elastic_half_derive(p, d, table):
         p.cage.m,
         omega,
         joints_out(d, pad),
-        0.5 * np.kron(np.eye(Z), behind.stiffness),
+        0.5 * np.kron(np.eye(Z), law.stiffness),
         (0.5 * p.cage.m, 0.5 * d.J_t, 0.5 * d.J_t),
     )
     opposed = frequencies_2(
@@ -180,18 +103,17 @@ def elastic_half_derive(p, d, table):
         chi=table.half.chi,
         pocket=pocket,
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
-        centrifugal=cage_centrifugal(p, table) * np.sqrt(table.half.m) * spin_load(taken)[order],
+        centrifugal=cage_centrifugal(p, table) * np.sqrt(table.half.m) * spin_load(table.modes)[order],
         reach_2=1.5625
         * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
         widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
-        R=R,
+        R=np.linalg.inv(law.stiffness),
         series=series,
         k_hole=k_hole,
         compliance=residual.wall[WALL_NODE],
         mirrored=mirrored,
         substep=SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1])),
-        law=behind,
-        energy=energy,
+        law=law,
     )
 
 

@@ -59,28 +59,6 @@ typedef struct {
     const double (*alike)[ALIKE_WIDTH];  // joints under the same load, at equal steps of |c|/s from 0 to 1
 } JointLaw;
 
-// A coordinate u of the law in cells from the start of its axis: its cell, and the weights of the three splines.
-INLINE int axis_weights(scalar u, int cells, scalar w[3])
-{
-    const int cell = (int)scalar_min(scalar_max(scalar_value(u), 0.0), cells - 1.0);  // a NaN gives cell 0
-    const scalar up = u - cell, down = 1.0 - up;
-    w[0] = 0.5 * (down * down);
-    w[2] = 0.5 * (up * up);
-    w[1] = 1.0 - w[0] - w[2];
-    return cell;
-}
-
-// part/whole; 0 where whole is so small that 1/whole is not finite.
-INLINE scalar share(scalar part, scalar whole)
-{
-    return scalar_value(whole) > 1e-300 ? part / whole : 0.0;
-}
-
-INLINE scalar magnitude(scalar x)
-{
-    return scalar_value(x) < 0.0 ? -x : x;
-}
-
 // The numbers S of the law in the cell `place`, the weights of its splines given.
 INLINE void law_sum(const JointLaw *law, int place, scalar w[LAW_AXES][3], octet *S)
 {
@@ -100,42 +78,12 @@ INLINE void law_sum(const JointLaw *law, int place, scalar w[LAW_AXES][3], octet
     *S = sum;
 }
 
-// At coordinates in cells.
-INLINE void law_octet(const JointLaw *law, const scalar u[LAW_AXES], octet *S)
-{
-    scalar w[LAW_AXES][3];
-    int place = axis_weights(u[AXIS_TAU], law->cells[AXIS_TAU], w[AXIS_TAU]);
-    place = place * (law->cells[AXIS_Q] + 2) + axis_weights(u[AXIS_Q], law->cells[AXIS_Q], w[AXIS_Q]);
-    place = place * (law->cells[AXIS_PSI] + 2) + axis_weights(u[AXIS_PSI], law->cells[AXIS_PSI], w[AXIS_PSI]);
-    law_sum(law, place, w, S);
-}
-
-// Moves of a joint's pad and loads of its rivet under L* = (N, M_r, M_t) and P; the energy of elastic_half.h
-// if it is asked for.
-INLINE void joint_law(const JointLaw *law, const scalar load[3], scalar P, scalar move[3], scalar rivet[3],
-                      scalar *energy)
-{
-    const double inv_length = 1.0 / law->length;
-    const scalar N = load[0], M_r = magnitude(load[1]), M_t = load[2];
-    const scalar M = scalar_sqrt(M_r * M_r + M_t * M_t) * inv_length, W = scalar_sqrt(N * N + M * M),
-                 s = P + W;
-    const scalar q = share(N, magnitude(N) + M), psi = share(M_t, magnitude(M_t) + M_r);
-    const scalar u[LAW_AXES] = {share(W, s) * law->cells[AXIS_TAU], (q + 1.0) * (0.5 * law->cells[AXIS_Q]),
-                                (psi + 1.0) * (0.5 * law->cells[AXIS_PSI])};
-    octet sum;
-    law_octet(law, u, &sum);
-    const scalar across = scalar_value(load[1]) < 0.0 ? -s : s;
-    move[0] = s * sum.x[0], move[1] = across * sum.x[1], move[2] = s * sum.x[2];
-    rivet[0] = s * sum.x[4], rivet[1] = across * sum.x[5], rivet[2] = s * sum.x[6];
-    if (energy) *energy = s * s * sum.x[LAW_ENERGY];
-}
-
 // A packet of joints in the law: their cells, s, and the weights of the splines [axis][3].
 typedef struct {
     ball_array cell, size, weight[LAW_AXES][3];
 } LawPlaces;
 
-// Cells and weights of a packet at the coordinate u in cells of an axis; as axis_weights.
+// Cells and weights of a packet at the coordinate u in cells from the start of an axis.  A NaN gives cell 0.
 INLINE wide law_weights(int cells, wide u, int k, ball_array weight[3])
 {
     const wide cell = wide_floor(wide_min(wide_max(u, wide_set(0.0)), wide_set(cells - 1.0)));

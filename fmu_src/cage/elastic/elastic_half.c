@@ -232,7 +232,10 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
     }
     for (int a = 0; a < PAD_OUT; a++)
         behind[a] = half->K[a][0] * e[0] + half->K[a][1] * e[1] + half->K[a][2] * e[2];
-    joint_law(half->law, behind, P, load, rivet, &U);
+    LawPlaces at;
+    const wide trial[PAD_OUT] = {wide_set(behind[0]), wide_set(behind[1]), wide_set(behind[2])};
+    law_places(half->law, trial, wide_set(P), 0, &at);
+    law_answer(half->law, &at, 0, behind[1], load, rivet, &U);
     off[0] = load[0];
     off[1] = (load[2] - x[1]) / half->law->length;
 }
