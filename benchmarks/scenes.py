@@ -1,7 +1,7 @@
 """Parts of the model that a scene does not need are not computed: gain in processor time and error of each.
 
-Where there should be no error, the states at the end are compared bit for bit.  Errors of a simpler model (rigid cage,
-traction at a point) are differences of statistics pooled over seeds, with 95 % half-widths of the seeds' scatter;
+Where there should be no error, the states at the end are compared bit for bit.  Errors of a simpler model
+(traction at a point) are differences of statistics pooled over seeds, with 95 % half-widths of the seeds' scatter;
 sampled peaks are compared with peaks over every step. Runs that are compared take turns, and the least time of several
 counts, so that other users of the machine affect all runs alike.
 """
@@ -14,7 +14,7 @@ from common import FMU, SCENES, Scene, core_library, counters, cpu, options, say
 from scipy.stats import t as student
 
 from bearing_model.generated import variables
-from bearing_model.generated.variables import CageModel, Lubrication, Method, Stress, Switch, Traction
+from bearing_model.generated.variables import Lubrication, Method, Stress, Switch, Traction
 
 STEP = 1e-4  # communication step [s]
 FIGURES = [
@@ -211,7 +211,6 @@ def main():
     say(f"inputs: {data['inputs']}")
     data["paths"] = solver_paths(core, length, repeat)
     simple = {
-        "rigid cage": ("scene_cage", CageModel.RIGID, CageModel.TWO_HALF),
         "traction at a point": ("scene_traction", Traction.POINT, Traction.SLICED),
         "full film": ("scene_lubrication", Lubrication.FILM, Lubrication.MIXED),
     }

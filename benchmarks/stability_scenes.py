@@ -222,7 +222,7 @@ def balls():
 MODES = {
     "point": {},
     "sliced": {"scene.traction": 2},
-    "rigid": {"scene.cage": 2},
+    "two_half": {"scene.cage": 1},
     "fatigue": {"scene.stress": 4, "start.settle": 0.0},
     "free ring": FREE,
 }
@@ -240,7 +240,7 @@ def communication():
         (0.1, 1),
         (1.0, 1),
     ):
-        for name in ("point", "rigid") if step < 0.1 else ("rigid",):
+        for name in ("point", "two_half") if step < 0.1 else ("two_half",):
             yield Scene("communication step", f"{step:g} s, {name}", MODES[name], step=step, t_end=step * count)
     for h in (3e-8, 3e-6, 1e-5):
         times = np.arange(0.0, 500 * h, h)

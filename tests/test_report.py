@@ -103,10 +103,9 @@ def test_what_was_not_recorded_is_said(few):
     assert 'aria-label="Displacement of the inner ring over time"' in page
 
 
-@pytest.mark.parametrize("cage", ["two_half", "rigid"])
-def test_rigid_halves_do_not_bend(result, cage):
+def test_rigid_halves_do_not_bend(result):
     """No bending is drawn, no spectra of joints are looked for."""
-    page = render(replace(result, parameters=result.parameters | {"scene.cage": cage}))
+    page = render(replace(result, parameters=result.parameters | {"scene.cage": "two_half"}))
     film = json.loads(page.split('id="frames">')[1].split("</script>")[0])
     assert film["bend"] == 0.0 and not any("flex" in name for name in film["channels"])
     assert "bend by their vibration modes" not in page and "Spectra of the joint loads" not in page
