@@ -7,7 +7,7 @@ FMU     = fmus/RivetedBearing.fmu
 COPY    = $(CURDIR)/build/sanitize
 PYTEST  = $(PYTHON) -m pytest
 C_FILES = $(shell find fmu_src -name '*.[ch]') $(wildcard tests/*.[ch] benchmarks/*.[ch] examples/*/*.c docs/site/browser/*.c)
-BENCHMARKS = rtf rhs step hosted scenes scaling work_precision
+BENCHMARKS = rtf rhs step scenes scaling work_precision
 FORM    = --short
 # Test files that call the C code themselves: functions of the core, of FMI, programs of cmake/fuzz.cmake.  The command line, reports and sweeps come to
 # the same functions and take far longer in an instrumented Python; importers bring libraries of their own.

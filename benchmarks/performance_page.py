@@ -321,21 +321,6 @@ FLOORS = "arithmetic", "load", "divide_root"
 # --------------------------------------------------------------------------------------------------------------- step
 
 
-def hosted(data):
-    """Cost of ARKStep around the core's own step."""
-    rows = []
-    for name in next(iter(data["cages"].values())):
-        cells = [SHORT[name]]
-        for scenes in data["cages"].values():
-            own, arkstep = scenes[name]["own loop"]["us"], scenes[name]["ARKStep"]["us"]
-            cells += [f"{own:.2f}", f"{100 * (arkstep / own - 1):+.0f}"]
-        rows.append(cells)
-    return (
-        "The core's own loop, and the added cost if ARKStep hosts the same step ([note](notes/hosted_step.md)).\n\n"
-        f"{table(['', 'elastic: µs/evaluation', 'ARKStep, %', 'rigid: µs/evaluation', 'ARKStep, %'], rows)}\n"
-    )
-
-
 def share(scene, part):
     """Part of a step's instructions that a source file takes, 0 if it is not called."""
     counts = scene["parts"].get(part, {"counts": {}})["counts"]
@@ -542,7 +527,6 @@ Unless elastic halves (the default) are named, figures are of rigid halves (`two
 
 {section("One evaluation of the right-hand side", "rhs", rhs)}
 {section("Where a step goes", "step", step)}
-{section("The step inside ARKODE", "hosted", hosted)}
 {section("Cost of single features", "scenes", scenes)}
 {section("Scaling", "scaling", scaling)}"""
     PAGE.write_text("\n".join(line.rstrip() for line in text.splitlines()) + "\n")

@@ -16,16 +16,6 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
     add_library(bearing_solvers SHARED EXCLUDE_FROM_ALL
         $<FILTER:${core_objects},EXCLUDE,integrator\\.c> $<TARGET_OBJECTS:sundials_cvode> ${test_files} ${benchmarks}/solvers.c)
 
-    # The core's step hosted by ARKStep.
-    set(arkstep_files arkode/arkode_arkstep.c arkode/arkode_arkstep_io.c arkode/arkode_arkstep_nls.c arkode/arkode_butcher_dirk.c arkode/arkode_ls.c
-        arkode/arkode_mri_tables.c arkode/arkode_mristep.c arkode/arkode_mristep_io.c arkode/arkode_mristep_nls.c)
-    list(TRANSFORM arkstep_files PREPEND ${sundials_source}/src/)
-    add_library(sundials_arkstep OBJECT EXCLUDE_FROM_ALL ${arkstep_files})
-    target_include_directories(sundials_arkstep SYSTEM PRIVATE ${sundials_folders})
-    target_compile_options(sundials_arkstep PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
-    add_library(bearing_hosted SHARED EXCLUDE_FROM_ALL $<FILTER:${core_objects},EXCLUDE,integrator\\.c> $<TARGET_OBJECTS:sundials_cvode>
-        $<TARGET_OBJECTS:sundials_arkstep> ${test_files} ${benchmarks}/hosted.c)
-
     # Adds the timing loops for one instruction set; options as for its kernels.
     function(add_timing isa lane_width)
         add_library(timing_${isa} OBJECT EXCLUDE_FROM_ALL ${benchmarks}/kernel_loops.c)
@@ -50,7 +40,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
     endif()
     add_library(bearing_kernels SHARED EXCLUDE_FROM_ALL ${core_objects} ${timing_objects} ${test_files} ${benchmarks}/trace.c)
 
-    foreach(library IN ITEMS bearing_solvers bearing_hosted bearing_kernels)
+    foreach(library IN ITEMS bearing_solvers bearing_kernels)
         target_include_directories(${library} PRIVATE ${core_includes})
         target_include_directories(${library} SYSTEM PRIVATE ${sundials_folders})
         target_compile_definitions(${library} PRIVATE _DEFAULT_SOURCE)
