@@ -4,7 +4,7 @@ import numpy as np
 from library import TWO_HALF
 from python_core import Body, PythonWork
 
-from bearing_model.cage.elastic.cage_elastic import mode_order
+from bearing_model.cage.elastic.elastic_half import mode_order
 from bearing_model.cage.elastic.half_modes import fewer
 from bearing_model.generated import variables
 from bearing_model.physics.derived import default_table
@@ -12,8 +12,6 @@ from bearing_model.physics.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES
-# elastic ones have tests of their own: test_cage_elastic.py
-RIGID_HALVES = variables.CageModel.TWO_HALF, variables.CageModel.RIGID
 OUTPUTS = {name.replace("[j]", "").replace("[k]", ""): variable for name, variable in variables.OUTPUTS.items()}
 
 
@@ -85,7 +83,7 @@ def place_balls(model, x, r, theta, v=None, omega=None, omega_m=None):
 
 
 def clear_balls(w):
-    """Nothing acts on the balls yet: what pocket_force and drag_force add to."""
+    """Nothing acts on the balls yet: the accumulators of cage_pockets and drag_force."""
     for name in (
         "F_x",
         "F_r",
@@ -144,11 +142,12 @@ def modes_of(p):
     return int(fewer(default_table().modes, p.scene.modes).count.sum())
 
 
-def running_state(model, rng, *, pockets=True, slip=1.0):
+def running_state(model, rng, *, pockets=True, slip=1.0, stuck=False):
     """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted,
     joints offset and slipping.
 
-    `slip` scales all velocities' deviations from pure rolling; without `pockets` no ball touches the cage.
+    `slip` scales all velocities' deviations from pure rolling; without `pockets` no ball touches the cage;
+    `stuck`: the halves move as one rigid body.
     """
     y = model.start()
     p, d = model.p, model.d
@@ -177,7 +176,7 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
             y[block][:n] += 1e-6 * rng.uniform(-1.0, 1.0, n) / (1.0 + order)
         for block in (variables.MODE_S_DOT, variables.MODE_D_DOT):
             y[block][:n] += 1e-2 * slip * rng.uniform(-1.0, 1.0, n) / (1.0 + order)
-    if p.scene.cage != variables.CageModel.RIGID:
+    if not stuck:
         add("cage_x", 3e-7), add("cage_y", 3e-6), add("cage_z", 3e-6), add("cage_psi", 5e-5)
         tilt = rng.uniform(-2e-4, 2e-4, 2)
         for h in range(2):

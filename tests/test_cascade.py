@@ -104,15 +104,15 @@ def test_what_cannot_be_is_refused_by_name(tmp_path, fmu, document, words):
         run_cascades(path, small, Model(fmu), tmp_path / "runs", lambda: pytest.fail("nothing is simulated"))
 
 
-def test_a_rigid_cage_is_refused(fmu, tmp_path):
-    """Its joints are not known one by one; what the FMU says is passed on."""
+def test_a_refusal_is_passed_on(fmu, tmp_path):
+    """Parameters that contradict each other: the FMU's message reaches the user."""
     document = {
         "seeds": 1,
         "breaks": 1,
         "simulation": {"t_end": 4e-3},
-        "parameters": {"scene.cage": "rigid", "start.settle": 1e-3, "fatigue.sigma_D": "20 MPa"},
+        "parameters": {"cage.D_i": 0.07, "start.settle": 1e-3, "fatigue.sigma_D": "20 MPa"},
     }
-    with cluster(None, 1) as client, pytest.raises(UserError, match="rivets that differ need scene.cage = two_half"):
+    with cluster(None, 1) as client, pytest.raises(UserError, match="cage.D_i"):
         run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
 
 

@@ -60,6 +60,11 @@ def test_no_circles_among_headers():
 
 
 def test_the_wrapper_sees_the_part_only():
-    assert set(included(SOURCES / "host/fmi2_wrapper.c")) == {"part", "build_info", "float_environment", "saved_numbers"}
+    assert set(included(SOURCES / "host/fmi2_wrapper.c")) == {
+        "part",
+        "build_info",
+        "float_environment",
+        "saved_numbers",
+    }
     assert included(SOURCES / "instance/part.h") == ["variable_table"]
     assert included(SOURCES / "numbers/variable_table.h") == ["variables"]

@@ -103,10 +103,9 @@ def test_what_was_not_recorded_is_said(few):
     assert 'aria-label="Displacement of the inner ring over time"' in page
 
 
-@pytest.mark.parametrize("cage", ["two_half", "rigid"])
-def test_rigid_halves_do_not_bend(result, cage):
+def test_rigid_halves_do_not_bend(result):
     """No bending is drawn, no spectra of joints are looked for."""
-    page = render(replace(result, parameters=result.parameters | {"scene.cage": cage}))
+    page = render(replace(result, parameters=result.parameters | {"scene.cage": "two_half"}))
     film = json.loads(page.split('id="frames">')[1].split("</script>")[0])
     assert film["bend"] == 0.0 and not any("flex" in name for name in film["channels"])
     assert "bend by their vibration modes" not in page and "Spectra of the joint loads" not in page
@@ -223,7 +222,7 @@ def test_modes_are_those_of_the_fmu(result):
     """
     for changes in ({}, {"scene.modes": 33}, {"cage.m": 4.0 * result.parameters["cage.m"]}):
         found = run("demo", t_end=1e-3, parameters={"scene.cage": "elastic"} | changes).about["mode_frequencies"]
-        omega = Model.of({"scene.cage": CageModel.ELASTIC} | changes).d.elastic.omega
+        omega = Model.of({"scene.cage": CageModel.ELASTIC} | changes).modes.omega
         assert found == pytest.approx(sorted(set(omega / 2 / np.pi)), rel=1e-12)
     assert found[0] == pytest.approx(0.5 * result.about["mode_frequencies"][0], rel=1e-9)
     assert 700.0 < result.about["mode_frequencies"][0] < 850.0  # two lobes out of the plane
