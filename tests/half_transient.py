@@ -16,8 +16,9 @@ from mechanics import Instance, view
 from scipy.linalg import expm
 from scipy.sparse.linalg import splu
 
-from bearing_model.cage.common.joint_law import joint_law, joints_open, relief
+from bearing_model.cage.common.joint_law import joint_law, relief
 from bearing_model.cage.elastic import half_modes as modes_of
+from bearing_model.cage.two_half.joint_open import joints_open
 from bearing_model.generated import variables
 from bearing_model.rivet import rivet_table
 from rivet_model import half, half_loads, half_modes, half_shape

@@ -98,11 +98,13 @@ class Model:
         core.lib.ring_load_update(self.p, self.u, 0.0, self.ring_load)
         self.pointer = core.new("Model")
         self.pointer.p, self.pointer.d, self.pointer.ring_load = self.p, self.d, self.ring_load
-        self.elastic = core.ffi.NULL
-        if self.p.scene.cage == variables.CageModel.ELASTIC:
-            self.elastic = core.ffi.gc(core.lib.test_elastic_half(self.p, self.d), core.lib.free)
-        self.pointer.elastic = self.elastic
-        self.states = variables.N_ALL_STATES if self.elastic else variables.N_STATES
+        self.modes = core.ffi.NULL
+        if core.lib.cage_vibrates(self.p):
+            memory = core.lib.test_allocate(core.lib.cage_size(self.p))
+            self.modes = core.ffi.gc(core.ffi.cast("ElasticHalf *", memory), core.lib.free)
+            core.lib.cage_derive(self.p, self.d, self.modes)
+        self.pointer.modes = self.modes
+        self.states = variables.N_ALL_STATES if self.modes else variables.N_STATES
         self.isa = isa or core.ffi.string(core.lib.kernels_select().name).decode()
 
     def kernel(self, name):
@@ -130,15 +132,17 @@ class Model:
         return y_dot
 
     def implicit(self, function, gamma, v):
-        """implicit_solve or implicit_stiff_part of velocities v (rows of the state vector) at the state of the last
-        evaluation.
+        """implicit_solve, cage_shear or implicit_stiff_part of velocities v (rows of the state vector) at the state of the
+        last evaluation.
         """
         v = np.array(v, dtype=float)
-        self.kernel(function)(self.pointer, self.work, gamma, self.core.array(v))
+        step = [] if function == "implicit_stiff_part" else [self.core.ffi.new("CageStep *")]
+        call = getattr(self.core.lib, function, None) or self.kernel(function)
+        call(self.pointer, self.work, gamma, *step, self.core.array(v))
         return v
 
     def rates(self):
-        """Rates [1/s] by which velocities (implicit.c) and friction states (cage_joint_advance) hold themselves back at
+        """Rates [1/s] by which velocities (implicit.c) and friction states (two_half_advance) hold themselves back at
         the state of the last evaluation.
         """
         gamma, D = 1e-12, np.zeros(variables.N_STATES)  # small: A_ii beside its coupling to others; rounding 1e-4 1/s
@@ -159,10 +163,11 @@ class Model:
         """Rates of the friction states by what a step h leaves of one: the midpoint rule's (1 - h D/2)/(1 + h D/2).
         Exact to rounding for h D near 1.
         """
-        left = []
+        memory, left = self.core.new("TwoHalfMemory"), []
+        self.kernel("two_half_remember")(self.work, memory)
         for start in (0.0, 1.0):
             y = np.full(variables.N_STATES, start)
-            self.kernel("cage_joint_advance")(self.pointer, self.work, h, self.core.array(y))
+            self.kernel("two_half_advance")(self.pointer, h, memory, self.work, self.core.array(y))
             left.append(y)
         left = left[1] - left[0]
         return 2.0 * (1.0 - left) / (h * (1.0 + left))

@@ -4,15 +4,13 @@ import numpy as np
 from library import TWO_HALF
 from python_core import Body, PythonWork
 
-from bearing_model.cage.elastic.cage_elastic import mode_order
+from bearing_model.cage.elastic.elastic_half import mode_order
 from bearing_model.generated import variables
 from bearing_model.physics.derived import default_table
 from bearing_model.physics.hertz_exact import HertzContact, hertz_ellipse
 
 Z = variables.Z
 SLICE = variables.STATE_SLICES
-# elastic ones have tests of their own: test_cage_elastic.py
-RIGID_HALVES = variables.CageModel.TWO_HALF, variables.CageModel.RIGID
 OUTPUTS = {name.replace("[j]", "").replace("[k]", ""): variable for name, variable in variables.OUTPUTS.items()}
 
 
@@ -84,7 +82,7 @@ def place_balls(model, x, r, theta, v=None, omega=None, omega_m=None):
 
 
 def clear_balls(w):
-    """Nothing acts on the balls yet: what pocket_force and drag_force add to."""
+    """Nothing acts on the balls yet: the accumulators of cage_pockets and drag_force."""
     for name in (
         "F_x",
         "F_r",
@@ -138,11 +136,12 @@ def pocket_loads(model):
     return np.array([list(model.work.pocket[h].Q)[:Z] for h in range(2)])
 
 
-def running_state(model, rng, *, pockets=True, slip=1.0):
+def running_state(model, rng, *, pockets=True, slip=1.0, stuck=False):
     """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted,
     joints offset and slipping.
 
-    `slip` scales all velocities' deviations from pure rolling; without `pockets` no ball touches the cage.
+    `slip` scales all velocities' deviations from pure rolling; without `pockets` no ball touches the cage;
+    `stuck`: the halves move as one rigid body.
     """
     y = model.start()
     p, d = model.p, model.d
@@ -171,7 +170,7 @@ def running_state(model, rng, *, pockets=True, slip=1.0):
             y[block][:n] += 1e-6 * rng.uniform(-1.0, 1.0, n) / (1.0 + order)
         for block in (variables.MODE_S_DOT, variables.MODE_D_DOT):
             y[block][:n] += 1e-2 * slip * rng.uniform(-1.0, 1.0, n) / (1.0 + order)
-    if p.scene.cage != variables.CageModel.RIGID:
+    if not stuck:
         add("cage_x", 3e-7), add("cage_y", 3e-6), add("cage_z", 3e-6), add("cage_psi", 5e-5)
         tilt = rng.uniform(-2e-4, 2e-4, 2)
         for h in range(2):

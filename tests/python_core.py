@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 from library import TWO_HALF
 
-from bearing_model.cage.common import pocket
+from bearing_model.cage.cage import cage_derive, cage_pockets
 from bearing_model.generated import variables
 from bearing_model.instance.energy import energy_total
 from bearing_model.physics import derived, drag, hertz, land_film, race_contact, traction
@@ -28,7 +28,7 @@ from bearing_model.solver.start import start_state
 Z = variables.Z
 ELEMENTS = (
     race_contact.race_contact_force,
-    pocket.pocket_force,
+    cage_pockets,
     drag.drag_mixture,
     drag.drag_force,
     drag.drag_cage,
@@ -42,8 +42,6 @@ WRENCH = {f"ring_{kind}_{axis}": (f"ring_{kind}", i) for kind in "FM" for i, axi
 NORMALS = {f"n_{race}{axis}": (f"n_{race}", i) for race in "ie" for i, axis in enumerate("xrt")}
 RATES = {f"{kind}_{axis}": (kind, i) for kind in ("D", "D_omega") for i, axis in enumerate("xrt")}
 COMPONENTS = VECTORS | WRENCH | NORMALS | RATES
-# the rigid cage has one set of pockets
-NOTHING = SimpleNamespace(Q=np.zeros(Z), **{f"half_{kind}_{i}": np.zeros(Z) for kind in "FM" for i in "xyz"})
 DISSIPATED = ("race_dissipated", "pocket_dissipated", "drag_dissipated")
 
 
@@ -102,23 +100,17 @@ class PythonWork:
 
     @property
     def delta_c(self):
-        return np.array([*self.w.delta_c.values()])
+        return np.array(self.w.delta_c)
 
     @property
     def pocket(self):
         """Load, force and moment about the half's centre of each ball on each half."""
-        w = self.w
 
-        def of_half(h):
-            wrench = {"F": w.pocket_F[h], "M": w.pocket_M[h]}
-            return SimpleNamespace(
-                Q=w.Q_c[h],
-                **{
-                    f"half_{kind}_{i}": row for kind, rows in wrench.items() for i, row in zip("xyz", rows, strict=True)
-                },
-            )
+        def of_half(on):
+            rows = zip(("F_x", "F_y", "F_z", "M_x", "M_y", "M_z"), (*on.half_F, *on.half_M), strict=True)
+            return SimpleNamespace(Q=on.Q, **{f"half_{name}": row for name, row in rows})
 
-        return [of_half(h) if h in w.Q_c else NOTHING for h in range(2)]
+        return [of_half(on) for on in self.w.pocket]
 
     def __getattr__(self, name):
         if name in COMPONENTS:
@@ -143,10 +135,11 @@ class PythonModel:
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
         self.p = temperature_apply(self.p, self.u, derived.default_table())
         self.d = derive(self.p, SimpleNamespace())
+        self.modes = cage_derive(self.p, self.d, derived.default_table())
         self.pointer = self
 
     def model(self, t=0.0):
-        return Model(self.p, self.d, ring_load_update(self.p, self.u, t))
+        return Model(self.p, self.d, ring_load_update(self.p, self.u, t), modes=self.modes)
 
     def kernel(self, name):
         return lambda _, work: KERNELS[name](self.model(), work.w)
@@ -164,7 +157,7 @@ class PythonModel:
         return rhs(self.model(t), t, np.asarray(y, dtype=float), self.work.w)
 
     def energy(self, y):
-        return float(energy_total(self.model(), self.work.w))
+        return float(energy_total(self.model(), np.asarray(y, dtype=float), self.work.w))
 
 
 def derive(p, d):

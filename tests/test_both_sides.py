@@ -5,10 +5,10 @@ on all of them.
 import numpy as np
 import pytest
 from library import TWO_HALF
-from mechanics import RIGID_HALVES, SLICE, Instance, View, Z, pocket_loads, running_state
+from mechanics import SLICE, Instance, View, Z, pocket_loads, running_state
 from scipy.spatial.transform import Rotation
 
-from bearing_model.generated.variables import INPUTS, OUTPUTS, PARAMETERS, CageModel, RingMotion, TiltMode, Traction
+from bearing_model.generated.variables import INPUTS, OUTPUTS, PARAMETERS, RingMotion, TiltMode, Traction
 from bearing_model.physics.derived import model_derive
 from bearing_model.physics.model import Model
 from bearing_model.physics.parameters import Inputs, Parameters
@@ -33,7 +33,6 @@ LOSSLESS |= {
     "cage.mu_land": 0.0,
     "cage.lambda": 0.0,
     "bearing.lambda": 0.0,
-    "scene.cage": CageModel.RIGID,
     "scene.traction": Traction.POINT,
 }
 MOTIONS = {  # all at once: every power has its part
@@ -105,17 +104,15 @@ def power_and_rate(model, y, inputs):
 
 
 @pytest.mark.parametrize("motion", RingMotion)
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_power_balance(core, cage, motion):
+def test_power_balance(core, motion):
     """dE/dt = shaft + housing + frame - losses at random states while everything moves, to 2e-8 of the power that goes
     around.
 
     The rotations of the tilts are second order in the difference of the inputs' angles: 1e-8 s * 7 rad/s * 1e-3.  Each
     of the powers is more than 1e4 times the tolerance.
     """
-    parameters = {"scene.cage": cage, "ring.motion": motion, "gravity.y": -9.81, "gravity.z": 4.0, "frame.radius": 0.15}
-    if cage == CageModel.TWO_HALF:
-        parameters["cage.unbalance"] = 2e-6
+    parameters = {"ring.motion": motion, "gravity.y": -9.81, "gravity.z": 4.0, "frame.radius": 0.15}
+    parameters["cage.unbalance"] = 2e-6
     rng = np.random.default_rng(11)
     model = core.model(parameters=parameters, inputs=MOTIONS)
     for _ in range(5):
@@ -234,7 +231,7 @@ def shaken(core, H, T=4e-4, order=0, tolerance=1e-8):
         values = {name: still[name] + value for name, value in given(t, 0).items()}
         return values | {name.replace(".", ".v_"): value for name, value in given(t, 1).items()}
 
-    parameters = PRESCRIBED | {"scene.cage": CageModel.RIGID, "start.spacing": 0.0, "cage.pocket_clearance": 4e-4}
+    parameters = PRESCRIBED | {"start.spacing": 0.0, "cage.pocket_clearance": 4e-4}
     bearing, trace = Instance(core, parameters, at(0.0), tolerance=tolerance), []
     for n in range(1, round(T / H) + 1):
         bearing.set(**at((n - 1) * H))
@@ -267,7 +264,7 @@ def driven(core, H, how, T=3e-4):
     """Positions [points, 3] of a mass on the bearing, by a master that takes the reaction as held, with slopes, or in
     three passes with saved states.
     """
-    parameters = PRESCRIBED | {"scene.cage": CageModel.RIGID, "cage.pocket_clearance": 4e-4, "start.spacing": 0.0}
+    parameters = PRESCRIBED | {"cage.pocket_clearance": 4e-4, "start.spacing": 0.0}
     free = Instance(core, parameters | {"ring.motion": RingMotion.FREE}, tolerance=1e-6)
     x, v = numbers(free, "ring.x", "ring.y", "ring.z"), np.zeros(3)
     bearing, load = (
@@ -322,7 +319,7 @@ def test_the_motion_is_continuous(core):
     there, outputs say so.
     """
     bearing, H = (
-        Instance(core, PRESCRIBED | {"bearing.P_d": 1e-4, "scene.cage": CageModel.RIGID}, {"shaft.x": 0.0}),
+        Instance(core, PRESCRIBED | {"bearing.P_d": 1e-4}, {"shaft.x": 0.0}),
         1e-4,
     )
     bearing.set(**{"shaft.x": 2e-6, "shaft.v_x": 0.01, "shaft.tilt_z": 1e-4})

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from mechanics import RIGID_HALVES, SLICE, Instance, Z, axis, pocket_loads, running_state
+from mechanics import SLICE, Instance, Z, axis, pocket_loads, running_state
 
 from bearing_model.generated.variables import PARAMETERS, Lubrication, Method, Switch, TiltMode, Traction
 
@@ -48,15 +48,14 @@ def momentum_rates(y, rate, h=1e-9):
 @pytest.mark.filterwarnings("ignore:invalid value:RuntimeWarning")  # energy of joints without stiffness
 @pytest.mark.parametrize("lubrication", Lubrication)
 @pytest.mark.parametrize("traction", Traction)
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_internal_forces_cancel(core, cage, traction, lubrication):
+def test_internal_forces_cancel(core, traction, lubrication):
     """The momenta of balls and cage change by what ring and housing do to them: pockets and joints drop out.
 
     Ring, outer race, films, drag and gravity are taken from a second evaluation with pockets and joints dead; observed
     2e-6 N.
     """
     rng = np.random.default_rng(1)
-    parameters = {"scene.cage": cage, "scene.traction": traction, "scene.lubrication": lubrication}
+    parameters = {"scene.traction": traction, "scene.lubrication": lubrication}
     model = core.model(parameters=parameters)
     for _ in range(5):
         y = running_state(model, rng)
@@ -77,8 +76,7 @@ def test_internal_forces_cancel(core, cage, traction, lubrication):
 
 
 @pytest.mark.filterwarnings("ignore:divide by zero:RuntimeWarning")  # no oil, no film
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_angular_momentum_about_the_axis(core, cage, record_property):
+def test_angular_momentum_about_the_axis(core, record_property):
     """Without friction, film and drag only the ring changes L_x, by its normal forces' moment about X when it stands
     off centre or tilted.
 
@@ -91,7 +89,6 @@ def test_angular_momentum_about_the_axis(core, cage, record_property):
         "oil.rho_mix": 0.0,
         "oil.eta": 1e-300,
         "cage.mu_land": 0.0,
-        "scene.cage": cage,
     }
     rng = np.random.default_rng(2)
     model = core.model(parameters=smooth)
@@ -138,15 +135,11 @@ def angular_momentum(y):
     return momenta(y)[1][0] + RING * orbit + RING_J_T * tilting + RING_J_P * OMEGA * a[0]
 
 
-def drift(core, cage, method, tolerance, t=2e-3):
+def drift(core, method, tolerance, t=2e-3):
     """Change of the angular momentum in t [N.m.s] of unequal balls under thrust alone, less what the thinnest film
     takes: Petroff, both lands.
     """
-    parameters = (
-        SMOOTH
-        | FREE
-        | {"scene.cage": cage, "solver.method": method, "ball[j].dD": [1e-6 * (j * 5 % 9 - 4) for j in range(Z)]}
-    )
+    parameters = SMOOTH | FREE | {"solver.method": method, "ball[j].dD": [1e-6 * (j * 5 % 9 - 4) for j in range(Z)]}
     bearing = Instance(core, parameters, {"shaft.F_x": 515.0, "shaft.F_y": 0.0, "shaft.omega": OMEGA}, tolerance)
     start = angular_momentum(bearing.y)
     omega = bearing.output("cage.omega")
@@ -156,18 +149,17 @@ def drift(core, cage, method, tolerance, t=2e-3):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_angular_momentum_stays(core, cage, record_property):
+def test_angular_momentum_stays(core, record_property):
     """Of 0.4 N.m.s without friction, drag, load across the axis or support: Runge-Kutta to rounding, Verlet with a
     drift of order 2.
 
     A step's error is of order 3, so the drift goes with tolerance^(2/3), where the tolerance alone decides the steps:
     from 1e-7 on.
     """
-    exact, petroff = drift(core, cage, Method.EXPLICIT, 1e-5)
+    exact, petroff = drift(core, Method.EXPLICIT, 1e-5)
     coarse, tolerances = 1e-5, 10.0 ** np.array([-7.0, -7.5, -8.0, -8.5])
-    drifts = [abs(drift(core, cage, Method.VERLET, tolerance)[0]) for tolerance in tolerances]
-    first = abs(drift(core, cage, Method.VERLET, coarse)[0])
+    drifts = [abs(drift(core, Method.VERLET, tolerance)[0]) for tolerance in tolerances]
+    first = abs(drift(core, Method.VERLET, coarse)[0])
     slope = np.polyfit(np.log(tolerances), np.log(drifts), 1)[0]
     record_property("drift", {"Runge-Kutta": float(exact), "Verlet at 1e-5": float(first), "slope": float(slope)})
     print(f"explicit {exact:.1e} (film {petroff:.2e}), Verlet {drifts}, slope {slope:.2f}")
@@ -177,12 +169,11 @@ def test_angular_momentum_stays(core, cage, record_property):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_housing_reaction(core, cage):
+def test_housing_reaction(core):
     """Load = housing force + inertia of ring, balls and cage + ring damping (ring and gravity included), at each
     instant of a run.
     """
-    parameters = {"scene.cage": cage, "gravity.y": -9.81, "scene.statistics": Switch.OFF, "cage.pocket_clearance": 7e-5}
+    parameters = {"gravity.y": -9.81, "scene.statistics": Switch.OFF, "cage.pocket_clearance": 7e-5}
     bearing = Instance(core, parameters)
     model = core.model(parameters=parameters)
     load = np.array([515.0, 2994.0, 0.0])

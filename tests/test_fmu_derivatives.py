@@ -113,7 +113,7 @@ def test_an_importer_interpolates(fmu):
     def end(h, derivatives):
         result = fmpy.simulate_fmu(
             str(fmu),
-            start_values={"scene.cage": 2, "start.spacing": 0.0, "shaft.F_y": 1500.0},
+            start_values={"scene.cage": 1, "start.spacing": 0.0, "shaft.F_y": 1500.0},
             stop_time=1e-3,
             step_size=h,
             output_interval=h,
@@ -328,8 +328,8 @@ SCENES = {
             "frame.a_y": 5.0,
         },
     ),
-    "two_half_moving": (
-        {"scene.cage": 1, "ring.motion": 2, "scene.lubrication": 2},
+    "prescribed_moving": (
+        {"ring.motion": 2, "scene.lubrication": 2},
         {
             "shaft.x": 5e-5,
             "shaft.y": 2e-5,
@@ -347,8 +347,8 @@ SCENES = {
             "shaft.tilt_z": 1e-3,
         },
     ),
-    "free_tilt": (
-        {"scene.cage": 1, "ring.tilt_mode": 3, "scene.traction": 2, "oil.flow": 1e-5, "scene.growth": 2},
+    "free_sliced": (
+        {"ring.tilt_mode": 3, "scene.traction": 2, "oil.flow": 1e-5, "scene.growth": 2},
         {"shaft.F_z": 500.0, "shaft.tilt_y": 1e-3},
     ),
     "pockets and holes closed": (

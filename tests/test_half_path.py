@@ -8,6 +8,7 @@ import pytest
 from bearing_model.cage.two_half import half_path
 from bearing_model.generated.variables import Z
 from bearing_model.physics.derived import default_table
+from rivet_model.half_loads import bolt_group
 
 D_M = 53.5e-3
 ANGLE = 2 * np.pi * (np.arange(Z) + 0.5) / Z
@@ -21,24 +22,10 @@ def doubles(ffi, values):
 
 
 @pytest.fixture(params=["C", "Python"])
-def rigid(request, core):
-    if request.param == "Python":
-        return half_path.bolt_group
-    ffi = core.ffi
-
-    def call(d_m, wrench, c, s):
-        out = [ffi.new("double[]", Z) for _ in range(3)]
-        core.model().kernel("bolt_group")(d_m, doubles(ffi, wrench), doubles(ffi, c), doubles(ffi, s), *out)
-        return tuple(np.array(list(v)) for v in out)
-
-    return call
-
-
-@pytest.fixture(params=["C", "Python"])
 def rows(request, core):
     """(side, push [2, Z], force [3, Z]) -> rows [Z, 8] of the shipped table."""
     if request.param == "Python":
-        return lambda side, push, force: half_path.path_load(default_table().half, side, push, force)
+        return lambda side, push, force: half_path.half_path_rows(default_table().half, side, push, force)
     ffi, lib = core.ffi, core.lib
 
     def call(side, push, force):
@@ -65,13 +52,13 @@ def random_forces(rng, touched=Z):
     return push, force
 
 
-def test_rigid_share_carries_the_wrench(rigid):
+def test_rigid_share_carries_the_wrench():
     """Resultant of all rivets = the wrench, at any rotation of the circle (rounding; observed 1e-15)."""
     rng = np.random.default_rng(1)
     for psi in (0.0, 0.3, 2.0):
         wrench = rng.normal(size=6) * [100, 100, 100, 1, 1, 1]
         c, s = np.cos(ANGLE + psi), np.sin(ANGLE + psi)
-        N, V_y, V_z = rigid(D_M, wrench, c, s)
+        N, V_y, V_z = bolt_group(D_M, wrench, c, s)
         R = D_M / 2
         resultant = [
             N.sum(),
@@ -84,9 +71,9 @@ def test_rigid_share_carries_the_wrench(rigid):
         np.testing.assert_allclose(resultant, wrench, rtol=1e-12, atol=1e-12)
 
 
-def test_rigid_share_of_a_moment_is_linear_in_the_lever(rigid):
+def test_rigid_share_of_a_moment_is_linear_in_the_lever():
     """M_y alone: N = M_y r_z / sum r_z^2 (plane stays plane)."""
-    N, V_y, V_z = rigid(D_M, [0, 0, 0, 0, 1.5, 0], np.cos(ANGLE), np.sin(ANGLE))
+    N, V_y, V_z = bolt_group(D_M, [0, 0, 0, 0, 1.5, 0], np.cos(ANGLE), np.sin(ANGLE))
     r_z = D_M / 2 * np.sin(ANGLE)
     np.testing.assert_allclose(N, 1.5 * r_z / (r_z**2).sum(), atol=1e-12)
     assert not np.any(V_y) and not np.any(V_z)
@@ -168,7 +155,7 @@ def test_twins(core, rows):
     for touched in (0, 1, 2, 5, Z):
         for side in (-1, 1):
             push, force = random_forces(rng, touched)
-            expected = half_path.path_load(default_table().half, side, push, force)
+            expected = half_path.half_path_rows(default_table().half, side, push, force)
             np.testing.assert_allclose(
                 rows(side, push, force), expected, rtol=1e-12, atol=1e-12 * max(np.abs(expected).max(), 1e-9)
             )

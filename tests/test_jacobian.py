@@ -10,7 +10,7 @@ import itertools
 
 import numpy as np
 import pytest
-from mechanics import RIGID_HALVES, SLICE, View, Z, running_state, view
+from mechanics import SLICE, View, Z, running_state, view
 
 from bearing_model.generated.variables import INPUTS, N_STATES, CageModel, Lubrication, TiltMode, Traction
 
@@ -25,7 +25,7 @@ KINDS = (
     "joints apart",
     "slow",
 )
-SCENES = list(itertools.product(RIGID_HALVES, Traction, Lubrication, TiltMode))  # 24 of them: 216 states
+SCENES = list(itertools.product([CageModel.TWO_HALF], Traction, Lubrication, TiltMode))  # 12 of them: 108 states
 FULL = (CageModel.TWO_HALF, Traction.SLICED, Lubrication.MIXED, TiltMode.SUPPORTED)
 
 # First step of the differences: a hundredth of what changes contact forces, slip, film and friction; the last one is
@@ -193,7 +193,7 @@ def test_matrix_against_differences(core, scene):
     for kind in KINDS:
         model, y = prepared(core, kind, scene, rng)
         J = matrix(model, y)
-        assert np.isfinite(J).all() and np.count_nonzero(J) > 300  # a rigid cage without contacts has the fewest: 324
+        assert np.isfinite(J).all() and np.count_nonzero(J) > 300
         relative, share = compare(J, *difference_matrix(model, y, rng))
         # observed 0.75...1: the rest, as the mixture's pull of cage on balls, drowns in rounding or lies at a kink
         assert share > 0.7, kind
@@ -370,7 +370,7 @@ class Trajectory:
             "y": array(y),
             "y_dot": array(y_dot),
             "w": self.model.work,
-            "loads": self.model.kernel("rivets_load"),
+            "loads": self.model.kernel("cage_loads"),
             "stress": self.model.kernel("rivet_rom_stress"),
         }
         at = self.core.ffi.new("Evaluation *", members)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bearing_model.cage.common import joint_law
-from bearing_model.cage.two_half import half_path
+from bearing_model.cage.two_half import half_path, joint_open
 from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import half, half_loads, half_modes, joint_contact, load_cases
 from rivet_model.geometry import Geometry
@@ -56,16 +56,16 @@ class Chain:
             rows += np.roll(own, pocket, axis=0)
         return rows
 
-    def scheme(self, P, omega, forces, sweeps=joint_law.SWEEPS):
+    def scheme(self, P, omega, forces, sweeps=joint_open.SWEEPS):
         """(N, M_r, M_t), (T, m_r, m_t) [Z, 3] and moves by the law."""
         return scheme(self.law, self.bonded(omega, forces), self.spin * omega**2, P, sweeps)
 
 
-def scheme(law, rows, spin, P, sweeps=joint_law.SWEEPS):
+def scheme(law, rows, spin, P, sweeps=joint_open.SWEEPS):
     """(N, M_r, M_t), (T, m_r, m_t) [Z, 3] and moves of all joints: bonded rows [Z, 8], those of the centrifugal load
     alone [8] among them.
     """
-    load, rivet, moves = joint_law.joints_open(
+    load, rivet, moves = joint_open.joints_open(
         law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), spin[4], P + spin[5], sweeps
     )
     return load, rivet + np.stack([np.zeros(len(rows)), rows[:, 6], rows[:, 7]], axis=1), moves
@@ -369,7 +369,7 @@ def test_slip_solves_its_equation():
         rng.uniform(0, 6, n),
     )
     K, k_head, k_hole = 0.45e6, 6.5e6, 15e6
-    slip, H, B = joint_law.joint_slip(V, K, gap, plate, head, k_head, k_hole)
+    slip, H, B = joint_open.joint_slip(V, K, gap, plate, head, k_head, k_hole)
     carried = np.minimum(V, plate) + np.minimum(k_head * slip, head) + k_hole * np.maximum(slip - gap, 0.0)
     np.testing.assert_allclose(V - K * slip, carried, rtol=1e-10, atol=1e-9)
     for case in (slip == 0.0, (slip > 0.0) & (head > H), (H == head) & (B == 0.0), B > 0.0):
@@ -382,11 +382,11 @@ def test_slip_is_found_with_its_neighbours(chain):
     """
     rng = np.random.default_rng(9)
     args = (np.full(G.Z, 6e-6), np.full(G.Z, 2.0), np.full(G.Z, 2.0), 6.5e6, 15e6)
-    for sweeps, tolerance in ((joint_law.SWEEPS, 0.02), (60, 1e-6)):
+    for sweeps, tolerance in ((joint_open.SWEEPS, 0.02), (60, 1e-6)):
         for _ in range(20):
             bonded = rng.normal(size=(G.Z, 2)) * 10.0
             bonded[rng.integers(G.Z)] *= 3.0
-            S, H, B, slip = joint_law.joints_slip(chain.law, bonded, *args, sweeps=sweeps)
+            S, H, B, slip = joint_open.joints_slip(chain.law, bonded, *args, sweeps=sweeps)
             rest = bonded - joint_law.relief(chain.law.slip_stiffness, slip) - S - H - B
             assert np.abs(rest).max() < tolerance * np.abs(bonded).max()
             assert np.hypot(*H.T).max() <= 2.0 + 1e-12
@@ -430,7 +430,7 @@ def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(c
     bonded, intact, unit = hats @ chain.alone.lever, np.arange(G.Z) != broken, chain.law.unit
     P = 10.0 * np.abs(bonded * unit).max()
     expected, gap = released(chain, hats, broken)
-    got, rivet, moves = joint_law.joints_open(chain.law, bonded, intact * P, 0.0, P, intact=intact)
+    got, rivet, moves = joint_open.joints_open(chain.law, bonded, intact * P, 0.0, P, intact=intact)
     error = np.abs((got - expected) * unit).max() / np.abs(expected * unit).max()
     error_of_gap = np.abs((moves[broken] - gap) / unit).max() / np.abs(gap / unit).max()
     record_property("error", [float(error), float(error_of_gap)])

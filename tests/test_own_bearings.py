@@ -19,6 +19,7 @@ except (ImportError, OSError) as error:  # gmsh, or a library of the system that
     pytest.skip(f"the mesher gmsh cannot be loaded, `make test-slow` installs it: {error}", allow_module_level=True)
 
 from bearing_model.cage.common import joint_law
+from bearing_model.cage.two_half.joint_open import joints_open
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
 from rivet_model import build, half, half_loads, half_modes, half_shape, joint_contact, load_cases
 from rivet_model.geometry import Geometry
@@ -195,9 +196,7 @@ def differences(name, hand, T, head):
 def by_law(law, spin, P, omega):
     """Tension and moment of the rivet by the law of the joint; spin: bonded rows [8] per (rad/s)^2."""
     rows = np.tile(spin * omega**2, (law.Z, 1))
-    rivet = joint_law.joints_open(law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), rows[0, 4], P + rows[0, 5])[
-        1
-    ]
+    rivet = joints_open(law, rows[:, [0, 3, 4]], np.maximum(P + rows[:, 5], 0.0), rows[0, 4], P + rows[0, 5])[1]
     return rivet[0, 0], rivet[0, 2] + rows[0, 7]
 
 

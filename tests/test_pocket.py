@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from mechanics import (
-    RIGID_HALVES,
     Z,
     clear_balls,
     frames,
@@ -17,7 +16,7 @@ from mechanics import (
 from scipy.integrate import quad
 from scipy.spatial.transform import Rotation
 
-from bearing_model.generated.variables import CageModel, Lubrication
+from bearing_model.generated.variables import Lubrication
 
 TWINS = True
 R, GAP = 0.0111125 / 2, 1e-4
@@ -27,7 +26,7 @@ ELASTIC = {"cage.mu": 0.0, "oil.rolling": 0.0, "cage.lambda": 0.0}
 
 def force(model):
     w = model.work
-    model.kernel("pocket_force")(model.pointer, w)
+    model.kernel("cage_pockets")(model.pointer, w)
 
 
 def one_ball(core, x, t, v=(0, 0, 0), omega=(0, 0, 0), **changes):
@@ -121,11 +120,6 @@ def test_the_split_is_pushed_open(core):
     assert 1.2 < F_x[1] / (3.0 / 16.0 * Q * a / (R + GAP)) < 1.4
 
 
-def test_rigid_cage_carries_all(core):
-    m, _w = one_ball(core, 3e-5, GAP, **ELASTIC, **{"scene.cage": CageModel.RIGID})
-    assert pocket_loads(m)[0] == pytest.approx(np.full(Z, m.d.pocket.K * (np.hypot(3e-5, GAP) - GAP) ** 1.5), rel=1e-8)
-
-
 # --------------------------------------------------------------------------------------------------------------- energy
 
 
@@ -142,8 +136,6 @@ def random_scene(core, rng, **changes):
         }
         pose(core, half, **body)
         bodies.append(body)
-    if m.p.scene.cage == CageModel.RIGID:
-        bodies = bodies[:1]
     phi, angle = 2.0 * np.pi * np.arange(Z) / Z, rng.uniform(-np.pi, np.pi, Z)
     S = GAP + rng.uniform(5e-6, 30e-6, Z)
     ball = {
@@ -180,30 +172,29 @@ def work(m, chord, delta):
 
 
 def energy(m, place, body, j, side):
-    """Elastic energy of one ball and one half from their global places.  side 0: the whole rigid cage."""
+    """Elastic energy of one ball and one half from their global places."""
     phi = 2.0 * np.pi * j / Z
     a, b_y, b_z = body["frame"].T
     p = place - body["x"]
     x, t = p @ a, p @ np.cross(a, b_y * np.cos(phi) + b_z * np.sin(phi))
     S = np.hypot(x, t)
     delta = max(S - GAP, 0.0)
-    return work(m, side * (R + GAP) * x / S, delta) if side else 0.4 * m.d.pocket.K * delta**2.5
+    return work(m, side * (R + GAP) * x / S, delta)
 
 
 def turned(body, rotation):
     return body | {"frame": Rotation.from_rotvec(rotation).as_matrix() @ body["frame"]}
 
 
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_forces_are_the_gradient_of_the_energy(core, cage):
+def test_forces_are_the_gradient_of_the_energy(core):
     """Force on ball, force and moment on each half by central differences of the energy over their places and turns.
 
     Difference over 1e-9 m and 1e-9/R rad: truncation (1e-9/delta)^2, rounding 1e-7; observed 2e-7 of the largest force.
     """
     rng = np.random.default_rng(1)
-    m, w, ball, bodies = random_scene(core, rng, **ELASTIC, **{"scene.cage": cage})
+    m, w, ball, bodies = random_scene(core, rng, **ELASTIC)
     axes = frames(ball["theta"])
-    sides = (-1, 1) if cage == CageModel.TWO_HALF else (0,)
+    sides = (-1, 1)
     F, M = on_ball(w)
     h = 1e-9
     for j in range(Z):
@@ -234,12 +225,9 @@ def test_forces_are_the_gradient_of_the_energy(core, cage):
 
 
 @pytest.mark.parametrize("lubrication", Lubrication)
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_momentum(core, cage, lubrication):
+def test_momentum(core, lubrication):
     """Forces and moments about the bearing's centre cancel over ball and halves; observed 1e-16 of force times arm."""
-    m, w, ball, bodies = random_scene(
-        core, np.random.default_rng(2), **{"scene.cage": cage, "scene.lubrication": lubrication}
-    )
+    m, w, ball, bodies = random_scene(core, np.random.default_rng(2), **{"scene.lubrication": lubrication})
     F, M = on_ball(w)
     axes = frames(ball["theta"])
     for j in range(Z):
@@ -256,17 +244,14 @@ def test_momentum(core, cage, lubrication):
 
 
 @pytest.mark.parametrize("lubrication", Lubrication)
-@pytest.mark.parametrize("cage", RIGID_HALVES)
-def test_power_balance(core, cage, lubrication):
+def test_power_balance(core, lubrication):
     """What the contacts take from balls and halves is stored (by differences of the energy along the motion) or
     dissipated.
     """
-    m, w, ball, bodies = random_scene(
-        core, np.random.default_rng(3), **{"scene.cage": cage, "scene.lubrication": lubrication}
-    )
+    m, w, ball, bodies = random_scene(core, np.random.default_rng(3), **{"scene.lubrication": lubrication})
     F, M = on_ball(w)
     axes = frames(ball["theta"])
-    sides = (-1, 1) if cage == CageModel.TWO_HALF else (0,)
+    sides = (-1, 1)
     for j in range(Z):
         place, v = axes[j].T @ [ball["x"][j], ball["r"][j], 0.0], axes[j].T @ ball["v"][j]
         power, stored = F[j] @ ball["v"][j] + M[j] @ ball["omega"][j], 0.0

@@ -222,7 +222,7 @@ def test_modes_are_those_of_the_fmu(result):
     """
     for changes in ({}, {"cage.m": 4.0 * result.parameters["cage.m"]}):
         found = run("demo", t_end=1e-3, parameters={"scene.cage": "elastic"} | changes).about["mode_frequencies"]
-        omega = Model.of({"scene.cage": CageModel.ELASTIC} | changes).d.elastic.omega
+        omega = Model.of({"scene.cage": CageModel.ELASTIC} | changes).modes.omega
         assert found == pytest.approx(sorted(set(omega / 2 / np.pi)), rel=1e-12)
     assert found[0] == pytest.approx(0.5 * result.about["mode_frequencies"][0], rel=1e-9)
     assert 700.0 < result.about["mode_frequencies"][0] < 850.0  # two lobes out of the plane

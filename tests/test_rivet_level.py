@@ -4,10 +4,10 @@ pocket forces of the same instants.
 
 import numpy as np
 import pytest
-from bearing_model.rivet.rivets import rivets_load
 from library import TWO_HALF
 from mechanics import Instance
 
+from bearing_model.cage.cage import cage_loads
 from bearing_model.generated.variables import Switch, Traction, Z
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import rhs
@@ -38,8 +38,8 @@ def recorded(core, parameters, count, rng):
 def pocket_forces(w):
     """(pocket, angle on the wall, force (x, r, t)) of all contacts; those of the -x half mirrored."""
     for h, side in ((0, -1.0), (1, 1.0)):
-        for j in np.flatnonzero(np.any(w.pocket[h], axis=0)):
-            force, (push_x, push_t) = w.pocket[h][:, j] * [side, 1.0, 1.0], w.pocket_push[h][:, j]
+        for j in np.flatnonzero(np.any(w.pocket[h].F, axis=0)):
+            force, (push_x, push_t) = w.pocket[h].F[:, j] * [side, 1.0, 1.0], w.pocket[h].push[:, j]
             angle = np.arctan2(abs(push_x), push_t)
             small = np.hypot(force[0], force[2]) < SMALL
             yield int(j), np.deg2rad(15.0) * round(angle / np.deg2rad(15.0)) if small else round(float(angle), 3), force
@@ -63,7 +63,7 @@ def test_rivets_of_a_run_against_finer_contact(core):
             rhs(model, 0.0, y, w)
             forces = [(j, angles.setdefault(angle, len(angles)), force) for j, angle, force in pocket_forces(w)]
             omega_2 = 0.5 * float(np.squeeze(w.half[0].s ** 2 + w.half[1].s ** 2))
-            cases.append((model, forces, omega_2 if switch == Switch.ON else 0.0, rivets_load(model, w).rivet))
+            cases.append((model, forces, omega_2 if switch == Switch.ON else 0.0, cage_loads(model, w).rivet))
     elastic = half_loads.elastic_half(G, half.FINE, [(angle, 0.5 * G.d_m) for angle in angles])
     contact, column, nodes = joint_contact.JointContact(elastic), half_loads.centrifugal(elastic), len(half_loads.CHI)
 

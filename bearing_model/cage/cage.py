@@ -323,6 +323,12 @@ def cage_energy(model, y, w):
     return terms | {"modes of the cage": w.elastic.energy} if model.modes else terms
 
 
+def cage_losses(model, w):
+    """Powers that joints and modes dissipate [W] by name, each [..., 1]."""
+    terms = {"joints": ball_array_sum(w.joint_dissipated)}
+    return terms | {"modes": w.elastic.dissipated} if model.modes else terms
+
+
 def cage_flex(model, w, h):
     """Motions (x, r, t) [3, ..., Z] of half h at the rivets by its modes [m]; half 0 is the mirror image of half 1."""
     if not model.modes:

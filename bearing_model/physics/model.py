@@ -57,12 +57,13 @@ class Model:
         """
         p, u = Parameters(parameters), Inputs(inputs)
         trajectory = input_trajectory_update(p, (u, InputDerivatives(), InputDerivatives()), t, t)
-        return cls.under(p, u, ring_load_at(trajectory, t), trajectory, table)
+        varies = trajectory if input_trajectory_varies(trajectory) else None
+        return cls.under(p, u, ring_load_at(trajectory, t), varies, table)
 
     @classmethod
     def under(cls, p, u, ring_load, trajectory=None, table=None):
-        """The model of the Parameters p at the temperatures in the Inputs u, under a RingLoad or an InputTrajectory that
-        varies; table: RivetTable, default that of the 6207.
+        """The model of the Parameters p at the temperatures in the Inputs u, under a RingLoad or along an
+        InputTrajectory; table: RivetTable, default that of the 6207.
 
         ValueError names a temperature that oil or bearing do not bear, a cage that there is not, or parameters of another
         bearing than the table's.
@@ -72,8 +73,7 @@ class Model:
         hot = temperature_apply(p, u, table)
         check_temperatures(u, hot)
         d = model_derive(hot, table)
-        varies = trajectory is not None and input_trajectory_varies(trajectory)
-        return cls(hot, d, ring_load, trajectory if varies else None, cage_derive(hot, d, table))
+        return cls(hot, d, ring_load, trajectory, cage_derive(hot, d, table))
 
     def at(self, t):
         """The Model whose load and motions are those at time t [s], held; arrays of times [...] give loads [..., 1],

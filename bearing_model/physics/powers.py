@@ -5,6 +5,7 @@ All forces on balls and cage together accelerate them; the outer ring carries th
 balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these forces.
 """
 
+from bearing_model.cage.cage import cage_losses
 from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot, vec_to_global
 from bearing_model.physics.frame import frame_acceleration, frame_moment
@@ -64,9 +65,7 @@ def loss_terms(model, w):
         "drag of the cage": w.cage_drag_dissipated,
         "drag of the ring": w.ring_drag_dissipated,
         "land": w.land_dissipated,
-        "joints": ball_array_sum(w.joint_dissipated),
-        "modes": w.elastic.dissipated + 0.0 * w.land_dissipated,
-    }
+    } | cage_losses(model, w)
 
 
 def power_loss(model, w):
