@@ -462,7 +462,7 @@ def sample(n, seed):
             case,
             {
                 "scene.lubrication": int(rng.choice(Lubrication)),
-                "scene.cage": int(rng.choice(CageModel, p=[0.6, 0.2, 0.2])),
+                "scene.cage": int(rng.choice(CageModel, p=[0.7, 0.3])),
                 "ring.tilt_mode": int(rng.choice([TiltMode.PRESCRIBED, TiltMode.SUPPORTED])),
                 "cage.pocket_clearance": float(rng.choice([1e-4, 2e-4])),
             },
