@@ -109,7 +109,7 @@ def test_neighbours_of_a_broken_rivet_carry_its_share(fmu, tmp_path, record_prop
     runs.
     """
     document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "20 ms"}}
-    document["parameters"] = {"scene.cage": "two_half", "start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
+    document["parameters"] = {"start.settle": "5 ms", "fatigue.sigma_D": "60 MPa"}
     with cluster(None, 1) as client:
         found = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
     again = run_cascades(
