@@ -16,11 +16,6 @@
 
 typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
-// One vector for each ball of a packet, in the balls' own frames.
-typedef struct {
-    wide x, r, t;
-} vec;
-
 // ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
     double K;        // Q = K delta^1.5 [N/m^1.5]
