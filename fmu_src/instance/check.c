@@ -124,6 +124,52 @@ static bool check_cage(Bearing *b)
     return refusal == NULL;
 }
 
+// Share by which the moments of inertia may miss their bounds: numbers of three digits are rounded.
+static const double ROUNDED = 0.01;
+
+// Triangle rule, J_p = 2 J_t - 2 m <x^2> with <x^2> the mean square of the axial distance from the centre of mass.
+static bool check_triangle(Bearing *b, const char *part, double J_p, double J_t)
+{
+    const double most = (1.0 + ROUNDED) * 2.0 * J_t;
+    if (J_p <= most) return true;
+    bearing_log(b, LOG_ERROR,
+                "%s.J_p = %g kg.m2: no body has this beside %s.J_t = %g kg.m2; at most 2 J_t = %g kg.m2 is "
+                "allowed",
+                part, J_p, part, J_t, most);
+    return false;
+}
+
+// Checks that bodies can have the moments of inertia.  A body that is too easy to turn would need very short steps.
+//
+//   cage half  its mass lies between the radii D_i/2 and D_o/2: m D_i^2/4 <= J_p <= m D_o^2/4;  J_p <= 2 J_t.
+//              Values left at their start follow the mass (derived.c).
+//   ring       with its share of the shaft J_p <= 2 J_t.  Where loads tilt it, J_p is at least that of a solid shaft
+//              of half the bore, m (bore/4)^2/2.  A disk on the shaft may have any J_p.
+static bool check_bodies(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    const double m = p->cage.m, bore = ring_fit_bore(p);
+    const double least = (1.0 - ROUNDED) * 0.25 * m * p->cage.D_i * p->cage.D_i;
+    const double most = (1.0 + ROUNDED) * 0.25 * m * p->cage.D_o * p->cage.D_o;
+    const double shaft = (1.0 - ROUNDED) * p->ring.m * bore * bore / 32.0;
+    double J_p, J_t;
+    cage_half_inertia(p, &J_p, &J_t);
+    bool fine = J_p >= least && J_p <= most;
+    if (!fine)
+        bearing_log(b, LOG_ERROR,
+                    "cage.J_p = %g kg.m2: not of a half of cage.m = %g kg between cage.D_i and cage.D_o; "
+                    "%g ... %g kg.m2 is allowed",
+                    J_p, m, least, most);
+    fine &= check_triangle(b, "cage", J_p, J_t);
+    fine &= check_triangle(b, "ring", p->ring.J_p, p->ring.J_t);
+    if (p->ring.motion == RING_MOTION_FREE && p->ring.tilt_mode != TILT_MODE_PRESCRIBED)
+        fine &= require(b, p->ring.J_p >= shaft,
+                        "ring.J_p = %g kg.m2: at least %g kg.m2 is allowed, ring.m (ring.bore/4)^2/2 of a "
+                        "solid shaft of half the bore",
+                        p->ring.J_p, shaft);
+    return fine;
+}
+
 // Checks parameters against each other.
 static bool check_geometry(Bearing *b)
 {
@@ -293,7 +339,7 @@ static bool check_values(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
-    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b);
+    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b) && check_bodies(b);
 }
 
 bool check_all(Bearing *b)
