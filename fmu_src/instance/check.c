@@ -36,13 +36,14 @@ static bool check_reached(Bearing *b, const Inputs *u)
     return variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
 }
 
-// Where the motions that are given lead within a step of length h.
+// Where the motions that are given lead within a step of length h.  A motion that is catching up with the given one
+// (motion_trajectory) may be faster.
 static bool check_motions(Bearing *b, double h)
 {
     if (!(h > 0.0)) return true;
     Inputs u[INPUT_ORDERS + 1], end;
     InputTrajectory trajectory = {.t_0 = 0.0};
-    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u_now, h, u);
+    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u[0], h, u);
     if (memcmp(u, b->s.u, sizeof u) == 0) return true;
     memcpy(trajectory.u, u, sizeof u);
     input_trajectory_at(&trajectory, h, &end);
@@ -395,6 +396,33 @@ void report_without_effect(Bearing *b)
     b->reported = true;
     bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
                 list);
+}
+
+// Name and value of the input at a place in Inputs.
+static const char *input_at(const Inputs *u, int place, double *value)
+{
+    const size_t offset = (size_t)place * sizeof(double);
+    const Variable *v = VARIABLES;
+    while (v->causality != CAUSALITY_INPUT || v->offset != offset) v++;
+    *value = ((const double *)u)[place];
+    return v->name;
+}
+
+void report_catch_up(Bearing *b, int motion)
+{
+    if (b->catch_up_reported) return;
+    b->catch_up_reported = true;
+    const InstanceState *s = &b->s;
+    double x, v, x_now, v_now;
+    const char *position = input_at(&s->u[0], MOTION[motion].position, &x);
+    const char *velocity = input_at(&s->u[0], MOTION[motion].velocity, &v);
+    input_at(&s->u_now, MOTION[motion].position, &x_now);
+    input_at(&s->u_now, MOTION[motion].velocity, &v_now);
+    bearing_log(
+        b, LOG_WARNING,
+        "t = %.9g s: %s = %g, %s = %g are given, the motion so far leads to %g, %g: it catches up over "
+        "%g s or more; later cases are not logged",
+        s->integrator.t, position, x, velocity, v, x_now, v_now, CATCH_UP_TIME);
 }
 
 // Logs that the parts stay at their start temperatures where the oil alone has been given another one.
