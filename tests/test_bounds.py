@@ -215,3 +215,29 @@ def test_smooth_motion_does_not_catch_up(h):
         u = ring_load.motion_trajectory(p, (given, InputDerivatives(), InputDerivatives()), now, h, history)
         history = ring_load.motion_remember(given, h, history)
         now = ring_load.input_trajectory_at(ring_load.input_trajectory_update(p, u, 0.0, 0.0), h)
+
+
+# --------------------------------------------------------------------------------------------------------- tolerance
+
+
+@pytest.mark.parametrize("tolerance", [1e-12, 9.9e-11, 0.0, -1.0, float("-inf"), float("nan")])
+def test_unusable_tolerance_leaves_that_of_the_bearing(host, tolerance):
+    """One warning, and the run of solver.tol; 1e-12 became 1e-10, with 124 times the steps."""
+    one, own = host({}, tolerance=tolerance, logging=True).start(), host({}).start()
+    names = [name for name, v in one.variables.items() if v.causality == "output" and not name.startswith("solver.")]
+    for k in range(5):
+        one.doStep(k * STEP, STEP)
+        own.doStep(k * STEP, STEP)
+    assert np.array_equal(one.get(*names), own.get(*names))
+    assert one.get("solver.steps") == own.get("solver.steps")
+    warnings = one.texts(fmi2.fmi2Warning)
+    assert len(warnings) == 1 and "solver.tol takes its place" in warnings[0]
+
+
+@pytest.mark.parametrize(("tolerance", "warnings"), [(1e-10, 0), (1e-4, 0), (1.0, 1)])
+def test_usable_tolerance_is_used(host, tolerance, warnings):
+    one, own = host({}, tolerance=tolerance, logging=True).start(), host({}).start()
+    one.doStep(0.0, STEP)
+    own.doStep(0.0, STEP)
+    assert len(one.texts(fmi2.fmi2Warning)) == warnings
+    assert one.get("solver.steps") != own.get("solver.steps")

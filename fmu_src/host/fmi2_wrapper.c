@@ -263,24 +263,22 @@ static fmi2Status SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, con
 }
 
 // ---- initialization and end -----------------------------------------------------------------------------------------------------------------
-// A host's tolerance is a hint: the nearest one that the part admits, 0 for its own where the host gives no
-// positive number or the part has no use for one.
+// A host's tolerance is a hint.  The part uses it within its limits, and its largest tolerance in the place of a larger
+// one.  A smaller one, a negative one or none that is a number leaves solver.tol (returned is 0), because with the
+// smallest tolerance a run would take a hundred times as long.
 static double admissible_tolerance(Instance *m, double tolerance)
 {
     const Variable *known = variable_named("solver.tol");
     if (!known) return 0.0;
     if (tolerance >= known->min && tolerance <= known->max) return tolerance;
-    const double nearest = !(tolerance > 0.0) ? 0.0 : tolerance < known->min ? known->min : known->max;
-    char message[256];
-    int n = snprintf(message, sizeof message,
-                     "fmi2SetupExperiment: tolerance = %.10g lies outside [%.10g, %.10g]: ", tolerance,
-                     known->min, known->max);
-    if (nearest > 0.0)
-        snprintf(message + n, sizeof message - (size_t)n, "%.10g takes its place", nearest);
-    else
-        snprintf(message + n, sizeof message - (size_t)n, "solver.tol takes its place");
+    const bool above = tolerance > known->max;
+    char message[256], place[32] = "solver.tol";
+    if (above) snprintf(place, sizeof place, "%.10g", known->max);
+    snprintf(message, sizeof message,
+             "fmi2SetupExperiment: tolerance = %.10g lies outside [%.10g, %.10g]: %s takes its place",
+             tolerance, known->min, known->max, place);
     instance_log(m, LOG_WARNING, message);
-    return nearest;
+    return above ? known->max : 0.0;
 }
 
 static fmi2Status SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance,
