@@ -3,6 +3,8 @@ messages, and large or foreign files.
 """
 
 import time
+import zipfile
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -15,6 +17,13 @@ from fmpy.fmi1 import FMICallException
 from bearing_model.generated.variables import RingMotion
 from bearing_model.physics import ring_load
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
+from riveted_bearing import fmu as reader
+from riveted_bearing.errors import UserError
+from riveted_bearing.report import report_pages
+from riveted_bearing.results import write_result
+from riveted_bearing.runner import simulate
+from riveted_bearing.scene import load_scene
+from riveted_bearing.sweep import MOST_RUNS, load_sweep
 
 FMU = Path(__file__).resolve().parents[1] / "fmus" / "RivetedBearing.fmu"
 STEP = 1e-4  # [s]
@@ -241,3 +250,72 @@ def test_usable_tolerance_is_used(host, tolerance, warnings):
     own.doStep(0.0, STEP)
     assert len(one.texts(fmi2.fmi2Warning)) == warnings
     assert one.get("solver.steps") != own.get("solver.steps")
+
+
+# ------------------------------------------------------------------------------------------- large and foreign files
+
+FROM_TO = "{ from = 100.0, to = 200.0, count = 1000 }"
+HUGE = {
+    "repeats": "repeats = 1000000000",
+    "range": "[[vary]]\nshaft.F_x = { from = 1.0, to = 2.0, count = 1000000000 }",
+    "product": "".join(f"[[vary]]\nshaft.F_{i} = {FROM_TO}\n" for i in "xyz"),
+    "sample": '[sample]\nmethod = "latin_hypercube"\ncount = 1000000000\nbetween = { shaft.F_x = [100.0, 200.0] }',
+}
+
+
+@pytest.mark.parametrize("kind", HUGE)
+def test_huge_sweep_is_refused_before_it_has_memory(kind, tmp_path):
+    """A billion runs: one line with their number and memory; before, the process took memory until it was killed."""
+    path = tmp_path / "huge.toml"
+    path.write_text(HUGE[kind] + "\n")
+    began, model = time.perf_counter(), reader.Model(FMU)
+    with pytest.raises(UserError, match=f"1,000,000,000 runs would take 7,000 GB .* at most {MOST_RUNS:,} are allowed"):
+        load_sweep(path, model)
+    assert time.perf_counter() - began < 5.0
+
+
+def fmu_with(path, change=lambda description: description, zeros=0):
+    """A copy of the FMU with another description, and with a file of zeros."""
+    with zipfile.ZipFile(FMU) as source, zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as copy:
+        for name in source.namelist():
+            content = source.read(name)
+            copy.writestr(name, change(content) if name == "modelDescription.xml" else content)
+        if zeros:
+            with copy.open("resources/zeros", "w", force_zip64=True) as file:
+                for _ in range(zeros // 10**7):
+                    file.write(bytes(10**7))
+    return path
+
+
+def test_fmu_that_unpacks_to_too_much_is_refused(tmp_path):
+    """510 MB in an archive of 3 MB."""
+    path = fmu_with(tmp_path / "large.fmu", zeros=510_000_000)
+    assert path.stat().st_size < 1e7
+    with pytest.raises(UserError, match="files of 51. MB are too much for an FMU; at most .* 500 MB are allowed"):
+        reader.Model(path)
+
+
+@pytest.mark.parametrize("identifier", ["../../outside/RivetedBearing", "/tmp/RivetedBearing", "..", "a/b", ""])
+def test_model_identifier_stays_in_its_folder(identifier, tmp_path):
+    """It names the binary: one that leaves the folder would load a file from elsewhere."""
+    new = f'modelIdentifier="{identifier}"'.encode()
+    path = fmu_with(tmp_path / "other.fmu", lambda text: text.replace(b'modelIdentifier="RivetedBearing"', new))
+    with pytest.raises(UserError, match="modelIdentifier = .* is not allowed: a C name is needed"):
+        reader.Model(path)
+
+
+def test_whole_fmu_is_read():
+    assert reader.Model(FMU).description.coSimulation.modelIdentifier == "RivetedBearing"
+
+
+@pytest.mark.parametrize("inputs_too", [False, True])
+def test_result_of_nothing_but_nan_is_one_line(inputs_too, tmp_path):
+    """Before, ValueError from one chart or another."""
+    model = reader.Model(FMU)
+    result = simulate(model, load_scene(None, model, ("test", {"simulation": {"t_end": 2e-3}})))
+    kept = {"time"} | (set() if inputs_too else {name for name in result.data if name in model.inputs})
+    data = {name: x if name in kept else np.full_like(x, np.nan) for name, x in result.data.items()}
+    summary = dict.fromkeys(result.summary, float("nan"))
+    path = write_result(replace(result, data=data, summary=summary), tmp_path / "nan.parquet")
+    with pytest.raises(UserError, match=r"nan\.parquet: no output has a number"):
+        list(report_pages(path))
