@@ -34,6 +34,7 @@ CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # fmus/package.py writes i
 PACKAGE = Path(__file__).resolve().parent
 MOST_UNPACKED = 500e6  # of an FMU [B]: with binaries for all platforms a tenth of it
 MOST_FILES = 10_000  # of an FMU
+KEPT = ("logStatusError", "logStatusWarning")  # categories of messages
 LEVELS = ("ok", "warning", "discard", "error", "fatal", "pending")
 LOGS = {}  # component environment -> log of its instance
 
@@ -193,7 +194,7 @@ def item_name(variable, code):
 
 
 class Instance:
-    """One instance of an FMU, from instantiation to freeing (a context manager).  Everything the FMU logs is kept in
+    """One instance of an FMU, from instantiation to freeing (a context manager).  Its errors and warnings are kept in
     `log`.
     """
 
@@ -210,7 +211,8 @@ class Instance:
                 modelIdentifier=description.coSimulation.modelIdentifier,
                 instanceName=description.modelName,
             )
-            self.fmu.instantiate(callbacks=self.callbacks())
+            self.fmu.instantiate(callbacks=self.callbacks(), loggingOn=True)
+            self.fmu.setDebugLogging(True, KEPT)
         except Exception as problem:
             self.forget()
             raise UserError(

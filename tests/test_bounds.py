@@ -156,7 +156,7 @@ def test_contradicting_motion_bounds_a_short_step(host):
     """A housing given at rest in place with 10 m/s, and a step of 2e-8 s: 285,992 internal steps and 1.2e7 N in the 1e-4
     s after it, or fmi2Discard, when the whole mismatch of 1 mm was made up within the short step.
     """
-    one, t, steps, force = host({}).start(), 0.0, [], []
+    one, t, steps, force = host({}, logging=True).start(), 0.0, [], []
     for k in range(24):
         h = 2e-8 if k == 17 else STEP
         if k >= 10:
@@ -183,7 +183,7 @@ def motions(given, now, h, **parameters):
 @pytest.mark.parametrize(("x", "v"), [(2e-4, 0.0), (-5e-5, 3.0)])
 def test_twins_catch_up_alike(host, h, x, v):
     """The ring's position and velocity after a jump in a prescribed motion."""
-    one = host({"ring.motion": 2}).start()
+    one = host({"ring.motion": 2}, logging=True).start()
     one.set(**{"shaft.z": x, "shaft.v_z": v})
     one.doStep(0.0, h)
     end, _ = motions(Inputs({"shaft.z": x, "shaft.v_z": v}), Inputs({}), h)
@@ -319,3 +319,50 @@ def test_result_of_nothing_but_nan_is_one_line(inputs_too, tmp_path):
     path = write_result(replace(result, data=data, summary=summary), tmp_path / "nan.parquet")
     with pytest.raises(UserError, match=r"nan\.parquet: no output has a number"):
         list(report_pages(path))
+
+
+# ----------------------------------------------------------------------------------------------------------- messages
+
+
+def overdriven(one):
+    """A step with a warning (the tolerance), events and solver messages, then one that the work limit discards."""
+    one.start()
+    one.doStep(0.0, STEP)
+    with pytest.raises(FMICallException) as refused:
+        one.doStep(STEP, 1.0)
+    return refused.value.status
+
+
+def test_reason_of_discard_and_error_is_always_logged(host):
+    for logging in (False, True):
+        one = host({"solver.max_steps": 1000, "bearing.p_limit": 1e9}, tolerance=1.0, logging=logging)
+        assert overdriven(one) == fmi2.fmi2Discard
+        reasons = [text for status, category, text in one.messages if category == "logStatusError"]
+        assert len(reasons) == 1 and "solver.max_steps = 1000" in reasons[0]
+        with pytest.raises(FMICallException) as refused:
+            one.doStep(5.0, STEP)
+        assert refused.value.status == fmi2.fmi2Error
+        assert one.messages[-1][1] == "logStatusError"
+        others = {category for _, category, _ in one.messages} - {"logStatusError"}
+        assert ("logStatusWarning" in others) == logging
+        assert logging or not others
+
+
+def test_chosen_categories_are_logged(host):
+    one = host({"bearing.p_limit": 1e9}, logging=True)
+    one.setDebugLogging(True, ["logEvents"])
+    one.start()
+    one.doStep(0.0, STEP)
+    assert {category for _, category, _ in one.messages} <= {"logEvents"}
+    one.setDebugLogging(False, [])
+    count = len(one.messages)
+    one.doStep(STEP, STEP)
+    assert len(one.messages) == count
+
+
+def test_runs_keep_warnings():
+    """riveted-bearing turns logging on: warnings are part of a run's record."""
+    model = reader.Model(FMU)
+    changes = {"simulation": {"t_end": 1e-3}, "parameters": {"bearing": {"p_limit": 1e9}}}
+    result = simulate(model, load_scene(None, model, ("test", changes)))
+    assert any("p_limit" in text for text in result.about["messages"])

@@ -65,17 +65,17 @@ typedef struct {
     fmi2CallbackFunctions callbacks;
     char *name;
     unsigned categories;  // that are sent: bits 1 << LogCategory
-    char message[512];    // the last error or warning
+    char message[512];    // the last error or warning, sent or not
 } Instance;
 
 static const Session NEW_SESSION = {.phase = INSTANTIATED, .stop_time = INFINITY};
 
-// In the order of LogCategory; errors and warnings are always sent.
+// In the order of LogCategory.  Without logging, only the reason of fmi2Error or fmi2Discard is sent.
 static const char *const CATEGORIES[] = {"logStatusError", "logStatusWarning", "logEvents", "logSolver"};
 
 enum { N_CATEGORIES = sizeof CATEGORIES / sizeof CATEGORIES[0], ALL_CATEGORIES = (1 << N_CATEGORIES) - 1 };
 
-enum { ALWAYS_SENT = 1 << LOG_ERROR | 1 << LOG_WARNING };
+enum { ALWAYS_SENT = 1 << LOG_ERROR };
 
 // Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.  The
 // logger runs in the host's floating-point environment; what it leaves is what the host has from then on.
@@ -253,6 +253,7 @@ static fmi2Status SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, con
             char message[200];
             snprintf(message, sizeof message, "fmi2SetDebugLogging: unknown category \"%.60s\"",
                      categories[i] ? categories[i] : "(null)");
+            if (on) m->categories |= 1u << LOG_WARNING;
             instance_log(m, LOG_WARNING, message);
             status = fmi2Warning;
         }
