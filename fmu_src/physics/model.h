@@ -242,5 +242,8 @@ typedef struct {
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.
 void model_derive(const Parameters *p, Derived *d);
 
+// Moments of inertia of a cage half, J_t about its centre of mass; values left at their start follow the mass.
+void cage_half_inertia(const Parameters *p, double *J_p, double *J_t);
+
 // A Work whose padding lanes are harmless.
 void work_init(const Derived *d, Work *w);
