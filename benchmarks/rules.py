@@ -105,7 +105,7 @@ RULES = (
     Rule("joint.swell", "d", 0.0, 2.0, "assumed"),
     Rule("ring.m", "ring", 0.5, 4.0, "bare ring to heavy shaft"),
     Rule("ring.c", "ring", 0.5, 2.0, "assumed"),
-    Rule("ring.J_t", "tilting ring", 0.5, 4.0, "bare ring to heavy shaft"),
+    Rule("ring.J_t", "tilting ring", 0.75, 4.0, "bare ring to heavy shaft"),
     Rule("ring.c_tilt", "damping ratio", 0.5, 2.0, "assumed"),
 )
 MATERIALS = ("brass", "steel", "PA66-GF25", "PEEK")  # beside bronze, which stands where none is named

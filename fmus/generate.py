@@ -47,7 +47,7 @@ LABELS = {
 }
 LOG_CATEGORIES = {  # in the order of LogCategory in part.h
     "logStatusError": "Refused calls and values, failed steps: always sent",
-    "logStatusWarning": "Done, but worth a look: always sent",
+    "logStatusWarning": "Done, but worth a look",
     "logEvents": "Course of the simulation",
     "logSolver": "Messages of the integrator",
     "logAll": "All of these",

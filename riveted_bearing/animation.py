@@ -147,7 +147,9 @@ def magnification(result, forms):
 
 
 def round_factor(largest):
-    """1, 2 or 5 times a power of ten, not above the largest but at least 1."""
+    """1, 2 or 5 times a power of ten, not above the largest but at least 1; 1 if the largest is no number."""
+    if not np.isfinite(largest):
+        return 1.0
     decade = 10.0 ** np.floor(np.log10(largest))
     return float(max(1.0, decade * max(step for step in (1, 2, 5) if step * decade <= largest)))
 

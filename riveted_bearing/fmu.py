@@ -32,6 +32,9 @@ from .units import suffix, symbol_of, to_si, unit_table
 FMU_NAME = "RivetedBearing.fmu"
 CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # fmus/package.py writes it
 PACKAGE = Path(__file__).resolve().parent
+MOST_UNPACKED = 500e6  # of an FMU [B]: with binaries for all platforms a tenth of it
+MOST_FILES = 10_000  # of an FMU
+KEPT = ("logStatusError", "logStatusWarning")  # categories of messages
 LEVELS = ("ok", "warning", "discard", "error", "fatal", "pending")
 LOGS = {}  # component environment -> log of its instance
 
@@ -56,6 +59,19 @@ def default_fmu():
     raise UserError(f"no FMU yet: `riveted-bearing build` makes one (looked for {', '.join(map(str, places))})")
 
 
+def check_archive(path):
+    """UserError if an FMU would unpack to more than an FMU needs.  The sizes are those in the archive's directory, beyond
+    which Python does not unpack.
+    """
+    with zipfile.ZipFile(path) as archive:
+        sizes = [member.file_size for member in archive.infolist()]
+    if sum(sizes) > MOST_UNPACKED or len(sizes) > MOST_FILES:
+        allowed = f"{MOST_FILES:,} files of {1e-6 * MOST_UNPACKED:,.0f} MB"
+        raise UserError(
+            f"{path}: {len(sizes):,} files of {1e-6 * sum(sizes):,.0f} MB are too much for an FMU; at most {allowed} are allowed"
+        )
+
+
 class Model:
     """An FMU's variables by name, with units, limits and enumerations.
 
@@ -67,7 +83,10 @@ class Model:
         if not self.path.is_file():
             raise UserError(f"{self.path}: no such FMU")
         try:
+            check_archive(self.path)
             self.description = read_model_description(str(self.path), validate=False)
+        except UserError:
+            raise
         except Exception as problem:  # fmpy passes on all errors of its readers of zip and XML
             raise UserError(f"{self.path}: not a readable FMU: {problem}") from None
         if self.description.coSimulation is None or not self.description.fmiVersion.startswith("2."):
@@ -76,6 +95,9 @@ class Model:
             raise UserError(
                 f"{self.path}: the FMU of {self.description.modelName}, not of a bearing ({MODEL_IDENTIFIER})"
             )
+        identifier = str(self.description.coSimulation.modelIdentifier)
+        if not (identifier.isascii() and identifier.isidentifier()):  # names a file in the folder of binaries
+            raise UserError(f"{self.path}: modelIdentifier = {identifier!r} is not allowed: a C name is needed")
         self.units = {"1": {"1": (1.0, 0.0)}, None: {"1": (1.0, 0.0)}} | unit_table(self.description.unitDefinitions)
         variables = self.description.modelVariables
         self.parameters = {v.name: v for v in variables if v.causality == "parameter"}
@@ -172,7 +194,7 @@ def item_name(variable, code):
 
 
 class Instance:
-    """One instance of an FMU, from instantiation to freeing (a context manager).  Everything the FMU logs is kept in
+    """One instance of an FMU, from instantiation to freeing (a context manager).  Its errors and warnings are kept in
     `log`.
     """
 
@@ -189,7 +211,8 @@ class Instance:
                 modelIdentifier=description.coSimulation.modelIdentifier,
                 instanceName=description.modelName,
             )
-            self.fmu.instantiate(callbacks=self.callbacks())
+            self.fmu.instantiate(callbacks=self.callbacks(), loggingOn=True)
+            self.fmu.setDebugLogging(True, KEPT)
         except Exception as problem:
             self.forget()
             raise UserError(

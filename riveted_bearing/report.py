@@ -61,7 +61,7 @@ def report_pages(source, out=None, decides=None):
     """Write a page for each result of a path and yield the pages' paths one by one.
 
     out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show.
-    Raises UserError if there is no result, or if several are to go into one file.
+    Raises UserError if there is no result, if one has no numbers, or if several are to go into one file.
     """
     sources, out = report_files(source), Path(out) if out else None
     as_file = out is not None and out.suffix in (".html", ".htm")
@@ -69,7 +69,16 @@ def report_pages(source, out=None, decides=None):
         raise UserError(f"--out {out}: one page for {len(sources)} results; allowed is a folder")
     for path in sources:
         name = path.with_suffix(".html")
-        yield write_report(read_result(path), out if as_file else out / name.name if out else name, decides)
+        result = read_result(path)
+        if not has_numbers(result):
+            raise UserError(f"{path}: no output has a number: there is nothing to show")
+        yield write_report(result, out if as_file else out / name.name if out else name, decides)
+
+
+def has_numbers(result):
+    """Whether any column beside time and inputs has a number, if there are such columns."""
+    outputs = [values for name, values in result.data.items() if name not in {"time", *variables.INPUTS}]
+    return not outputs or not all(np.all(np.isnan(values)) for values in outputs)
 
 
 def write_report(result, path, decides=None):
@@ -367,9 +376,7 @@ def solver_rows(result):
     if "solver.method_used" in s:
         yield (
             "method",
-            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(
-                int(s["solver.method_used"]), f"{s['solver.method_used']:g}"
-            ),
+            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(s["solver.method_used"], f"{s['solver.method_used']:g}"),
         )
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
@@ -378,20 +385,19 @@ def solver_rows(result):
     if "bearing.penetration" in result.data:
         yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
     onsets = {
-        name: int(result.data[name][-1])
-        for name in result.data
-        if name.startswith("event.") and name.endswith("_onsets")
+        name: result.data[name][-1] for name in result.data if name.startswith("event.") and name.endswith("_onsets")
     }
     if onsets:
         seen = [
-            f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,}"
+            f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,.0f}"
             for name, count in onsets.items()
             if count
         ]
         yield "onsets of events", ", ".join(seen) or "none"
     flags = columns(result, "rivet[", "].flag")
     if flags:
-        seen = np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))
+        values = np.concatenate([result.data[name] for name in flags])
+        seen = np.bitwise_or.reduce(values[np.isfinite(values)].astype(int))
         meanings = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}
         yield "flags of the rivets", ", ".join(text for bit, text in meanings.items() if seen & bit) or "none"
 

@@ -102,7 +102,7 @@ TABLE_NOTES = {  # by rivet.table_kind
 
 def table_note(result):
     """What limits the rivets' stress beside the model: "" for a full table by finite elements, or if it is not known."""
-    return TABLE_NOTES.get(int(result.summary.get("rivet.table_kind", 0)), "")
+    return TABLE_NOTES.get(result.summary.get("rivet.table_kind", 0), "")
 
 
 def assumed_rows(result):
@@ -132,7 +132,7 @@ def is_known(name, given, parameters):
 
 def life_is_known(result):
     """Whether the stress is good enough to speak of a life: not from closed forms."""
-    return int(result.summary.get("rivet.table_kind", 0)) != 3
+    return result.summary.get("rivet.table_kind", 0) != 3
 
 
 def rivet_rows(result):

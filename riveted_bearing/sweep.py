@@ -34,6 +34,7 @@ import contextlib
 import hashlib
 import itertools
 import json
+import math
 import time
 import uuid
 from concurrent.futures import CancelledError
@@ -75,6 +76,9 @@ KINDS = {
     "p999": lambda x: np.quantile(x, 0.999),
 }
 ROW_VERSION = 1
+MOST_RUNS = 1_000_000  # of a design, all of which is in memory
+RUN_MEMORY = 7e3  # of a run in a design [B], measured
+RUN_PLANNING = 0.01  # time to read and check a run's scene [s], measured
 WRITING = 0.05  # of the time at most goes into files of rows
 ROWS = "runs.parquet"
 SUPERSEDED = "_superseded"  # readers of Parquet datasets pass over names that begin so
@@ -116,7 +120,8 @@ def plan_sweep(name, document, model, path):
         *sample_axes(path, section_of(path, document, "sample"), model),
     ]
     if "repeats" in document:
-        axes.insert(0, [{"start.seed": seed} for seed in range(1, count_of(path, "repeats", document["repeats"]) + 1)])
+        axes.insert(0, [{"start.seed": seed} for seed in range(1, points_of(path, "repeats", document["repeats"]) + 1)])
+    limit_runs(path, "design", math.prod(len(axis) for axis in axes))
     factors = tuple(name for axis in axes for name in axis[0])
     if twice := {name for name in factors if factors.count(name) > 1}:
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
@@ -172,7 +177,7 @@ def values_of(path, name, value, model):
         )
     low, high, count = (
         *bounds(path, name, (value["from"], value["to"]), model),
-        count_of(path, f"vary.{name}.count", value["count"]),
+        points_of(path, f"vary.{name}.count", value["count"]),
     )
     spacing = value.get("spacing", "linear")
     if spacing not in ("linear", "log"):
@@ -202,6 +207,21 @@ def count_of(path, name, value):
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
         raise refusal(path, name, value, "a whole number from 1 on is needed")
     return value
+
+
+def points_of(path, name, value):
+    """A number of points of a design, checked before there is memory for them."""
+    limit_runs(path, f"{name} = {value}", count_of(path, name, value))
+    return value
+
+
+def limit_runs(path, what, runs):
+    """UserError if a design has more runs than its memory is meant for."""
+    if runs > MOST_RUNS:
+        memory, hours = 1e-9 * RUN_MEMORY * runs, RUN_PLANNING * runs / 3600.0
+        raise UserError(
+            f"{path}: {what}: {runs:,} runs would take {memory:,.0f} GB of memory and {hours:,.0f} h before the first one; at most {MOST_RUNS:,} are allowed"
+        )
 
 
 def sample_axes(path, section, model):
@@ -234,7 +254,7 @@ def sample_axes(path, section, model):
         raise refusal(path, "sample.method", method, f"allowed: {', '.join(methods)}")
     if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
         raise refusal(path, "sample.seed", seed, "a whole number from 0 on is needed")
-    count = count_of(path, "sample.count", section.get("count"))
+    count = points_of(path, "sample.count", section.get("count"))
     if method == "sobol" and count & (count - 1):
         raise refusal(path, "sample.count", count, "a Sobol sequence is balanced only for powers of 2")
     points = methods[method](d=len(box), seed=seed).random(count)

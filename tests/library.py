@@ -30,7 +30,7 @@ LANE_TYPES = {"wide", "bits", "words", "vec"}  # depend on the lane width: no pl
 # where they matter.
 TWO_HALF = {"scene.cage": variables.CageModel.TWO_HALF}
 # of the wrapper and of SUNDIALS: macros and instructions, no physics
-AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h"}
+AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h", "bearing_step.h", "state_vector.h"}
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 
 

@@ -123,6 +123,13 @@ class PythonWork:
         setattr(self.w, name, value)
 
 
+class Members(SimpleNamespace):
+    """Members that accept lists, as arrays of C structs do."""
+
+    def __setattr__(self, name, value):
+        super().__setattr__(name, np.array(value) if isinstance(value, list) else value)
+
+
 class PythonModel:
     """Parameters, inputs, derived constants and the results of the last evaluation."""
 
@@ -134,7 +141,7 @@ class PythonModel:
                 group, member = name.replace("[j]", "").replace("[k]", "").split(".")
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
         self.p = temperature_apply(self.p, self.u, derived.default_table())
-        self.d = derive(self.p, SimpleNamespace())
+        self.d = derive(self.p, Members())
         self.modes = cage_derive(self.p, self.d, derived.default_table())
         self.pointer = self
 

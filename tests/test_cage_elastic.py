@@ -444,7 +444,7 @@ def test_joints_turn_with_the_cage(monkeypatch):
         end, *_, by_substeps = advance_positions(model, h, verlet_evaluate(model, 0.0, y.copy()))
         by_places = Work()
         rhs(model, h, end, by_places)
-        return np.abs(by_substeps.e - by_places.e).max()
+        return np.abs(by_substeps.elastic.joints.e - by_places.elastic.joints.e).max()
 
     turning = missed()
     monkeypatch.setattr(cage_substeps, "turn_in", lambda spin, t, middle, slow, moved, relative: relative)

@@ -49,7 +49,7 @@ class Joints:
 
     def evaluate(self):
         self.model.kernel("cage_joint_kinematics")(self.model.pointer, self.w)
-        self.model.kernel("cage_joint_force")(self.model.pointer, self.core.array(self.y), self.w)
+        self.model.kernel("two_half_joints")(self.model.pointer, self.core.array(self.y), self.w)
         return np.array(list(self.w.half[1].F))
 
     def advance(self, dt, start=None):
@@ -134,31 +134,18 @@ def test_hysteresis(core, amplitude):
 
 
 def test_axial_law(core):
-    """Rivet P + k u, plates P - k u until they open at P/k; then the rivet alone; pressed plates carry more until the
-    rivet goes slack.
+    """Springs between the halves: rivet P + k u, plates P - k u until they open at P/k; then the rivet alone; pressed
+    plates carry more until the rivet goes slack.
     """
     joints = Joints(core)
     opening, slack = PRELOAD / K_PLATE, -PRELOAD / K_RIVET
     for u in (0.3 * opening, 3.0 * opening, 0.8 * slack, 1.7 * slack):
         force = joints.move((u, 0.0, 0.0))
-        T, N = max(PRELOAD + K_RIVET * u, 0.0), max(PRELOAD - K_PLATE * u, 0.0)
-        assert (T == 0.0) == (u < slack) and (N == 0.0) == (u > opening)
-        assert numbers(joints.w.T) == pytest.approx(np.full(Z, T), abs=1e-9)
-        assert numbers(joints.w.N_plate) == pytest.approx(np.full(Z, N), abs=1e-9)
-        assert force[0] == pytest.approx(Z * (N - T), abs=1e-8)
-
-
-def test_clamp_force_sets_the_friction(core):
-    """A joint pulled open has head friction only; pressed plates hold mu N."""
-    joints = Joints(core, **{"joint.F_floor": 0.5})
-    for u_x in (3.0 * PRELOAD / K_PLATE, -0.5 * PRELOAD / K_RIVET):
-        capacity = MU * (PRELOAD + K_RIVET * u_x + max(0.0, PRELOAD - K_PLATE * u_x))
-        joints.y[:] = 0.0
-        for _ in range(8000):  # 16 um: 12 times the full deflection of the heads
-            joints.move((u_x, 1e-6, 0.0), (0.0, 1e-3, 0.0))
-            joints.advance(2e-6)
-        joints.move((u_x, 1e-6, 0.0))
-        assert -(joints.w.S_y[0] + joints.w.H_y[0]) == pytest.approx(capacity + 2 * 0.5, abs=3e-3)
+        pull, push = max(PRELOAD + K_RIVET * u, 0.0), max(PRELOAD - K_PLATE * u, 0.0)
+        assert (pull == 0.0) == (u < slack) and (push == 0.0) == (u > opening)
+        assert numbers(joints.w.two_half.pull) == pytest.approx(np.full(Z, pull), abs=1e-9)
+        assert numbers(joints.w.two_half.push) == pytest.approx(np.full(Z, push), abs=1e-9)
+        assert force[0] == pytest.approx(Z * (push - pull), abs=1e-8)
 
 
 @pytest.fixture(scope="module")
@@ -166,6 +153,27 @@ def joints_alike():
     """Unilateral contact of joints that are all alike, and the centrifugal load per (rad/s)^2."""
     elastic = half_loads.elastic_half(Geometry())
     return joint_contact.JointContact(elastic, alike=True), half_loads.centrifugal(elastic)
+
+
+@pytest.mark.parametrize("load", [2.0, 0.3, -0.3])
+def test_clamp_force_sets_the_friction(core, load):
+    """Friction of joints pulled apart and pressed together by `load` P each: mu of the rivet's tension T at the heads,
+    of T - N between the plates.  An open rivet has T = N, a closed one T = P to 2 %: its plates are much stiffer.
+    """
+    N, joints = load * PRELOAD, Joints(core, **{"joint.F_floor": 0.5})
+    low, high = -10.0 * PRELOAD / K_RIVET, 10.0 * PRELOAD / K_RIVET
+    for _ in range(60):  # the offset at which the springs have N
+        u_x = 0.5 * (low + high)
+        joints.move((u_x, 0.0, 0.0))
+        low, high = (u_x, high) if joints.w.two_half.pull[0] - joints.w.two_half.push[0] < N else (low, u_x)
+    for _ in range(8000):  # 16 um: 12 times the full deflection of the heads
+        joints.move((u_x, 1e-6, 0.0), (0.0, 1e-3, 0.0))
+        joints.advance(2e-6)
+    joints.move((u_x, 1e-6, 0.0))
+    T, pressed = joints.w.two_half.rivet[0][0], joints.w.two_half.N_plate[0]
+    assert T - pressed == pytest.approx(N, rel=0.01)
+    assert pytest.approx(N if load > 1.0 else PRELOAD, abs=0.02 * PRELOAD) == T
+    assert -(joints.w.S_y[0] + joints.w.H_y[0]) == pytest.approx(MU * (T + pressed) + 2 * 0.5, abs=3e-3)
 
 
 @pytest.mark.parametrize(("omega", "preload"), [(754.0, 20.0), (754.0, 40.0), (1500.0, 20.0), (200.0, 60.0)])
@@ -269,7 +277,7 @@ def test_momentum(core):
         model.rhs(0.0, y)
         w, a_0 = model.work, np.array(list(model.work.half[0].x))
         before = [(np.array(list(h.F)), np.array(list(h.M))) for h in w.half]
-        model.kernel("cage_joint_force")(model.pointer, core.array(y), w)
+        model.kernel("two_half_joints")(model.pointer, core.array(y), w)
         change = [(np.array(list(h.F)) - F, np.array(list(h.M)) - M) for h, (F, M) in zip(w.half, before, strict=True)]
         places = [a_0, np.array(list(w.half[1].x))]
         assert np.abs(change[1][0]).max() > 1.0

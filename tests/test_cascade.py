@@ -108,7 +108,7 @@ def test_neighbours_of_a_broken_rivet_carry_its_share(fmu, tmp_path, record_prop
     """Whichever goes first, its neighbours bear a part of the centrifugal load that it had.  A second call reads the
     runs.
     """
-    document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "20 ms"}}
+    document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "60 ms"}}
     document["parameters"] = {"scene.cage": "two_half", "start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
     with cluster(None, 1) as client:
         found = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)

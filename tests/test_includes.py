@@ -1,36 +1,68 @@
 """The direction of the C core's includes: from the wrapper down to plain numbers, never up, and never from one physical
-element to another.
+element to another; the cage behind its door; who writes the members of Work.
 
 A new file of fmu_src goes into the group whose users may include it.
 """
 
 import re
+from collections import defaultdict
 from pathlib import Path
 
 import pytest
 
 SOURCES = Path(__file__).resolve().parents[1] / "fmu_src"
 GROUPS = {  # from the bottom up
-    "numbers": "aligned build_info cpu_clock dual elementary elimination fatigue float_environment isa lanes octet part reserved_memory saved_numbers scalar "
-    "statistics variable_table variables vector_ops viscosity",
-    "laws and tables": "derived elastic_half elastic_wall frame half_modes half_path hertz joint_follow joint_law model outer_ring "
-    "powers ring_fit rivet_joint rivet_rom rivet_splines rotor temperature traction vec",
-    "elements": "ball cage_elastic cage_joint drag land_film pocket race_contact ring ring_load",
+    "numbers": "aligned build_info cpu_clock dual elementary elimination fatigue float_environment isa lanes octet part "
+    "reserved_memory saved_numbers scalar statistics variable_table variables vec vector_ops viscosity",
+    "data of the cage": "elastic_work half_modes half_path joint_law two_half_work",
+    "laws and tables": "elastic_half elastic_wall frame hertz model outer_ring powers ring_fit rivet_joint rivet_rom "
+    "rivet_splines rotor temperature traction centrifugal",
+    "elements": "ball drag land_film race_contact ring ring_load",
+    "both cages": "cage_joint films halves pocket",
+    "one cage": "cage_elastic cage_substeps joint_open two_half",
+    "door of the cage": "cage cage_read cage_setup",
+    "constants": "derived",
     "right-hand side": "rhs",
-    "what follows from an evaluation": "energy events jacobian outputs rivets",
-    "one step": "cage_substeps dispatch implicit kernels start verlet",
-    "integrator": "integrator stepping",
-    "instance": "bearing check instance outputs_recorded",
+    "what follows from an evaluation": "energy events jacobian outputs",
+    "one step": "dispatch implicit kernels start verlet",
+    "integrator": "bearing_step integrator state_vector stepping",
+    "instance": "bearing check instance log outputs_recorded",
     "wrapper": "fmi2_calls fmi2_wrapper",
 }
 RANK = {name: rank for rank, names in enumerate(GROUPS.values()) for name in names.split()}
 FILES = sorted(SOURCES.rglob("*.[ch]"))
+# Files outside cage/ and what they need of it beside its door: the data that Work and the rivet table consist of, and
+# the sources that are compiled again with dual numbers.
+INNER = {
+    "model.h": {"elastic_work.h", "half_path.h", "two_half_work.h"},
+    "rivet_rom.h": {"half_modes.h", "half_path.h", "joint_law.h"},
+    "derived.c": {"centrifugal.h"},
+}
+ONE_KIND = {"two_half": "elastic/", "elastic": "two_half/"}
+# Sums to which several elements add.
+SUMS = set(
+    "F_x F_r F_t M_x M_r M_t dissipated D_x D_r D_t D_omega_x D_omega_r D_omega_t pocket_dissipated ring half film "
+    "cage_dissipated joint_dissipated".split()
+)
 
 
 def included(path):
     """Names, without ending, of the files of the core that a file includes."""
     names = re.findall(r'^\s*#\s*include\s+"(?:[^"]+/)?([^"/]+)\.[ch]"', path.read_text(), re.MULTILINE)
     return [name for name in names if name != path.stem and not name.startswith("fmi2")]
+
+
+def code_of(path):
+    """Text of a file without comments and includes."""
+    text = re.sub(r"//[^\n]*|/\*.*?\*/", "", path.read_text(), flags=re.DOTALL)
+    return re.sub(r"^\s*#\s*include[^\n]*", "", text, flags=re.MULTILINE)
+
+
+def folder_of(path):
+    return path.relative_to(SOURCES).parent.as_posix()
+
+
+OUTSIDE = [path for path in FILES if not folder_of(path).startswith(("cage", "generated"))]
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
@@ -43,7 +75,7 @@ def test_no_include_points_up(path):
 def test_elements_do_not_include_each_other():
     elements = set(GROUPS["elements"].split())
     found = {path.name: elements & set(included(path)) for path in FILES if path.stem in elements}
-    assert len(found) >= 2 * 8  # a .c and a .h of each
+    assert len(found) == 2 * 6  # a .c and a .h of each
     assert not any(found.values()), found
 
 
@@ -68,3 +100,50 @@ def test_the_wrapper_sees_the_part_only():
     }
     assert included(SOURCES / "instance/part.h") == ["variable_table"]
     assert included(SOURCES / "numbers/variable_table.h") == ["variables"]
+
+
+@pytest.mark.parametrize("path", OUTSIDE, ids=lambda path: path.name)
+def test_the_cage_has_one_door(path):
+    """Outside cage/ only cage.h of that folder is included; jacobian.c compiles the sources again."""
+    files = re.findall(r'#\s*include\s+"cage/(?:[^"]+/)?([^"/]+\.[ch])"', path.read_text())
+    if path.name == "jacobian.c":
+        files = [name for name in files if name.endswith(".h")]
+    assert set(files) - {"cage.h"} <= INNER.get(path.name, set())
+
+
+@pytest.mark.parametrize("path", [path for path in OUTSIDE if path.name != "model.h"], ids=lambda path: path.name)
+def test_nothing_outside_names_a_kind_of_cage(path):
+    """Neither the kinds of the enumeration nor their functions, types and members; model.h has their data."""
+    found = re.findall(r"\w*(?:two_half|TwoHalf|TWO_HALF|CAGE_ELASTIC|Elastic)\w*|(?:->|\.)elastic\b", code_of(path))
+    assert not found
+
+
+def test_kinds_of_cages_do_not_know_each_other():
+    for kind, other in ONE_KIND.items():
+        for path in (SOURCES / "cage" / kind).glob("*.[ch]"):
+            text = code_of(path)
+            assert f"cage/{other}" not in path.read_text(), path.name
+            assert not re.search(rf"(?:->|\.){other[:-1]}\b", text), path.name
+
+
+def writers():
+    """Files that write members of Work, by member."""
+    body = re.search(r"typedef struct \{([^{}]*)\} Work;", code_of(SOURCES / "physics/model.h")).group(1)
+    members = {
+        name for line in re.findall(r"\w+ ([^;]+);", body) for name in re.findall(r"(\w+)(?:\[\w+\])*\s*(?:,|$)", line)
+    }
+    assert {"Q_i", "u_x", "delta_c", "land_dissipated"} <= members and len(members) > 90
+    found = defaultdict(set)
+    store = r"wide_store\(&w->(\w+)|\bw->(\w+)(?:\[[^\]]+\])* *[+-]?=(?!=)"
+    for path in FILES:
+        if path.suffix == ".c" and path.name not in ("start.c", "derived.c"):  # first values
+            for stored, assigned in re.findall(store, code_of(path)):
+                found[stored or assigned].add(path.name)
+    return {name: files for name, files in found.items() if name in members}
+
+
+def test_each_member_of_work_has_one_writer():
+    """Read from the sources, as far as they name Work w; sums alone have several."""
+    found = writers()
+    assert len(found) > 40
+    assert not {name: files for name, files in found.items() if len(files) > 1 and name not in SUMS}

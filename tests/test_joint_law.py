@@ -500,8 +500,8 @@ def test_slope_of_the_energy_is_the_move():
     behind = rng.normal(0.0, 100.0, (300, 3)) * unit
 
     def U(load):
-        s, S = joint_law.law_spline(law, law.energy[..., None], load, P)
-        return s**2 * S[..., 0]
+        places = joint_law.law_places(law, load, np.asarray(P))
+        return places[0] ** 2 * joint_law.law_sum(law.energy[..., None], places)[..., 0]
 
     slope = np.stack([(U(behind + 0.1 * axis) - U(behind - 0.1 * axis)) / 0.2 for axis in np.diag(unit)], axis=-1)
     move = (behind - joint_law.joint_law(law, behind, P)[0]) @ R.T * unit

@@ -57,7 +57,7 @@ OTHER = {
     "oil.alpha": 2e-8,
     "oil.sigma_race": 3e-7,
     "ring.m": 1.0,
-    "ring.J_p": 3e-4,
+    "ring.J_p": 2.3e-4,
 }
 SUPPORTED, FREE = {"ring.tilt_mode": 2}, {"ring.tilt_mode": 3}
 MIXED, SLICED, ELASTIC = {"scene.lubrication": 2}, {"scene.traction": 2}, {"scene.cage": 3}

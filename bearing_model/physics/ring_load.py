@@ -27,6 +27,12 @@ MOTION = tuple(
 MOTION += (("frame", "omega", "omega_dot"),)
 SHORTEST_MOTION = 1e-12  # step whose rates of motion are known [s]
 
+# A motion that misses the given one by much is led back to it within a time of its own, however short the step is: no
+# shaft and no housing follows within less than the period of 10 kHz, and with 20 m/s, twice the largest velocity
+# allowed, to make up in that time, the acceleration is 8e5 m/s2.
+CATCH_UP_TIME = 1e-4  # at least [s]
+CATCH_UP_ACCELERATION = 1e6  # at most [m/s2]
+
 
 @dataclass(frozen=True)
 class InputTrajectory:
@@ -150,6 +156,24 @@ def minmod(x, y):
     return 0.0 if x * y <= 0.0 else min(x, y, key=abs)
 
 
+def catch_up_limit(p, group, q):
+    """Largest acceleration of a motion while it catches up."""
+    r = 0.5 * p.bearing.d_m
+    if group == "frame":
+        return CATCH_UP_ACCELERATION / (CATCH_UP_TIME * (r + p.frame.radius))
+    return CATCH_UP_ACCELERATION if q in "xyz" else CATCH_UP_ACCELERATION / r
+
+
+def catch_up_time(d_x, d_v, h, limit):
+    """Time within which position and velocity, behind by d_x and d_v, catch up [s]: that of the step unless this needs
+    more than the acceleration `limit`.
+    """
+    x, v = abs(d_x), abs(d_v)
+    if 6.0 * x / h**2 + 4.0 * v / h <= limit:
+        return h
+    return max(CATCH_UP_TIME, (2.0 * v + np.sqrt(4.0 * v**2 + 6.0 * limit * x)) / limit)
+
+
 def motion_trajectory(p, given, now, h, history=None):
     """Values and derivatives of the inputs over a step of length h [s] from those that the host has given at its begin.
 
@@ -157,6 +181,13 @@ def motion_trajectory(p, given, now, h, history=None):
                                         they are 0 with a = minmod of the velocity's mean rates over the last two steps:
                                         V has an error of order two, and a velocity that jumps is not extrapolated
     inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the last step) to X, V
+    catching up                         where making up the mismatch x - x_now = d, v - v_now = d' within h would need
+                                        more than A = CATCH_UP_ACCELERATION, 6 |d|/h^2 + 4 |d'|/h > A, the given
+                                        polynomial plus Hermite's polynomial from -d, -d' to 0 within
+                                        T = max(CATCH_UP_TIME, (2 |d'| + (4 d'^2 + 6 A |d|)^(1/2))/A) > h
+
+    A is for lengths.  Angles have A/(d_m/2); the frame's speed, whose rate makes the forces, has A/CATCH_UP_TIME over the
+    frame's radius and d_m/2.  Rates estimated from the velocities are within the same limits.
 
     In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above
     could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it is,
@@ -184,7 +215,16 @@ def motion_trajectory(p, given, now, h, history=None):
         out[1][v] = out[2][q] = out[2][v] = 0.0
         if h < SHORTEST_MOTION:
             continue
-        a = estimate if a == 0.0 and jerk == 0.0 else a
+        limit = catch_up_limit(p, group, q)
+        a = max(-limit, min(limit, estimate)) if a == 0.0 and jerk == 0.0 else a
+
+        # a motion that is far behind the given one catches up over more than this step
+        d_x, d_v = given_x - x_0, v_1 - v_0
+        T = catch_up_time(d_x, d_v, h, limit)
+        if h < T:
+            out[1][v] = out[2][q] = a + (6.0 * d_x / T + 4.0 * d_v) / T
+            out[2][v] = jerk - (12.0 * d_x / T + 6.0 * d_v) / T**2
+            continue
         x_1, v_1 = given_x + h * (v_1 + 0.5 * h * (a + h / 3.0 * jerk)), v_1 + h * (a + 0.5 * h * jerk)
         mean = (x_1 - x_0) / h
         out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h

@@ -144,5 +144,11 @@ void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 // Kinetic energy of the halves, elastic energy of pockets, joints and modes [J].
 scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 
+// Power that the halves' vibrations lose [W].
+INLINE scalar cage_losses(const Work *w)
+{
+    return w->elastic.dissipated;
+}
+
 // Motions of half h at the rivets by its modes, in the rivets' frames [m].
 void cage_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z]);

@@ -65,17 +65,17 @@ typedef struct {
     fmi2CallbackFunctions callbacks;
     char *name;
     unsigned categories;  // that are sent: bits 1 << LogCategory
-    char message[512];    // the last error or warning
+    char message[512];    // the last error or warning, sent or not
 } Instance;
 
 static const Session NEW_SESSION = {.phase = INSTANTIATED, .stop_time = INFINITY};
 
-// In the order of LogCategory; errors and warnings are always sent.
+// In the order of LogCategory.  Without logging, only the reason of fmi2Error or fmi2Discard is sent.
 static const char *const CATEGORIES[] = {"logStatusError", "logStatusWarning", "logEvents", "logSolver"};
 
 enum { N_CATEGORIES = sizeof CATEGORIES / sizeof CATEGORIES[0], ALL_CATEGORIES = (1 << N_CATEGORIES) - 1 };
 
-enum { ALWAYS_SENT = 1 << LOG_ERROR | 1 << LOG_WARNING };
+enum { ALWAYS_SENT = 1 << LOG_ERROR };
 
 // Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.  The
 // logger runs in the host's floating-point environment; what it leaves is what the host has from then on.
@@ -253,6 +253,7 @@ static fmi2Status SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, con
             char message[200];
             snprintf(message, sizeof message, "fmi2SetDebugLogging: unknown category \"%.60s\"",
                      categories[i] ? categories[i] : "(null)");
+            if (on) m->categories |= 1u << LOG_WARNING;
             instance_log(m, LOG_WARNING, message);
             status = fmi2Warning;
         }
@@ -263,24 +264,22 @@ static fmi2Status SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, con
 }
 
 // ---- initialization and end -----------------------------------------------------------------------------------------------------------------
-// A host's tolerance is a hint: the nearest one that the part admits, 0 for its own where the host gives no
-// positive number or the part has no use for one.
+// A host's tolerance is a hint.  The part uses it within its limits, and its largest tolerance in the place of a larger
+// one.  A smaller one, a negative one or none that is a number leaves solver.tol (returned is 0), because with the
+// smallest tolerance a run would take a hundred times as long.
 static double admissible_tolerance(Instance *m, double tolerance)
 {
     const Variable *known = variable_named("solver.tol");
     if (!known) return 0.0;
     if (tolerance >= known->min && tolerance <= known->max) return tolerance;
-    const double nearest = !(tolerance > 0.0) ? 0.0 : tolerance < known->min ? known->min : known->max;
-    char message[256];
-    int n = snprintf(message, sizeof message,
-                     "fmi2SetupExperiment: tolerance = %.10g lies outside [%.10g, %.10g]: ", tolerance,
-                     known->min, known->max);
-    if (nearest > 0.0)
-        snprintf(message + n, sizeof message - (size_t)n, "%.10g takes its place", nearest);
-    else
-        snprintf(message + n, sizeof message - (size_t)n, "solver.tol takes its place");
+    const bool above = tolerance > known->max;
+    char message[256], place[32] = "solver.tol";
+    if (above) snprintf(place, sizeof place, "%.10g", known->max);
+    snprintf(message, sizeof message,
+             "fmi2SetupExperiment: tolerance = %.10g lies outside [%.10g, %.10g]: %s takes its place",
+             tolerance, known->min, known->max, place);
     instance_log(m, LOG_WARNING, message);
-    return nearest;
+    return above ? known->max : 0.0;
 }
 
 static fmi2Status SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined, fmi2Real tolerance,

@@ -144,7 +144,7 @@ void part_reset(Bearing *b)
     memset(&b->out, 0, sizeof b->out);
     variables_set_start(&b->s.p, &b->s.u[0]);
     b->start = b->s.u[0];
-    b->reported = false;
+    b->reported = b->catch_up_reported = false;
     b->current = 0;
     b->evaluated = false;
 }
@@ -339,7 +339,8 @@ PartStatus part_step(Bearing *b, double t_end)
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
     Inputs u[INPUT_ORDERS + 1];
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
-    motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
+    const int behind = motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
+    if (behind < MOTIONS) report_catch_up(b, behind);
     report_without_effect(b);
     const double before = cpu_clock();
     change_temperature(b, &s->u_now, &s->u[0]);

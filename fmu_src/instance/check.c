@@ -36,13 +36,14 @@ static bool check_reached(Bearing *b, const Inputs *u)
     return variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
 }
 
-// Where the motions that are given lead within a step of length h.
+// Where the motions that are given lead within a step of length h.  A motion that is catching up with the given one
+// (motion_trajectory) may be faster.
 static bool check_motions(Bearing *b, double h)
 {
     if (!(h > 0.0)) return true;
     Inputs u[INPUT_ORDERS + 1], end;
     InputTrajectory trajectory = {.t_0 = 0.0};
-    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u_now, h, u);
+    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u[0], h, u);
     if (memcmp(u, b->s.u, sizeof u) == 0) return true;
     memcpy(trajectory.u, u, sizeof u);
     input_trajectory_at(&trajectory, h, &end);
@@ -122,6 +123,52 @@ static bool check_cage(Bearing *b)
     const char *refusal = cage_refusal(&b->s.p);
     if (refusal) bearing_log(b, LOG_ERROR, "%s", refusal);
     return refusal == NULL;
+}
+
+// Share by which the moments of inertia may miss their bounds: numbers of three digits are rounded.
+static const double ROUNDED = 0.01;
+
+// Triangle rule, J_p = 2 J_t - 2 m <x^2> with <x^2> the mean square of the axial distance from the centre of mass.
+static bool check_triangle(Bearing *b, const char *part, double J_p, double J_t)
+{
+    const double most = (1.0 + ROUNDED) * 2.0 * J_t;
+    if (J_p <= most) return true;
+    bearing_log(b, LOG_ERROR,
+                "%s.J_p = %g kg.m2: no body has this beside %s.J_t = %g kg.m2; at most 2 J_t = %g kg.m2 is "
+                "allowed",
+                part, J_p, part, J_t, most);
+    return false;
+}
+
+// Checks that bodies can have the moments of inertia.  A body that is too easy to turn would need very short steps.
+//
+//   cage half  its mass lies between the radii D_i/2 and D_o/2: m D_i^2/4 <= J_p <= m D_o^2/4;  J_p <= 2 J_t.
+//              Values left at their start follow the mass (derived.c).
+//   ring       with its share of the shaft J_p <= 2 J_t.  Where loads tilt it, J_p is at least that of a solid shaft
+//              of half the bore, m (bore/4)^2/2.  A disk on the shaft may have any J_p.
+static bool check_bodies(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    const double m = p->cage.m, bore = ring_fit_bore(p);
+    const double least = (1.0 - ROUNDED) * 0.25 * m * p->cage.D_i * p->cage.D_i;
+    const double most = (1.0 + ROUNDED) * 0.25 * m * p->cage.D_o * p->cage.D_o;
+    const double shaft = (1.0 - ROUNDED) * p->ring.m * bore * bore / 32.0;
+    double J_p, J_t;
+    cage_half_inertia(p, &J_p, &J_t);
+    bool fine = J_p >= least && J_p <= most;
+    if (!fine)
+        bearing_log(b, LOG_ERROR,
+                    "cage.J_p = %g kg.m2: not of a half of cage.m = %g kg between cage.D_i and cage.D_o; "
+                    "%g ... %g kg.m2 is allowed",
+                    J_p, m, least, most);
+    fine &= check_triangle(b, "cage", J_p, J_t);
+    fine &= check_triangle(b, "ring", p->ring.J_p, p->ring.J_t);
+    if (p->ring.motion == RING_MOTION_FREE && p->ring.tilt_mode != TILT_MODE_PRESCRIBED)
+        fine &= require(b, p->ring.J_p >= shaft,
+                        "ring.J_p = %g kg.m2: at least %g kg.m2 is allowed, ring.m (ring.bore/4)^2/2 of a "
+                        "solid shaft of half the bore",
+                        p->ring.J_p, shaft);
+    return fine;
 }
 
 // Checks parameters against each other.
@@ -293,7 +340,7 @@ static bool check_values(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
-    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b);
+    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b) && check_bodies(b);
 }
 
 bool check_all(Bearing *b)
@@ -349,6 +396,33 @@ void report_without_effect(Bearing *b)
     b->reported = true;
     bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
                 list);
+}
+
+// Name and value of the input at a place in Inputs.
+static const char *input_at(const Inputs *u, int place, double *value)
+{
+    const size_t offset = (size_t)place * sizeof(double);
+    const Variable *v = VARIABLES;
+    while (v->causality != CAUSALITY_INPUT || v->offset != offset) v++;
+    *value = ((const double *)u)[place];
+    return v->name;
+}
+
+void report_catch_up(Bearing *b, int motion)
+{
+    if (b->catch_up_reported) return;
+    b->catch_up_reported = true;
+    const InstanceState *s = &b->s;
+    double x, v, x_now, v_now;
+    const char *position = input_at(&s->u[0], MOTION[motion].position, &x);
+    const char *velocity = input_at(&s->u[0], MOTION[motion].velocity, &v);
+    input_at(&s->u_now, MOTION[motion].position, &x_now);
+    input_at(&s->u_now, MOTION[motion].velocity, &v_now);
+    bearing_log(
+        b, LOG_WARNING,
+        "t = %.9g s: %s = %g, %s = %g are given, the motion so far leads to %g, %g: it catches up over "
+        "%g s or more; later cases are not logged",
+        s->integrator.t, position, x, velocity, v, x_now, v_now, CATCH_UP_TIME);
 }
 
 // Logs that the parts stay at their start temperatures where the oil alone has been given another one.

@@ -58,6 +58,7 @@ struct Part {
     double y_dot[N_ALL_STATES];  // dy/dt at the present state
     bool evaluated;              // w and y_dot belong to the present state and inputs
     bool reported;               // inputs and parameters without effect have been logged
+    bool catch_up_reported;      // that a motion catches up with the given one has been logged
     double cpu_time;             // processor time of all steps [s]
 };
 
@@ -72,6 +73,9 @@ void report_without_effect(Bearing *b);
 
 // Logs the same before the start, and settings that do less than their names promise.
 void report_start(Bearing *b);
+
+// Logs once that a motion (its index in MOTION) is far behind the given one and catches up with it.
+void report_catch_up(Bearing *b, int motion);
 
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);

@@ -1,7 +1,12 @@
 // Vectors in the frames of the balls: three packets each.
 #pragma once
 
-#include "physics/model.h"
+#include "numbers/lanes.h"
+
+// One vector for each ball of a packet, in the balls' own frames.
+typedef struct {
+    wide x, r, t;
+} vec;
 
 INLINE wide vec_dot(vec u, vec v)
 {

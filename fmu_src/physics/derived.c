@@ -166,13 +166,18 @@ static double follows_mass(double J, double J_start, double mass_ratio)
     return J == J_start ? mass_ratio * J : J;
 }
 
-static void derive_cage(const Parameters *p, Derived *d)
+void cage_half_inertia(const Parameters *p, double *J_p, double *J_t)
 {
     Parameters start;
     Inputs input;
     variables_set_start(&start, &input);
-    d->J_p = follows_mass(p->cage.J_p, start.cage.J_p, p->cage.m / start.cage.m);
-    d->J_t = follows_mass(p->cage.J_t, start.cage.J_t, p->cage.m / start.cage.m);
+    *J_p = follows_mass(p->cage.J_p, start.cage.J_p, p->cage.m / start.cage.m);
+    *J_t = follows_mass(p->cage.J_t, start.cage.J_t, p->cage.m / start.cage.m);
+}
+
+static void derive_cage(const Parameters *p, Derived *d)
+{
+    cage_half_inertia(p, &d->J_p, &d->J_t);
     const double R = 0.5 * p->cage.D_o, L = p->cage.land_width, nu = p->oil.eta / p->oil.rho;
     const double r_i = 0.5 * p->cage.D_i;
     d->com_x[0] = -p->cage.x_c;

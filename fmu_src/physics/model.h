@@ -16,11 +16,6 @@
 
 typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
-// One vector for each ball of a packet, in the balls' own frames.
-typedef struct {
-    wide x, r, t;
-} vec;
-
 // ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
     double K;        // Q = K delta^1.5 [N/m^1.5]
@@ -246,6 +241,9 @@ typedef struct {
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.
 void model_derive(const Parameters *p, Derived *d);
+
+// Moments of inertia of a cage half, J_t about its centre of mass; values left at their start follow the mass.
+void cage_half_inertia(const Parameters *p, double *J_p, double *J_t);
 
 // A Work whose padding lanes are harmless.
 void work_init(const Derived *d, Work *w);

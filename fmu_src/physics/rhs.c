@@ -38,7 +38,7 @@ static scalar net_power(const Model *model, const Work *w)
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     power -= ball_array_sum(w->joint_dissipated);
-    power -= w->elastic.dissipated;
+    power -= cage_losses(w);
     const RingLoad *load = model->ring_load;
     if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
         power += race_growth_power(model, w);

@@ -46,9 +46,29 @@ void motion_remember(const Inputs *given, double h, MotionHistory *history)
     if (history->steps < 2) history->steps++;
 }
 
-void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
-                       const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1])
+// Largest acceleration of motion i while it catches up.
+static double catch_up_limit(const Parameters *p, int i)
 {
+    const double r = 0.5 * p->bearing.d_m;
+    if (MOTION[i].position == PLACE(frame, omega))
+        return CATCH_UP_ACCELERATION / (CATCH_UP_TIME * (r + p->frame.radius));
+    const bool length = i % SHAFT_MOTIONS < 3;
+    return length ? CATCH_UP_ACCELERATION : CATCH_UP_ACCELERATION / r;
+}
+
+// Time within which position and velocity, behind by d_x and d_v, catch up: that of the step unless this needs more than
+// the acceleration `limit`.
+static double catch_up_time(double d_x, double d_v, double h, double limit)
+{
+    const double x = fabs(d_x), v = fabs(d_v);
+    if (6.0 * x / (h * h) + 4.0 * v / h <= limit) return h;
+    return fmax(CATCH_UP_TIME, (2.0 * v + sqrt(4.0 * v * v + 6.0 * limit * x)) / limit);
+}
+
+int motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1], const MotionHistory *history,
+                      const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1])
+{
+    int behind = MOTIONS;
     const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
     const double *in[INPUT_ORDERS + 1], *at = (const double *)now;
     double *out[INPUT_ORDERS + 1];
@@ -71,14 +91,25 @@ void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1]
         out[1][v] = out[2][q] = out[2][v] = 0.0;
         if (h < SHORTEST_MOTION) continue;
         double a = in[1][v];
+        const double limit = catch_up_limit(p, i);
         if (a == 0.0 && jerk == 0.0 && history->steps == 2)
-            a = minmod(mean_rate(history, given, i), history->a[i]);
+            a = fmax(-limit, fmin(limit, minmod(mean_rate(history, given, i), history->a[i])));
+
+        // a motion that is far behind the given one catches up over more than this step
+        const double d_x = in[0][q] - x_0, d_v = in[0][v] - v_0, T = catch_up_time(d_x, d_v, h, limit);
+        if (T > h) {
+            out[1][v] = out[2][q] = a + (6.0 * d_x / T + 4.0 * d_v) / T;
+            out[2][v] = jerk - (12.0 * d_x / T + 6.0 * d_v) / (T * T);
+            if (behind == MOTIONS) behind = i;
+            continue;
+        }
         const double x_1 = in[0][q] + h * (in[0][v] + 0.5 * h * (a + h / 3.0 * jerk));
         const double v_1 = in[0][v] + h * (a + 0.5 * h * jerk);
         const double mean = (x_1 - x_0) / h;
         out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h;
         out[2][v] = (6.0 * (v_0 + v_1) - 12.0 * mean) / (h * h);
     }
+    return behind;
 }
 
 static double pulse_start(const Parameters *p, int n)

@@ -27,6 +27,12 @@ enum { SHAFT_MOTIONS = 5, MOTIONS = 11 };  // the shaft's come first
 
 static const double SHORTEST_MOTION = 1e-12;  // step whose rates of motion are known [s]
 
+// A motion that misses the given one by much is led back to it within a time of its own, however short the step is: no
+// shaft and no housing follows within less than the period of 10 kHz, and with 20 m/s, twice the largest velocity
+// allowed, to make up in that time, the acceleration is 8e5 m/s2.
+static const double CATCH_UP_TIME = 1e-4;         // at least [s]
+static const double CATCH_UP_ACCELERATION = 1e6;  // at most [m/s2]
+
 extern const MotionInput MOTION[MOTIONS];
 
 // What the host has given so far: velocities at the begin of the last communication step, their mean rates over the
@@ -44,12 +50,19 @@ typedef struct {
 //                                       of order two, and a velocity that jumps is not extrapolated
 //   inside the step                     Hermite's polynomial from where the motion is (`now`, at the end of the
 //                                       last step) to X, V: continuous in position and velocity
+//   catching up                         where making up the mismatch x - x_now = d, v - v_now = d' within h would need
+//                                       more than A = CATCH_UP_ACCELERATION, 6 |d|/h^2 + 4 |d'|/h > A, the given
+//                                       polynomial plus Hermite's polynomial from -d, -d' to 0 within
+//                                       T = max(CATCH_UP_TIME, (2 |d'| + (4 d'^2 + 6 A |d|)^(1/2))/A) > h
+//
+// A is for lengths.  Angles have A/(d_m/2); the frame's speed, whose rate makes the forces, has A/CATCH_UP_TIME over the
+// frame's radius and d_m/2.  Rates estimated from the velocities are within the same limits.
 //
 // In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above
 // could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it
-// is, there are no loads.
-void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
-                       const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1]);
+// is, there are no loads.  Returns the first motion that is catching up, MOTIONS if there is none.
+int motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1], const MotionHistory *history,
+                      const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1]);
 
 // Adds what was given at the begin of a step of length h.
 void motion_remember(const Inputs *given, double h, MotionHistory *history);

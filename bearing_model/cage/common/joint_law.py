@@ -186,12 +186,27 @@ class AlikeStates:
         """L*, values and slopes side by side [x, 3 + 6 + 24]."""
         return np.concatenate([self.load, self.values, self.slopes.reshape(len(self.x), -1)], axis=1)
 
+    @cached_property
+    def straight_on(self):
+        """`table` with one row more at both ends, on straight lines."""
+        table = self.table
+        return np.concatenate([[2.0 * table[0] - table[1]], table, [2.0 * table[-1] - table[-2]]])
+
     def at(self, c, P):
-        """L* [..., 3], values [..., 6] and slopes [..., 6, 4] for c >= 0 and P >= 0 [...] in newtons."""
+        """L* [..., 3], values [..., 6] and slopes [..., 6, 4] for c >= 0 and P >= 0 [...] in newtons, by Catmull-Rom
+        splines: the friction of the joints has this tension, and must have no kink over the speed.
+        """
         s, last = c + P, len(self.x) - 1
         x = ratio(c, s) * last
         i = np.minimum(np.real(x), last - 1.0).astype(int)
-        row = self.table[i] + (x - i)[..., None] * (self.table[i + 1] - self.table[i])
+        t = (x - i)[..., None]
+        before, here, there, behind = (self.straight_on[i + n] for n in range(4))
+        row = (
+            0.5 * t * (t * (2.0 - t) - 1.0) * before
+            + 0.5 * (t * t * (3.0 * t - 5.0) + 2.0) * here
+            + 0.5 * t * (t * (4.0 - 3.0 * t) + 1.0) * there
+            + 0.5 * t * t * (t - 1.0) * behind
+        )
         slopes = row[..., 9:].reshape(*np.shape(x), *self.slopes.shape[1:])
         return s[..., None] * row[..., :3], s[..., None] * row[..., 3:9], slopes
 

@@ -20,7 +20,6 @@
 
 #include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
-#include "cage/two_half/half_path.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 

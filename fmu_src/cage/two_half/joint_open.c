@@ -12,14 +12,23 @@ INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
     return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
 }
 
-// What all joints have in common, of the table's `alike` for c and P, in newtons.
+// What all joints have in common, of the table's `alike` for c and P, in newtons: by Catmull-Rom splines, because the
+// friction of the joints has this tension, and a kink at every knot would be one of the friction over the speed.
 ONCE void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
 {
-    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (law->alike_count - 1.0) : 0.0;
-    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), law->alike_count - 2.0);
-    const double *from = law->alike[i], *to = law->alike[i + 1];
-    const scalar up = x - i;
-    for (int n = 0; n < ALIKE_WIDTH; n++) at[n] = from[n] + up * (to[n] - from[n]);
+    const int last = law->alike_count - 2;
+    const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (last + 1.0) : 0.0;
+    const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), last);
+    const scalar t = x - i;
+    scalar weight[4] = {0.5 * t * (t * (2.0 - t) - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0),
+                        0.5 * t * (t * (4.0 - 3.0 * t) + 1.0), 0.5 * t * t * (t - 1.0)};
+    const double *row[4] = {law->alike[i - (i > 0)], law->alike[i], law->alike[i + 1],
+                            law->alike[i + 1 + (i < last)]};
+    // beyond both ends the table goes on straight
+    if (i == 0) weight[1] += weight[0], weight[2] -= weight[0];
+    if (i == last) weight[2] += weight[3], weight[1] -= weight[3];
+    for (int n = 0; n < ALIKE_WIDTH; n++)
+        at[n] = weight[0] * row[0][n] + weight[1] * row[1][n] + weight[2] * row[2][n] + weight[3] * row[3][n];
     for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
 }
 
