@@ -7,8 +7,8 @@ The rivet: geometry -> elasticity (mesh, weak form) -> load_cases (unilateral co
 coordinates) -> splines -> table. The cage half: half (solid, mass, limits) -> cage_half (elements by waves) ->
 joint_contact (pads and rivets) -> half_loads (load path, joint law) -> table; its vibration: half_modes (modes,
 residual) -> impacts (their error) -> table. Commands: `python -m rivet_model.build`, `closed_form`, `embed`,
-`components`, `friction`; docs/rivet.md explains them. Of bearing_model this package knows the table's format and how a
-table is evaluated: rivet_table, rivet_rom, rivet_splines, joint_law, half_path, half_modes.
+`friction`; docs/rivet.md explains them. Of bearing_model this package knows the table's format and how a table is
+evaluated: rivet_table, rivet_rom, rivet_splines, joint_law, half_path, half_modes.
 """
 
 from importlib import import_module
@@ -18,7 +18,6 @@ PUBLIC = {
     "load_cases": ("Joint",),
     "build": ("make_table",),
     "table": ("write",),
-    "components": ("Components",),
     "cage_half": ("CageHalf",),
 }
 HOMES = {name: module for module, names in PUBLIC.items() for name in names}

@@ -14,7 +14,6 @@ from threadpoolctl import threadpool_limits
 from bearing_model.rivet import rivet_rom, rivet_table
 
 from . import splines
-from .load_cases import Joint
 
 # The ranges of lengths are those of the 6207's joint; those of a joint f times as large are f times as long, and its
 # loads at equal stress f^2 times as large.
@@ -56,17 +55,15 @@ def _moments(m, direction):
 
 
 def _row(task):
-    """Results of `measure` per newton at all xi of one (a, c, sheet) [xi, ...]; xi falls, so that contacts open one
-    after the other.
-    """
-    a, c, sheet, xi, measure = task
+    """Channels per newton at all xi of one (a, c, sheet) [xi, channel]; xi falls: contacts open one after the other."""
+    a, c, sheet, xi = task
     T, V, m = shank_loads(a, c, bending_length(_joint.geometry))
     forces, active = [], None
     for value in xi[::-1]:
         force, solution = _joint.solve_shank(T, V, *_moments(m, DIRECTION[sheet]), value, active)
         active = solution.active
         forces.append(force)
-    return measure(_joint, np.stack(forces[::-1], axis=1))
+    return _joint.channels(np.stack(forces[::-1], axis=1))
 
 
 def representative(a, c, sheet):
@@ -98,16 +95,12 @@ def _map(joint, function, tasks, workers, progress):
     return results
 
 
-def sample(joint, knots, workers=2, progress=None, measure=Joint.channels, representative=representative):
-    """S [1/m2] at the sites of all axes: [a, c, xi, sheet, channel].
-
-    measure(joint, forces [contacts, cases]) -> [cases, numbers]; representative: maps coordinates to those with the
-    same response.
-    """
+def sample(joint, knots, workers=2, progress=None):
+    """S [1/m2] at the sites of all axes: [a, c, xi, sheet, channel]."""
     a, c, xi = (splines.sites(knots[name]) for name in rivet_table.SHANK_AXES)
     names = [representative(x, y, sheet) for x in a for y in c for sheet in rivet_table.SHEETS]
     unique = list(dict.fromkeys(names))
-    rows = _map(joint, _row, [(*name, xi, measure) for name in unique], workers, progress or (lambda done, total: None))
+    rows = _map(joint, _row, [(*name, xi) for name in unique], workers, progress or (lambda done, total: None))
     found = dict(zip(unique, rows, strict=True))
     values = np.stack([found[name] for name in names]).reshape(len(a), len(c), len(rivet_table.SHEETS), len(xi), -1)
     return np.moveaxis(values, 2, 3)
@@ -149,13 +142,9 @@ def rivet_load(loads):
     return rivet_rom.RivetLoad(T, V, 0.0 * V, m * np.sin(direction), m * np.cos(direction))
 
 
-def load_forces(joint, load):
-    """Contact forces [contacts] of a fresh solution."""
-    return joint.solve_shank(load.T, load.V, *_moments(load.m, load.direction), load.fit)[0]
-
-
 def _fresh(load):
-    return _joint.channels(load_forces(_joint, load)[:, None])[0]
+    forces, _ = _joint.solve_shank(load.T, load.V, *_moments(load.m, load.direction), load.fit)
+    return _joint.channels(forces[:, None])[0]
 
 
 def solve_loads(joint, loads, workers=2, progress=None):

@@ -15,6 +15,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from commands import command
 
 from bearing_model.rivet.rivet_table import DEFAULT_TABLE
 from rivet_model import closed_form, table
@@ -28,18 +29,6 @@ from riveted_bearing.results import FORMATS, to_toml, write_atomically
 from riveted_bearing.summary import rivet_rows, summary_rows, table_note
 
 ROOT = Path(__file__).resolve().parents[1]
-
-
-def command(*arguments, folder):
-    """The program as a user starts it, its output in pipes."""
-    return subprocess.run(
-        [sys.executable, "-m", "riveted_bearing", *map(str, arguments)],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
 
 
 @pytest.fixture(scope="module", autouse=True)

@@ -6,8 +6,8 @@ from functools import partial
 
 import numpy as np
 import pytest
+from commands import command
 from library import ROOT
-from test_app import command
 
 from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import load_cases, pictures

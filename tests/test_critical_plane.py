@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 from bearing_model.critical_plane import findley, logged_load, plane_normals, worst_point
-from bearing_model.rivet.rivet_rom import RivetLoad
-from rivet_model import components, load_cases, reduction
 from rivet_model.geometry import Geometry
+from rivet_model.load_cases import COARSE, Joint, surface_stress
 
 CYCLE = np.sin(np.linspace(0, 2 * np.pi, 73))
 
@@ -63,76 +62,20 @@ def test_the_worst_point_is_the_worst():
     assert (place, point, angle) == max(tried, key=tried.get) and worst.f == max(tried.values())
 
 
-# Stress components of the rivet ---------------------------------------------------------------------------------------
-
-
-@pytest.fixture(scope="module")
-def joint():
-    return load_cases.Joint(Geometry(), load_cases.COARSE)
-
-
-@pytest.fixture(scope="module")
-def rivet(joint):
-    return components.make(Geometry(), coarse=True, workers=1, hold_out=0)
-
-
-def fresh(joint, load, fit):
-    """Fields of one load, V along y, by a fresh solution."""
-    return [
-        f[..., 0]
-        for f in joint.fields(
-            joint.solve_shank(load.T, load.V_y, load.m_z, load.m_y, fit)[0][:, None], components.ANGLES
-        )
-    ]
-
-
-def test_components_follow_the_finite_elements(rivet, joint):
-    """At the sites of the axes and the sheets' directions they are the finite elements' fields, in all quadrants of m
-    (24 modes: observed 0.5 %).
-    """
-    T, V, m = reduction.shank_loads(0.25, 0.5, reduction.LENGTH)
-    for sign_plane, sign_across in ((1, 1), (-1, 1), (1, -1), (-1, -1)):
-        load = RivetLoad(T, V, 0.0, sign_across * m * np.sin(np.pi / 3), sign_plane * m * np.cos(np.pi / 3))
-        for got, expected in zip(rivet.fields(load, -550e-9), fresh(joint, load, -550e-9), strict=True):
-            np.testing.assert_allclose(got[..., 0], expected, atol=0.02 * np.abs(expected).max())
-
-
-def test_components_turn_with_the_load(rivet):
-    """The load turned by two of the sixteen angles: the fields move on by two (rounding)."""
-    one = RivetLoad(25.0, 12.0, 0.0, 0.002, 0.004)
-    c, s = np.cos(np.pi / 4), np.sin(np.pi / 4)
-    other = RivetLoad(25.0, c * 12.0, s * 12.0, c * 0.002 - s * 0.004, s * 0.002 + c * 0.004)
-    for a, b in zip(rivet.fields(one, -6e-6), rivet.fields(other, -6e-6), strict=True):
-        np.testing.assert_allclose(np.roll(a, 2, axis=2), b, atol=1e-9 * np.abs(a).max())
-
-
-def test_components_of_a_logged_history(rivet, tmp_path):
-    """Read back from a file, at the loads of a run's outputs; a turning V makes a cycle of a constant channel, and the
-    head is the worst place.
-    """
-    components.write(rivet, tmp_path / "components.npz")
-    again = components.read(tmp_path / "components.npz", Geometry().digest)
-    turn, one = np.linspace(0.0, 2 * np.pi, 24), np.ones(24)
-    values = {
-        "T": 25 * one,
-        "V_y": 12 * np.cos(turn),
-        "V_z": 12 * np.sin(turn),
-        "M_shank_y": 0 * one,
-        "M_shank_z": 0 * one,
-        "F_head": 0 * one,
-    }
-    load = logged_load({f"rivet[3].{name}": value for name, value in values.items()}, 3)
-    fields = again.fields(load, -6e-6)
-    for a, b in zip(fields, rivet.fields(load, -6e-6), strict=True):
-        np.testing.assert_allclose(a, b, atol=1e-5 * np.abs(b).max())  # single precision in the file
-    largest = np.array([load_cases.surface_stress(*f)[0].max(axis=(0, 1)) for f in fields[:2]]).max(axis=0)
-    assert np.ptp(largest) < 0.1 * largest.max()  # the channel hardly changes
+def test_the_worst_point_under_a_turning_load():
+    """Under a load that turns about the rivet the fields turn with it: every point cycles, the worst is at a head."""
+    joint, count = Joint(Geometry(), COARSE), 16
+    forces, _ = joint.solve_shank(25.0, 12.0, 0.0, 0.0, -6e-6)
+    start = joint.fields(forces[:, None], count)
+    fields = [np.concatenate([np.roll(field, n, axis=2) for n in range(count)], axis=-1) for field in start]
     place, point, angle, worst = worst_point(fields, 0.3, 15.0)
-    assert place in (0, 1) and np.ptp(fields[place][0, point, angle]) > 0.3 * largest.max()  # but each point cycles
+    largest = max(surface_stress(*field)[0].max() for field in fields[:2])
+    assert place in (0, 1) and np.ptp(fields[place][0, point, angle]) > 0.3 * largest
     inclined = max((np.ptp(field[0], axis=-1) / 4 + 0.3 * field[0].max(axis=-1) / 2).max() for field in fields)
     assert worst.f >= inclined  # at least what the meridian stress alone does to the plane at 45 degrees
-    with pytest.raises(ValueError, match="made for geometry"):
-        components.read(tmp_path / "components.npz", "another")
-    (tmp_path / "text.npz").write_text("no components")
-    with pytest.raises(ValueError, match="not a file of rivet components"):
-        components.read(tmp_path / "text.npz")
+
+
+def test_loads_of_a_run():
+    outputs = {"T": "T", "V_y": "V_y", "V_z": "V_z", "M_shank_y": "m_y", "M_shank_z": "m_z", "F_head": "F_head"}
+    load = logged_load({f"rivet[3].{output}": [float(n), 10.0 + n] for n, output in enumerate(outputs)}, 3)
+    assert [getattr(load, name).tolist() for name in outputs.values()] == [[n, 10.0 + n] for n in range(len(outputs))]

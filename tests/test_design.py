@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_app import command
+from commands import command
 
 from riveted_bearing import UserError
 from riveted_bearing.design.bench import Bench, response, shown, titled

@@ -2,8 +2,7 @@
 
 import numpy as np
 import pytest
-from mechanics import Instance, Z
-from test_rivets import c_opens
+from mechanics import Instance, Z, c_opens
 
 from bearing_model.cage.elastic.elastic_half import joints_out
 from bearing_model.cage.two_half.joint_open import joints_open

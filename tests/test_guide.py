@@ -3,12 +3,11 @@
 import re
 import runpy
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 import typer
+from commands import run_in_shell
 from typer.main import get_command
 
 from bearing_model.generated import variables
@@ -122,13 +121,3 @@ def test_the_whole_guide(folder):
             exec(compile(text, "guide.md", "exec"), {"__name__": "guide"})
     results = {path.name for path in (folder / "results").iterdir()}
     assert {"demo.html", "demo.png", "runup.html", "preload40.html", "softer.parquet", "demo_compare.png"} <= results
-
-
-def run_in_shell(line):
-    """A command as typed, with this Python's program of the checkout."""
-    program, *arguments = shlex.split(line)
-    module = ["-m", "riveted_bearing"] if program == "riveted-bearing" else []
-    done = subprocess.run(
-        [sys.executable, *module, *arguments], capture_output=True, text=True, timeout=1800, check=False
-    )
-    assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"

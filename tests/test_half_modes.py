@@ -11,7 +11,7 @@ import half_transient
 import numpy as np
 import pytest
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
-from test_half import SMALL, whole
+from whole_half import SMALL, whole
 
 from bearing_model.cage.elastic import half_modes as modes_of
 from bearing_model.rivet import rivet_table

@@ -7,7 +7,7 @@ purpose - the turning of the contacts' normals, the films' stiffness - stays bel
 import numpy as np
 import pytest
 from mechanics import SLICE, Instance, Z
-from test_jacobian import matrix, prepared, push_cage, rhs
+from states_of_all_kinds import matrix, prepared, push_cage, rhs
 
 from bearing_model.generated.variables import N_STATES, CageModel, Lubrication, TiltMode, Traction
 

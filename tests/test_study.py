@@ -3,6 +3,7 @@ here.
 """
 
 import copy
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -14,7 +15,7 @@ from riveted_bearing import build, run
 from riveted_bearing.fmu import Model
 from riveted_bearing.paper_study import claims, paper, study
 from riveted_bearing.paper_study.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
-from riveted_bearing.sweep import plan_sweep, read_toml, run_sweep
+from riveted_bearing.sweep import about_run, plan_sweep, read_toml, run_sweep
 
 
 @pytest.fixture(scope="module")
@@ -140,11 +141,100 @@ def test_the_stress_at_rest_is_what_the_fmu_starts_with():
     assert study.stress_by(rows)[0] == pytest.approx(start, rel=1e-4)
 
 
+PLACES = [f"{place}{end}" for place in ("head", "mid") for end in ("", "_peak", "_range", "_rest", "_above", "_damage")]
+RIVETS = [f"{place}_damage_{k}" for place in ("head", "mid") for k in range(1, 10)]
+LOADS = ["force", "force_rms", "force_peak", "tension", "shear", "axial_share", "head_by_tension", "head_by_moment"]
+NUMBERS = [*PLACES, *RIVETS, *LOADS, "dislocation_max", "slip", "cpu_time", "simulated"]
+CONDITIONS = {  # column: (name, its unit)
+    "seed": ("start.seed", 1.0),
+    "preload": ("joint.preload", 1.0),
+    "mu": ("joint.mu", 1.0),
+    "pocket_damping": ("cage.lambda", 1.0),
+    "fit": ("joint.fit", 1e-6),
+    "speed": ("shaft.omega", np.pi / 30.0),
+    "F_r": ("shaft.F_y", 1.0),
+    "F_a": ("shaft.F_x", 1.0),
+    "tilt": ("shaft.tilt_z", np.pi / 180.0),
+    "pocket": ("cage.pocket_clearance", 1e-6),
+    "guide": ("cage.guide_clearance", 1e-6),
+    "impact": ("pulse.F_r", 1.0),
+    "width": ("pulse.duration", 1e-3),
+}
+
+
+def imagined(name, model):
+    """Runs of a shipped study: its conditions, and numbers at random."""
+    sweep, rng = study_sweep(name, model, repeats=2), np.random.default_rng(1)
+    rows = [about_run(sweep, key) for key in sweep.scenes]
+    columns = {column: np.round([row[of] / unit for row in rows], 3) for column, (of, unit) in CONDITIONS.items()}
+    columns["scene"] = np.array([row["scene"] for row in rows])
+    columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
+    return Runs(columns | {column: rng.uniform(1.0, 2.0, len(rows)) for column in NUMBERS})
+
+
+def test_every_claim_finds_its_points_and_columns(model):
+    found = claims.all_claims({name: imagined(name, model) for name in shipped_studies()})
+    assert list(found) == ["cost", *(name for name in study.PICTURES if name != "grip")]
+    every = [claim for of_picture in found.values() for claim in of_picture]
+    assert len(every) == 36 and all(claim.holds and claim.found for claim in every)
+    assert not re.search(r"[{}$]", "".join(claim.found + claim.why for claim in every))
+
+
+def figures(picture, places, means, apart):
+    """Figures of two seeds at some places of an axis: means of columns, and how far apart the seeds are."""
+    seeds = apart * np.array([-0.5, 0.5])
+    columns = {name: np.ravel(np.array(values)[:, None] + seeds) for name, values in means.items()}
+    runs = Runs({"seed": np.tile([1, 2], len(places)), picture: np.repeat(np.array(places, dtype=float), 2)} | columns)
+    return claims.Figures({picture: runs}, runs, claims.PICTURES[picture])
+
+
+@pytest.mark.parametrize(
+    ("condition", "tighter"),
+    [
+        ("head[60] > 140", "head[60] > 150"),
+        ("head[60] < 150", "head[60] < 140"),
+        ("head[0 -> 60] >= 44", "head[0 -> 60] >= 46"),
+        ("head[60 over 0] within 1.4..1.5", "head[60 over 0] within 1.46..1.5"),
+        ("head/mid[60] <= 1.5", "head/mid[60] <= 1.4"),
+        ("least head, mid[..] < 0.7 largest head, mid[..]", "least head, mid[..] < 0.68 largest head, mid[..]"),
+        ("best head[..] within 0..20", "best head[..] within 1..20"),
+        ("over_least head[..] <= 1 and median head[20] > 119", "over_least head[..] <= 1 and median head[20] > 120"),
+    ],
+)
+def test_a_condition_is_met_up_to_its_margin(condition, tighter):
+    """At preloads of 0, 20, 60 N a head stress of 100, 120, 145 MPa, a middle stress of 100 MPa."""
+    at = figures("preload", [0, 20, 60], {"head": [100.0, 120.0, 145.0], "mid": [100.0] * 3}, 0.0)
+    assert at.met(condition) and not at.met(tighter)
+
+
+def test_the_seeds_must_agree():
+    """Means 5 MPa above the limit: met with seeds 0.5 MPa apart (interval 3.2), not with seeds 1 MPa apart (6.4)."""
+    at = [figures("preload", [60], {"head": [145.0]}, apart) for apart in (0.5, 1.0)]
+    assert [one.met("head[60] > 140") for one in at] == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("changed", "verdict"),
+    [
+        ({}, "partly"),
+        ({"head/mid[40] < 0.8": "head/mid[40] < 0.7"}, "**not**"),
+        ({"head_peak/mid_peak[40] < 0.9": "head_peak/mid_peak[40] < 1"}, "reproduced"),
+    ],
+)
+def test_a_margin_decides_the_verdict(changed, verdict):
+    """Head over middle at +0.04 mm: 0.78 (means), 0.95 (99.9 % quantiles); the claim's margins are 0.8 and 0.9."""
+    title = "4.1 (2); 5 (2): With large interference the middle's stress is clearly larger than the head's"
+    stress = {"head": [78.0], "mid": [100.0], "head_peak": [95.0], "mid_peak": [100.0]}
+    table = claims.PICTURES["fit"][title]
+    assert set(changed) <= set(table["holds"])
+    holds = [changed.get(condition, condition) for condition in table["holds"]]
+    assert figures("fit", [40], stress, 0.0).claim("", "", **table | {"holds": holds}).verdict == verdict
+
+
 def test_a_crossing_is_found_between_the_fits():
-    fits = np.repeat([-20.0, -10.0, 0.0, 10.0], 2)
-    runs = Runs({"seed": np.tile([1, 2], 4), "fit": fits, "head": 60.0 + 0 * fits, "mid": 63.0 + fits})
-    assert claims.crossing(runs, "head", "mid") == pytest.approx(-3.0, rel=1e-12)
-    assert np.isnan(claims.crossing(runs, "mid", "head"))
+    at = figures("fit", [-20, -10, 0, 10], {"head": [60.0] * 4, "mid": [43.0, 53.0, 63.0, 73.0]}, 0.0)
+    assert at.value("crossing head, mid[..]") == pytest.approx(-3.0, rel=1e-12)
+    assert np.isnan(at.value("crossing mid, head[..]"))
 
 
 def test_verdicts():

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from library import TWO_HALF
 from mechanics import Instance
-from test_jacobian import KINDS, SCENES, make_model, make_state
+from states_of_all_kinds import KINDS, SCENES, make_model, make_state
 
 from bearing_model.cage.cage import CageMemory, cage_film_matrices
 from bearing_model.cage.common.cage_joint import cage_joint_kinematics

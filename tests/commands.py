@@ -1,0 +1,27 @@
+"""Commands as a user starts them."""
+
+import shlex
+import subprocess
+import sys
+
+
+def command(*arguments, folder):
+    """The program as a user starts it, its output in pipes."""
+    return subprocess.run(
+        [sys.executable, "-m", "riveted_bearing", *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+
+
+def run_in_shell(line):
+    """A command as typed, with this Python's program of the checkout."""
+    program, *arguments = shlex.split(line)
+    module = ["-m", "riveted_bearing"] if program == "riveted-bearing" else []
+    done = subprocess.run(
+        [sys.executable, *module, *arguments], capture_output=True, text=True, timeout=1800, check=False
+    )
+    assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"
