@@ -408,8 +408,10 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
     in->now = &s->now, in->next = &in->trial, in->goal = s->h;
     if (is_fixed(in)) in->goal = (t_stop - s->t) / fixed_steps(s->h, t_stop - s->t);
 
-    // ARKODE forgets what it knows of the steps before and begins at the state; verlet_length begins with the goal.
+    // ARKODE forgets what it knows of the steps before and copies the state that the view shows; verlet_length begins with
+    // the goal.
     double t;
+    state_vector_show(in->view, s->now.y);
     int status = ARKodeReset(in->bearing, s->t, in->view);
     if (status == ARK_SUCCESS) status = ARKodeSetStopTime(in->bearing, t_stop);
     if (status == ARK_SUCCESS) status = ARKodeSetMaxNumSteps(in->bearing, max_steps);
