@@ -79,8 +79,8 @@ def test_ecos(ecospy, fmu, expected):
     assert difference(rows, expected[1:]) < SAME
 
 
-def test_fmuloader(fmu, expected):
-    """A loader that asks for the functions of model exchange too.  Observed: 1.2e-11."""
+def by_fmuloader(fmu, integers):
+    """Outputs at the communication points by a loader that asks for the functions of model exchange too."""
     fmi2 = pytest.importorskip("fmuloader.fmi2", reason="fmuloader is not installed: pip install fmuloader")
     description = fmpy.read_model_description(str(fmu))
     vr = {v.name: v.valueReference for v in description.modelVariables}
@@ -89,13 +89,27 @@ def test_fmuloader(fmu, expected):
         slave.instantiate("bearing", fmi2.Fmi2Type.CO_SIMULATION, guid=description.guid)
         slave.setup_experiment(start_time=0.0)
         slave.set_real([vr[name] for name in START], list(START.values()))
+        slave.set_integer([vr[name] for name in integers], list(integers.values()))
         slave.enter_initialization_mode()
         slave.exit_initialization_mode()
         for k in range(STEPS):
             slave.do_step(k * STEP, STEP)
             rows.append(slave.get_real([vr[name] for name in OUTPUTS]))
         slave.terminate()
-    assert difference(rows, expected[1:]) < SAME
+    return rows
+
+
+def test_fmuloader(fmu, expected):
+    """Observed: 1.2e-11."""
+    assert difference(by_fmuloader(fmu, {}), expected[1:]) < SAME
+
+
+def test_items_beside_a_gap(fmu, expected):
+    """The items of scene.cage are 1 and 3.  Observed: 1.2e-11."""
+    rigid = simulate(fmu, start=START | {"scene.cage": 1})
+    for number, rows in ((1, rigid), (3, expected)):
+        assert difference(by_fmuloader(fmu, {"scene.cage": number}), rows[1:]) < SAME
+    assert difference(rigid, expected) > 1e-3
 
 
 def test_pathsim(fmu, expected):

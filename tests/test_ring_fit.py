@@ -202,11 +202,11 @@ def test_power_of_growth(core):
     """dE/dt = net power at a state whose speed rises by 1e6 rad/s2: the growth puts 10 W into the balls, known to 1e-6
     of it, of 1 um each 10 us.
     """
-    bearing = Instance(core, {"scene.cage": 2})
+    bearing = Instance(core, {"scene.cage": 1})
     for i in range(3):
         bearing.step((i + 1) * H)
     y, rise = bearing.y, 1e6
-    model, trajectory = core.model(parameters={"scene.cage": 2}), core.new("InputTrajectory")
+    model, trajectory = core.model(parameters={"scene.cage": 1}), core.new("InputTrajectory")
     u = core.ffi.new("Inputs[3]")
     u[0] = model.u[0]
     powers = []

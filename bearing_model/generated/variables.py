@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{06f47e85-f9e8-6656-4d08-47453a9cb747}"
+MODEL_GUID = "{6ee15016-8e4e-b5a3-a25d-7d2411b4f170}"
 Z = 9
 
 

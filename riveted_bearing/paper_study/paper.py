@@ -32,7 +32,7 @@ paper's; the sweeps are in `riveted_bearing/data/studies/`.
   elastic halves, the default elsewhere, make of the same sweeps stands [below](#with-elastic-halves).
 - Rivets are elastic here: a figure beyond yield (590 MPa, assumed) tells how far the load exceeds yield, not the stress.
 - **Verdict**: *reproduced* if all conditions of a claim hold with their confidence, *partly* if some do, *not* if none does. The conditions are in
-  `riveted_bearing/paper_study/claims.py`.
+  `riveted_bearing/data/claims.toml`.
 """
 
 

@@ -204,6 +204,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
     # the joints at the step's start; their velocities by modes and relative rigid motions, and those by the slow motion
     # of the rigid halves in the middle of the step
     at, joints = JointMotion(fast.u, None, fast.T, fast.N_plate), SimpleNamespace(e=fast.e)
+    w.elastic = SimpleNamespace(joints=joints)
     _, c, s = circle(d)
     out, inside = joints_out(d, half.pad), joints_in(d, half.pad)  # rows: all joints, motion by motion
     Omega = w.half[1].Omega[:, 0] - h0.Omega[:, 0]
