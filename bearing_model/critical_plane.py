@@ -6,9 +6,7 @@ stress components.
 tau_a: shear amplitude on the plane (half the largest extent of the shear vector's path), sigma_n,max: largest normal
 stress on it.
 
-    components = rivet_model.components.read("components.npz")
-    fields = components.fields(logged_load(result.data, k=1), fit_eff)
-    place, point, angle, plane = worst_point(fields)
+    place, point, angle, plane = worst_point([joint.fields(solution) for joint in ...])     # rivet_model.load_cases.Joint
 """
 
 from dataclasses import dataclass
@@ -73,7 +71,7 @@ def worst_point(fields, k=0.3, step=5.0):
     """Worst of all points of several histories: (place, point, angle, CriticalPlane), indices into `fields`.
 
     fields: arrays [3, points, angles, times] of (tt, hoop, shear) in Pa, e.g. of
-    rivet_model.components.Components.fields.  The points are searched in the order of an upper bound of f (half the
+    rivet_model.load_cases.Joint.fields.  The points are searched in the order of an upper bound of f (half the
     norm of the ranges for tau_a, the largest principal stress for sigma_n), and the search ends where the bound falls
     below the largest f found.
     """

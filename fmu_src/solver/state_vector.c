@@ -100,9 +100,12 @@ static double vector_wrms_norm(N_Vector x, N_Vector w)
 static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
 {
     if (c == 1.0) {
-        if (x != z) memcpy(state_vector_data(z), state_vector_data(x), sizeof(double) * (size_t)state_vector_length(z));
+        if (x != z)
+            memcpy(state_vector_data(z), state_vector_data(x),
+                   sizeof(double) * (size_t)state_vector_length(z));
     } else {
-        for (int i = 0; i < state_vector_length(z); i++) state_vector_data(z)[i] = c * state_vector_data(x)[i];
+        for (int i = 0; i < state_vector_length(z); i++)
+            state_vector_data(z)[i] = c * state_vector_data(x)[i];
     }
 }
 
@@ -118,7 +121,8 @@ static void vector_const(sunrealtype c, N_Vector z)
 // given.
 static void vector_div(N_Vector x, N_Vector y, N_Vector z)
 {
-    for (int i = 0; i < state_vector_length(z); i++) state_vector_data(z)[i] = state_vector_data(x)[i] / state_vector_data(y)[i];
+    for (int i = 0; i < state_vector_length(z); i++)
+        state_vector_data(z)[i] = state_vector_data(x)[i] / state_vector_data(y)[i];
 }
 
 static void vector_abs(N_Vector x, N_Vector z)
