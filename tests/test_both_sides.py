@@ -33,6 +33,9 @@ LOSSLESS |= {
     "cage.mu_land": 0.0,
     "cage.lambda": 0.0,
     "bearing.lambda": 0.0,
+    "joint.mu": 0.0,
+    "joint.zeta": 0.0,
+    "joint.F_floor": 1e-3,
     "scene.traction": Traction.POINT,
 }
 MOTIONS = {  # all at once: every power has its part

@@ -21,6 +21,9 @@ LOSSLESS = {
     "cage.mu_land": 0.0,
     "cage.lambda": 0.0,
     "bearing.lambda": 0.0,
+    "joint.mu": 0.0,
+    "joint.zeta": 0.0,
+    "joint.F_floor": 1e-3,
 }
 
 

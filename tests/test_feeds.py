@@ -45,6 +45,7 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "gravity.y": 9.81,
     "gravity.z": 9.81,
     "frame.radius": 0.1,
+    "solver.step": 5e-6,
     "pulse.F_r": 1000.0,
     "pulse.F_a": 1000.0,
 }

@@ -149,7 +149,7 @@ SCENES = {
     "slow_mixed": {"shaft__omega": 400.0, "scene__lubrication": 2},
     "tilted": {"shaft__tilt_z": 0.0087},
     "sliced_fatigue": {"scene__traction": 2, "scene__stress": 4, "start__settle": 0.0},
-    "rigid_pulse": {"scene__cage": 2, "pulse__F_r": 1401.0, "pulse__t_start": 1e-3},
+    "rigid_halves_pulse": {"scene__cage": 1, "pulse__F_r": 1401.0, "pulse__t_start": 1e-3},
 }
 INPUTS = [1, 2, 6, 8, 9]  # shaft.F_x, F_y, omega, tilt_z, impact.F_r
 

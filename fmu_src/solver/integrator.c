@@ -401,9 +401,16 @@ static int set_fixed(Integrator *in)
     return status == ARK_SUCCESS ? ARKodeSetInitStep(in->bearing, in->goal) : status;
 }
 
+// The shortest step that ARKODE begins with [s].  It multiplies the time to t_stop by the step size of the run
+// before, which it keeps over a reset, and takes a product that underflows for a t_stop in the past; thirty
+// failed error tests may shorten a step by 1e-30.
+static const double SHORTEST_FIRST = 1e-100;
+
 static int verlet_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
+    const double h_first = fmin(s->h, t_stop - s->t);
+    if (s->t + h_first == s->t || h_first < SHORTEST_FIRST) return step_underflow(in, "Verlet", h_first);
     weigh_orbit(in);
     in->now = &s->now, in->next = &in->trial, in->goal = s->h;
     if (is_fixed(in)) in->goal = (t_stop - s->t) / fixed_steps(s->h, t_stop - s->t);
@@ -438,11 +445,6 @@ void integrator_fix_step(Integrator *in)
     in->s->h = given > 0.0 ? given : cage_fixed_step(in->model, in->s->now.film);
 }
 
-// The shortest step that ARKODE begins with [s].  It multiplies the time to t_stop by the step size of the run
-// before, which it keeps over a reset, and takes a product that underflows for a t_stop in the past; thirty
-// failed error tests may shorten a step by 1e-30.
-static const double SHORTEST_EXPLICIT = 1e-100;
-
 // Part of the step size before an advance that the next one begins with at least: ARKODE's own proposal is
 // too small after a step that was cut short to meet t_stop.
 static const double KEPT_STEP = 0.9;
@@ -451,7 +453,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
     const double h_first = fmin(s->h, t_stop - s->t);
-    if (s->t + h_first == s->t || h_first < SHORTEST_EXPLICIT)
+    if (s->t + h_first == s->t || h_first < SHORTEST_FIRST)
         return step_underflow(in, "Runge-Kutta", h_first);
 
     // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
