@@ -135,7 +135,7 @@ static void gather(void)
         {{"scene.stress", 4.0}, {"start.settle", 0.0}, {"joint.preload", 0.0}, {NULL, 0.0}},
         {{"solver.method", 2.0}, {"scene.lubrication", 2.0}, {NULL, 0.0}},
         {{"scene.cage", 3.0}, {NULL, 0.0}},
-        {{"scene.cage", 2.0},
+        {{"scene.cage", 1.0},
          {"scene.traction", 2.0},
          {"ring.tilt_mode", 3.0},
          {"pulse.F_r", 1401.0},

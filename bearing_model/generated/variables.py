@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6ee15016-8e4e-b5a3-a25d-7d2411b4f170}"
+MODEL_GUID = "{81dc8160-e68e-4016-50df-7ed4ec0a4b49}"
 Z = 9
 
 

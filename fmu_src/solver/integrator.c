@@ -430,6 +430,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
     s->error_tests_failed += (double)(failed - failed_before);
     if (in->now != &s->now) s->now = *in->now;
     if (!is_fixed(in)) s->h = in->goal;
+    if (status == ARK_ERR_FAILURE && s->t + in->goal == s->t) return step_underflow(in, "Verlet", in->goal);
     return status < 0 ? status : 0;
 }
 
@@ -453,8 +454,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 {
     IntegratorState *s = in->s;
     const double h_first = fmin(s->h, t_stop - s->t);
-    if (s->t + h_first == s->t || h_first < SHORTEST_FIRST)
-        return step_underflow(in, "Runge-Kutta", h_first);
+    if (s->t + h_first == s->t || h_first < SHORTEST_FIRST) return step_underflow(in, "Runge-Kutta", h_first);
 
     // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
