@@ -35,7 +35,7 @@ from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, rivet_heads, scaling
 from .errors import UserError, unknown
-from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
+from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
@@ -206,7 +206,7 @@ def is_bearing(source):
     """Whether a name or file means a bearing, not a scene."""
     if str(source) in known_bearings() or str(source) in shipped_scenes():
         return str(source) in known_bearings()
-    return Path(source).is_file() and {"Z", "designation", "catalogue", "rivet"} & set(read_toml(Path(source))) != set()
+    return Path(source).is_file() and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
 
 
 def bearing_case(source, rivet=None):
