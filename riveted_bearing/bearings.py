@@ -279,6 +279,10 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
+    for part, material in found.items():  # a named material's, scaled to a strength of the file
+        names = (materials.PARTS[part].parameters[key] for key in material.by_rule)
+        origin |= dict.fromkeys((name for name in names if name in given), "rule")
+
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
     own_balls = entry is not None and Z not in (None, catalogue.balls(entry)[0])
     rated = {key: value for key, value in ratings(Z, given, entry).items() if key not in data} if own_balls else {}
