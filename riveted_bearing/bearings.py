@@ -35,7 +35,7 @@ from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, rivet_heads, scaling
 from .errors import UserError, unknown
-from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
+from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
@@ -206,7 +206,7 @@ def is_bearing(source):
     """Whether a name or file means a bearing, not a scene."""
     if str(source) in known_bearings() or str(source) in shipped_scenes():
         return str(source) in known_bearings()
-    return Path(source).is_file() and {"Z", "designation", "catalogue", "rivet"} & set(read_toml(Path(source))) != set()
+    return Path(source).is_file() and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
 
 
 def bearing_case(source, rivet=None):
@@ -278,6 +278,10 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     sizes = rivet_sizes(path, section_of(path, document, "rivet"), prefix)
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
+
+    for part, material in found.items():  # a named material's, scaled to a strength of the file
+        names = (materials.PARTS[part].parameters[key] for key in material.by_rule)
+        origin |= dict.fromkeys((name for name in names if name in given), "rule")
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
     own_balls = entry is not None and Z not in (None, catalogue.balls(entry)[0])

@@ -95,13 +95,14 @@ PARTS = {
 @dataclass(frozen=True)
 class Material:
     """Name and properties of one part's material [SI]; sources: in words, by property; given: the properties that the
-    bearing file decides, all if it names the material.
+    bearing file decides, all if it names the material; by_rule: those that follow from others of the file.
     """
 
     name: str
     values: dict
     sources: dict
     given: tuple = ()
+    by_rule: tuple = ()
 
     def with_density(self, density):
         """The same with another density, which a given mass means [kg/m3]."""
@@ -174,8 +175,17 @@ def material_of(path, part, section, given, as_written):
         raise refusal(path, f"{part}.{key}", written.get(key, own[key]), reason)
     name = where.material if chosen is None else found_name(part, chosen) if isinstance(chosen, str) else OWN
     source = section.get("source", "the bearing file")
-    values |= own
-    return Material(name, values, sources | dict.fromkeys(own, source), tuple(own if chosen is None else values))
+    by_rule = scaled_endurance(values, own)
+    values |= own | by_rule
+    sources |= dict.fromkeys(own, source) | dict.fromkeys(by_rule, "rule: keeps its ratio to the strength")
+    return Material(name, values, sources, tuple(own if chosen is None else values), tuple(by_rule))
+
+
+def scaled_endurance(values, own):
+    """The endurance of a material whose strength alone is another one: it keeps its ratio to the strength."""
+    if "strength" not in own or "endurance" in own or not values.keys() >= set(OPTIONAL):
+        return {}
+    return {"endurance": float(f"{own['strength'] / values['strength'] * values['endurance']:.6g}")}
 
 
 def only_one(path, key, value, other, other_value, written=None, other_written=None):

@@ -33,6 +33,7 @@ from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs")
+OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet")  # what only a bearing file has
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation")
@@ -171,7 +172,7 @@ def read_toml(path):
 
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
-    if "Z" in document:
+    if any(key in document for key in OF_BEARINGS):
         raise UserError(
             f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it"
         )

@@ -21,11 +21,12 @@ from bearing_model.rivet.rivet_table import DEFAULT_TABLE
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 from riveted_bearing import Result, UserError, read_result, run, write_result
-from riveted_bearing.bearings import bearing_case, find_bearing, flat, shipped_bearings
+from riveted_bearing.bearings import KEYS, bearing_case, find_bearing, flat, is_bearing, shipped_bearings
 from riveted_bearing.builder import start_document
 from riveted_bearing.fmu import Instance, Model
 from riveted_bearing.report import render
 from riveted_bearing.results import FORMATS, to_toml, write_atomically
+from riveted_bearing.scene import SECTIONS
 from riveted_bearing.summary import rivet_rows, summary_rows, table_note
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -372,6 +373,22 @@ def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
     path.write_text("Z = 9\n" + path.read_text())
     said = command("info", path.name, folder=tmp_path).stdout
     assert "read as a scene" not in said and "73.14, 59.84, 18.46" in said
+
+
+@pytest.mark.parametrize("key", sorted(set(KEYS) - set(SECTIONS)))
+def test_any_key_of_a_bearing_file_makes_it_one(tmp_path, key):
+    """Without designation, Z and sizes too: what only a bearing file has is not an unknown key of a scene."""
+    path = tmp_path / "mine.toml"
+    path.write_text("Z = 8\n" if key == "Z" else 'designation = "6309"\n' if key == "designation" else f"[{key}]\n")
+    assert is_bearing(path)
+
+
+def test_info_reads_a_file_with_nothing_but_a_cage_material_as_a_bearing(tmp_path):
+    (tmp_path / "mine.toml").write_text('[cage]\nmaterial = "steel"\n')
+    done = command("info", "mine.toml", folder=tmp_path)
+    assert done.returncode == 0
+    assert "steel: E 210 GPa" in done.stdout
+    assert "of the 6207" in done.stdout  # whose balls and loads stand for what is not given
 
 
 def test_info_tells_what_speed_temperatures_and_fits_leave_of_the_clearance(tmp_path):

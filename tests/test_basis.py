@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from bearing_model.generated.variables import MeanStress
 from riveted_bearing import build, read_result, run
 from riveted_bearing.basis import basis
 from riveted_bearing.bearings import case_of, scene_case
@@ -21,7 +22,7 @@ from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import cards, interval_text, passes_text, percent, width_text, write_page
-from riveted_bearing.duty.sn import Strength, in_words
+from riveted_bearing.duty.sn import Strength, assumed, in_words
 from riveted_bearing.fmu import Model
 from riveted_bearing.life import FatigueLaw
 from riveted_bearing.matrices import quasi_static_matrices
@@ -168,16 +169,43 @@ def test_a_mission_that_names_a_scene_says_what_it_replaces(own, tmp_path):
     assert re.findall(r"<td>F_x 515 N, F_y 2994 N</td><td>(\d+) rev/min</td>", page) == ["18238", "9000"]
 
 
-def test_a_curve_of_which_nothing_is_given_is_assumed(model, tmp_path):
-    """A mission for the default FMU: nobody gave its S-N curve; a scene's parameter or a section [sn] is the user's
-    own.
+def test_the_curve_says_what_of_it_is_assumed(model, tmp_path):
+    """A mission for the default FMU: nobody gave its S-N curve; what a scene's parameter or a section [sn] leaves out
+    stays the 6207's, and is named where it makes a difference.
     """
     point = {"simulation": {"t_end": 0.06}, "point": [{"hours": 1.0}]}
-    curves = [
-        dict(plan_mission("m", point | more, model, tmp_path / "m.toml").basis)["S-N curve"]
-        for more in ({}, {"parameters": {"fatigue": {"sigma_D": "230 MPa"}}}, {"sn": {"sigma_D": "230 MPa"}})
-    ]
-    assert ["assumed" in curve for curve in curves] == [True, False, False]
+    whole = {"sigma_D": "230 MPa", "N_D": 2e6, "k_1": 8, "k_2": 15, "sigma_m": "785 MPa"}
+
+    def said(**more):
+        curve = dict(plan_mission("m", point | more, model, tmp_path / "m.toml").basis)["S-N curve"]
+        return curve.partition("MPa; ")[2]  # behind the mean stress's sigma_m, the last figure before it
+
+    def without(*names, **more):
+        return {name: value for name, value in whole.items() if name not in names} | more
+
+    paper = "assumed, as of the 6207's rivets (15CrMn)"
+    assert said() == paper
+    assert said(parameters={"fatigue": {"sigma_D": "230 MPa"}}) == f"N_D, k_1, k_2, sigma_m {paper}"
+    assert said(sn=without("sigma_m")) == f"sigma_m {paper}"
+    assert said(sn=without("sigma_m", "k_2", rule="haibach")) == f"sigma_m {paper}"
+    assert said(sn=whole) == "" and said(sn=without("k_2", rule="elementary")) == ""
+    assert said(sn=without("sigma_m"), parameters={"fatigue": {"sigma_m": "600 MPa"}}) == ""
+
+
+def test_what_of_a_curve_matters_and_what_follows():
+    """Goodman takes the strength, Morrow its own coefficient, a rough surface the strength as well; a table has no
+    slopes; a strength of one's own gives the rest by rule.
+    """
+    slopes = frozenset(f"fatigue.{name}" for name in ("N_D", "k_1", "k_2"))
+    given = Strength(FatigueLaw(), given=slopes | {"fatigue.sigma_D"})
+    paper = "assumed, as of the 6207's rivets (15CrMn)"
+    assert assumed(given) == f"; sigma_m {paper}" and assumed(given, ["fatigue.sigma_m"]) == ""
+    swt = replace(given, law=FatigueLaw(mean_stress=MeanStress.SWT))
+    assert assumed(swt) == "" and assumed(replace(swt, rough=True)) == f"; sigma_m {paper}"
+    assert assumed(replace(given, law=FatigueLaw(mean_stress=MeanStress.MORROW))) == f"; sigma_f {paper}"
+    assert assumed(Strength(swt.law, table=(np.array([1e8, 3e8]), np.array([1e7, 1e4])))) == ""
+    stronger = Strength(FatigueLaw(sigma_D=300e6, sigma_m=942e6), given=slopes)
+    assert assumed(stronger, ["fatigue.sigma_m"]) == "; sigma_D by rule from the strength"
 
 
 def test_what_a_scene_gives_does_not_follow_by_rule(fmu, monkeypatch):

@@ -289,6 +289,18 @@ def test_strength_follows_the_rivet_steel(tmp_path):
     assert own.values["fatigue.sigma_D"] == 200e6
 
 
+@pytest.mark.parametrize("name", names_for("rivet"))
+def test_endurance_follows_a_named_steels_other_strength(tmp_path, name):
+    """It keeps its ratio to the strength, of that steel and not of the 6207's; one's own stands."""
+    changed = case_of(tmp_path, f'[rivet]\nmaterial = "{name}"\nstrength = "600 MPa"\n')
+    ratio = library()[name]["endurance"][0] / library()[name]["strength"][0]
+    assert changed.values["fatigue.sigma_m"] == 600e6 and changed.origin["fatigue.sigma_m"] == "yours"
+    assert changed.values["fatigue.sigma_D"] == pytest.approx(ratio * 600e6, rel=1e-5)
+    assert changed.origin["fatigue.sigma_D"] == "rule"
+    own = case_of(tmp_path, f'[rivet]\nmaterial = "{name}"\nstrength = "600 MPa"\nendurance = "150 MPa"\n')
+    assert own.values["fatigue.sigma_D"] == 150e6 and own.origin["fatigue.sigma_D"] == "yours"
+
+
 def test_parts_have_the_oils_temperature(tmp_path):
     """Where the file gives the oil's alone; a part's own stands; without any the parts are at assembly temperature."""
     parts = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")

@@ -181,7 +181,10 @@ BAD_SCENES = [
         "[inputs]\nshaft.omega = 18238",
         ["inputs.shaft.omega = 18238", "174160 rev/min is out of range", "143239 rev/min"],
     ),
-    ("Z = 8", ["a bearing file, not a scene", "build --bearing"]),
+    *(
+        (text, ["a bearing file, not a scene", "build --bearing"])
+        for text in ("Z = 8", '[cage]\nmaterial = "steel"', "[catalogue]\nC = 3e4", '[rivet]\nhead = "DIN 660"')
+    ),
     (
         "[parameters]\njoint.preload = '20 mm'",
         ["parameters.joint.preload = '20 mm'", '"mm" does not fit', "allowed: N"],

@@ -52,12 +52,12 @@ from ..basis import basis, loads, speeds
 from ..errors import UserError, unknown
 from ..life import fatigue_law
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
-from ..summary import assumed_curve, given_names
+from ..summary import given_names
 from ..sweep import beside, count_of, key_of
 from ..units import scale, to_si
 from .history import binned, read_columns
 from .miner import Duty
-from .sn import in_words, read_strength
+from .sn import assumed, in_words, read_strength
 
 SECTIONS = (
     "description",
@@ -179,12 +179,13 @@ def plan_mission(name, document, model, path):
 
 
 def curves(path, document, scenes, model):
-    """The S-N curves of the scenes in words, and whether they are assumed."""
-    section = section_of(path, document, "sn")
-    laws = {scene_law(scene, model): "" if section else assumed_curve(given_names(model, scene)) for scene in scenes}
-    return "; ".join(
-        dict.fromkeys(f"{in_words(read_strength(path, section, law))}{assumed}" for law, assumed in laws.items())
-    )
+    """The S-N curves of the scenes in words, and what of them is assumed."""
+    section, found = section_of(path, document, "sn"), {}
+    for scene in scenes:
+        given = frozenset(name for name in given_names(model, scene) if name.startswith("fatigue."))
+        found[scene_law(scene, model), given] = None
+    strengths = ((read_strength(path, section, law), given) for law, given in found)
+    return "; ".join(dict.fromkeys(f"{in_words(strength)}{assumed(strength, given)}" for strength, given in strengths))
 
 
 def scene_law(scene, model):

@@ -22,7 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.generated.variables import MeanStress
+from bearing_model.generated.variables import PARAMETERS, MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 
 from ..errors import UserError, extra, unknown
@@ -38,13 +38,15 @@ FKM = {"R_z": METRE, "A_90": PLAIN, "A_90_specimen": PLAIN}
 RULES = ("knee", "haibach", "elementary", "original")
 KEYS = ("file", "unit", "rule", "mean_stress", *NUMBERS, *SCATTER, *FKM)
 FKM_STEEL = "Steel"
+OF_PAPER = "as of the 6207's rivets (15CrMn)"
 
 
 @dataclass(frozen=True)
 class Strength:
     """law: of the mean-stress correction and the curve before scatter and factors; rule: below the knee; T_S: scatter
     of strength; survival; factor: of strength by surface and size; table: (amplitude [Pa], cycles) instead of the
-    curve, or None.
+    curve, or None; given: names of what the section gives of the law, as parameters; rough: whether
+    the factor rests on the tensile strength.
     """
 
     law: FatigueLaw
@@ -53,6 +55,8 @@ class Strength:
     survival: float = 0.5
     factor: float = 1.0
     table: tuple | None = None
+    given: frozenset = frozenset()
+    rough: bool = False
 
 
 def read_strength(path, section, law):
@@ -92,7 +96,9 @@ def read_strength(path, section, law):
         raise refusal(
             where, "T_S" if "T_S" in numbers else "T_N", numbers.get("T_S", numbers.get("T_N")), "from 1 on is allowed"
         )
-    return Strength(law, rule, T_S, survival, surface_factor(numbers, law.sigma_m) * size_factor(numbers), table)
+    factor = surface_factor(numbers, law.sigma_m) * size_factor(numbers)
+    given = frozenset(f"fatigue.{key}" for key in NUMBERS if key in numbers)
+    return Strength(law, rule, T_S, survival, factor, table, given, "R_z" in numbers)
 
 
 def in_words(strength):
@@ -119,6 +125,34 @@ def below(strength):
     law = strength.law
     slopes = {"knee": law.k_2, "haibach": 2.0 * law.k_1 - 1.0, "elementary": law.k_1}
     return "no damage below" if strength.rule == "original" else f"{slopes[strength.rule]:g} below"
+
+
+def assumed(strength, given=()):
+    """What of an S-N curve nobody gave, to stand behind its words, "" for nothing: values of the 6207's rivets, and those
+    that follow from the strength.
+
+    given: names of parameters that a scene or the bearing's own file gives.
+    """
+    law, mean = strength.law, MeanStress(strength.law.mean_stress)
+    used = {  # name: whether it makes a difference
+        "sigma_D": strength.table is None,
+        "N_D": strength.table is None,
+        "k_1": strength.table is None,
+        "k_2": strength.table is None and strength.rule == "knee",
+        "sigma_m": mean == MeanStress.GOODMAN or strength.rough,
+        "sigma_f": mean == MeanStress.MORROW,
+    }
+    names = [name for name, matters in used.items() if matters]
+    missing = [name for name in names if f"fatigue.{name}" not in strength.given | set(given)]
+    of_paper = [name for name in missing if getattr(law, name) == PARAMETERS[f"fatigue.{name}"].start]
+    by_rule = [name for name in missing if name not in of_paper]
+    if of_paper and of_paper == names:
+        return f"; assumed, {OF_PAPER}"
+    return "".join(
+        f"; {', '.join(found)} {why}"
+        for found, why in ((of_paper, f"assumed, {OF_PAPER}"), (by_rule, "by rule from the strength"))
+        if found
+    )
 
 
 def with_file(path, where, section):
