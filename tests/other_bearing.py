@@ -16,7 +16,7 @@ BUILD = Path(os.environ["BEARING_BUILD"]).resolve() if "BEARING_BUILD" in os.env
 
 def install(build):
     """Makes the package that of the other bearing."""
-    import bearing_model
+    import bearing_model.generated
 
     spec = importlib.util.spec_from_file_location(
         "bearing_model.generated.variables", build / "generated" / "variables.py"

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{81dc8160-e68e-4016-50df-7ed4ec0a4b49}"
+MODEL_GUID = "{155b2455-eadc-9b40-c617-d8a93de506dd}"
 Z = 9
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{81dc8160-e68e-4016-50df-7ed4ec0a4b49}"  // digest of the table
+#define MODEL_GUID "{155b2455-eadc-9b40-c617-d8a93de506dd}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

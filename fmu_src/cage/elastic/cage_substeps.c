@@ -351,6 +351,8 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     memcpy(joints.u_z, fast->u_z, sizeof fast->u_z);
     memcpy(joints.rivet[0], fast->T, sizeof fast->T);
     memcpy(joints.N_plate, fast->N_plate, sizeof fast->N_plate);
+    memset(joints.pull_S, 0, sizeof joints.pull_S);  // coordinates beyond the half's modes are not written
+    memset(joints.pull_D, 0, sizeof joints.pull_D);
     memcpy(modes, fast->modes, sizeof modes);
     memcpy(rigid, fast->rigid, sizeof rigid);
     const double s = w->half[0].s;
