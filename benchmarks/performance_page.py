@@ -384,7 +384,6 @@ def scenes(data):
             *[percent(row["figures"][key]) for key in MODEL_FIGURES],
         ]
         for name, row in data["models"].items()
-        if name != "rigid cage"
     ]
     head = ["simpler model", "RTF/full", "force mean", "p99.9", "head stress RMS", "p99.9"]
     return f"""{origin(data)}. Working point, 1e-4 s communication steps, C interface.

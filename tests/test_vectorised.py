@@ -18,7 +18,7 @@ OBJECTS = ROOT / "build" / "CMakeFiles"
 REGISTER = {"sse2": "xmm", "avx2": "ymm", "avx512": "zmm"}
 # Least share of full-width packed instructions in the arithmetic; observed 0.954...0.973, 0.92...0.95, 0.97...0.99,
 # 0.45...0.68
-# The growth of the ring in race_contact and the prying in cage_joint are one number a bearing, and scalar.
+# The growth of the ring in race_contact is one number a bearing, and scalar.
 LEAST = {"race_contact": 0.95, "pocket": 0.85, "ball": 0.95, "cage_joint": 0.4}
 ARITHMETIC = re.compile(r"\sv?(?:add|sub|mul|div|sqrt|max|min|fn?m(?:add|sub)\d{3})([ps])d\s+(\S.*)$")
 

@@ -57,6 +57,7 @@ from bearing_model.generated.variables import (
     MODE_D_DOT,
     MODE_S,
     MODE_S_DOT,
+    RETIRED_ITEMS,
     CageModel,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
@@ -95,10 +96,8 @@ def cage_refusal(p, table):
     if p.scene.cage == CageModel.TWO_HALF:
         return None
     if p.scene.cage != CageModel.ELASTIC:
-        return (
-            "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes the same time, "
-            "and elastic (3)"
-        )
+        reason = RETIRED_ITEMS["CageModel"]["rigid"][1]
+        return f"scene.cage = 2: {reason}; allowed are two_half (1), elastic (3)"
     if table.modes is None:
         return "scene.cage = elastic: the rivet table has no vibration modes"
     return None

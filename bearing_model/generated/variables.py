@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{155b2455-eadc-9b40-c617-d8a93de506dd}"
+MODEL_GUID = "{2046afd8-5875-6928-3b38-233070a80f7d}"
 Z = 9
 
 
@@ -110,7 +110,7 @@ ASSUMPTIONS = {
 
 # Items of enumerations that are gone: number and reason by type and name.
 RETIRED_ITEMS = {
-    "CageModel": {"rigid": (2, "one rigid cage is no longer computed: two_half takes the same time and is truer"), },
+    "CageModel": {"rigid": (2, "one rigid cage is no longer computed: two_half (1) takes the same time and is truer"), },
 }
 
 # What to look at first: names by question.
@@ -285,7 +285,7 @@ PARAMETERS = {
         Variable("fatigue.sigma_m", 1705, "Real", "Pa", "MPa", 785000000.0, 1000000.0, 10000000000.0, 1, None, "Tensile strength (Goodman)", "assumed (15CrMn, quenched and tempered)"),
         Variable("fatigue.sigma_f", 1706, "Real", "Pa", "MPa", 1180000000.0, 1000000.0, 10000000000.0, 1, None, "Fatigue strength coefficient (Morrow)", "1.5 times the tensile strength (uniform material law)"),
         Variable("fatigue.mean_stress", 1707, "MeanStress", "1", None, 2, None, None, 1, None, "Mean-stress correction", "practice"),
-        Variable("scene.cage", 1801, "CageModel", "1", None, 3, None, None, 1, None, "Cage of two rigid halves, one rigid body, or two elastic halves", "measured: with rigid halves the 99.9 % head stress is 7 to 29 % too large, 62 % at 0.2 deg of tilt, its mean up to 11 % too small"),
+        Variable("scene.cage", 1801, "CageModel", "1", None, 3, None, None, 1, None, "Cage of two halves, rigid or elastic ones", "measured: with rigid halves the 99.9 % head stress is 7 to 29 % too large, 62 % at 0.2 deg of tilt, its mean up to 11 % too small"),
         Variable("scene.traction", 1802, "Traction", "1", None, 2, None, None, 1, None, "Traction at a point or over slices of the contact ellipse", "measured: one point for the whole ellipse leaves out spin: 99.9 % head stress +32 % in demo, +13 % in R and F, friction torque -30 % and -11 %"),
         Variable("scene.lubrication", 1803, "Lubrication", "1", None, 1, None, None, 1, None, "Full film or mixed lubrication", "default"),
         Variable("scene.stress", 1804, "Stress", "1", None, 3, None, None, 1, None, "When the rivet stress is computed", "default"),

@@ -8,9 +8,7 @@ const char *cage_refusal(const Parameters *p)
 {
     if (p->scene.cage == CAGE_MODEL_TWO_HALF) return NULL;
     if (p->scene.cage != CAGE_MODEL_ELASTIC)
-        return "scene.cage = 2: one rigid cage is no longer computed; allowed are two_half (1), which takes "
-               "the same "
-               "time, and elastic (3)";
+        return "scene.cage = 2: " CAGE_MODEL_RIGID_RETIRED "; allowed are two_half (1), elastic (3)";
     if (rivet_table.modes.modes == 0)
         return "scene.cage = elastic: the embedded rivet table has no vibration modes; build an FMU with a "
                "table by "

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{155b2455-eadc-9b40-c617-d8a93de506dd}"  // digest of the table
+#define MODEL_GUID "{2046afd8-5875-6928-3b38-233070a80f7d}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -34,6 +34,7 @@ enum {  // CageModel
     CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
     CAGE_MODEL_ELASTIC = 3,  // two elastic halves held by the rivets: vibration modes move the pockets' walls and load the joints
 };
+#define CAGE_MODEL_RIGID_RETIRED "one rigid cage is no longer computed: two_half (1) takes the same time and is truer"
 enum {  // Traction
     TRACTION_POINT = 1,  // one slip for the whole contact
     TRACTION_SLICED = 2,  // slip, spin and curvature in 12 slices over the contact ellipse
@@ -224,7 +225,7 @@ typedef struct {
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
-        int cage;  // CageModel: Cage of two rigid halves, one rigid body, or two elastic halves
+        int cage;  // CageModel: Cage of two halves, rigid or elastic ones
         int traction;  // Traction: Traction at a point or over slices of the contact ellipse
         int lubrication;  // Lubrication: Full film or mixed lubrication
         int stress;  // Stress: When the rivet stress is computed

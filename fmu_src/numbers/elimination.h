@@ -1,5 +1,5 @@
-// Small systems of linear equations: five velocities or displacements of the ring or of a rigid cage, three
-// of a joint or a half.
+// Small systems of linear equations: five velocities or displacements of the ring, three of a joint or of a
+// cage half.
 #pragma once
 
 #include "numbers/lanes.h"

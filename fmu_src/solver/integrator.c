@@ -1,13 +1,13 @@
-// Steps from communication point to communication point, by one of two one-step methods with the same error
-// weights:
+// Steps from communication point to communication point, by one of three methods:
 //
 //   verlet     the default: a linearly implicit trapezoidal rule, order two, one evaluation a step (verlet.c)
-//   explicit   classical Runge-Kutta 4(3), stepped by ARKODE: for tolerances below 2e-5, and as a check
+//   fixed      the same step in equal lengths without an error test, for hosts with a clock
+//   explicit   classical Runge-Kutta 4(3) with the error weights of verlet: for tolerances below 2e-5, and as a check
 //
 // Order, error estimate and step-size control are derived in docs/method.md; bearing_model/solver/verlet.py has the
-// control again.  ARKodeEvolve steps both methods, by a module of its own the default one (bearing_step.h), by ERKStep
-// the explicit one; their lengths come from a SUNAdaptController: of the explicit method from SUNDIALS' PID controller,
-// of the default one from step_estimate below.
+// control again.  ARKodeEvolve takes the steps of all methods: by ERKStep those of the explicit method, by a module of its
+// own those of the other two (bearing_step.h).  A SUNAdaptController proposes their lengths: SUNDIALS' PID controller those
+// of the explicit method, step_estimate below those of the default one.
 //
 // Determinism: an advance is a function of IntegratorState, model and t_stop alone, bit for bit, so that a
 // restored state and another instance go on alike.  For this ARKODE is reset at the start of every advance,

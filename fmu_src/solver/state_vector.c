@@ -100,7 +100,7 @@ static double vector_wrms_norm(N_Vector x, N_Vector w)
 static void vector_scale(sunrealtype c, N_Vector x, N_Vector z)
 {
     if (c == 1.0) {
-        if (x != z)
+        if (state_vector_data(x) != state_vector_data(z))  // vectors may show the same state
             memcpy(state_vector_data(z), state_vector_data(x),
                    sizeof(double) * (size_t)state_vector_length(z));
     } else {

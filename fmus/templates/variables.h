@@ -21,6 +21,9 @@ enum {  // {{ name }}
     {{ name | screaming }}_{{ item | upper }} = {{ entry.number }},  // {{ entry.text }}
 {% endfor %}
 };
+{% for item, entry in table.retired_items.get(name, {}).items() %}
+#define {{ name | screaming }}_{{ item | upper }}_RETIRED {{ entry[1] | quoted }}
+{% endfor %}
 {% endfor %}
 
 {% macro struct(name, causalities, real_type) %}
