@@ -129,7 +129,8 @@ static void *function(const Unit *unit, const char *name)
 static void set(const Unit *unit, const char *name, double value)
 {
     const fmi2ValueReference vr = reference(unit, name);
-    const char *at = variable(unit, name), *end = strstr(at, "</ScalarVariable>"), *real = strstr(at, "<Real");
+    const char *at = variable(unit, name), *end = strstr(at, "</ScalarVariable>"),
+               *real = strstr(at, "<Real");
     const fmi2Integer number = (fmi2Integer)lround(value);
     const fmi2Status status = real && real < end ? unit->set_real(unit->instance, &vr, 1, &value)
                                                  : unit->set_integer(unit->instance, &vr, 1, &number);
@@ -186,7 +187,8 @@ static double now(void)
 static void sleep_until(double time)
 {
     const struct timespec at = {(time_t)time, (long)(1e9 * (time - floor(time)))};
-    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL) == EINTR) {}
+    while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &at, NULL) == EINTR) {
+    }
 }
 
 // Instructions of this thread; -1 where the system does not count them.
@@ -214,12 +216,15 @@ static unsigned long long count(int counter)
 static void become_urgent(void)
 {
     const struct sched_param priority = {.sched_priority = 80};
-    const int fifo = sched_setscheduler(0, SCHED_FIFO, &priority), locked = mlockall(MCL_CURRENT | MCL_FUTURE);
-    printf("SCHED_FIFO %s, memory %s\n", fifo == 0 ? "on" : "not allowed", locked == 0 ? "locked" : "not locked");
+    const int fifo = sched_setscheduler(0, SCHED_FIFO, &priority),
+              locked = mlockall(MCL_CURRENT | MCL_FUTURE);
+    printf("SCHED_FIFO %s, memory %s\n", fifo == 0 ? "on" : "not allowed",
+           locked == 0 ? "locked" : "not locked");
 }
 
 // ---- the loop ---------------------------------------------------------------------------------------------
-static void add(Record *record, double step, double took, double started_late, unsigned long long instructions)
+static void add(Record *record, double step, double took, double started_late,
+                unsigned long long instructions)
 {
     const int bin = took > 0.0 ? (int)floor(2.0 * log2(16.0 * took / step)) : 0;
     record->histogram[bin < 0 ? 0 : bin < BINS ? bin : BINS - 1]++;
@@ -269,12 +274,14 @@ static Record run(const Unit *unit, double step, double seconds, int counter)
 
 static void show(const char *title, const Record *record, double step)
 {
-    printf("\n%s: %ld steps, mean %.1f us, worst %.1f us of %.1f us, late %ld (%.3g %%), begun %.1f us late at most\n",
-           title, record->steps, 1e6 * record->sum / record->steps, 1e6 * record->worst, 1e6 * step, record->late,
-           100.0 * record->late / record->steps, 1e6 * record->latest_start);
+    printf("\n%s: %ld steps, mean %.1f us, worst %.1f us of %.1f us, late %ld (%.3g %%), begun %.1f us late "
+           "at most\n",
+           title, record->steps, 1e6 * record->sum / record->steps, 1e6 * record->worst, 1e6 * step,
+           record->late, 100.0 * record->late / record->steps, 1e6 * record->latest_start);
     if (record->instructions > 0) {
         const double mean = (double)record->instructions / record->steps;
-        printf("instructions a step: mean %.0f, most %.2f times that\n", mean, record->most_instructions / mean);
+        printf("instructions a step: mean %.0f, most %.2f times that\n", mean,
+               record->most_instructions / mean);
     }
     long most = 1;
     for (int i = 0; i < BINS; i++) most = record->histogram[i] > most ? record->histogram[i] : most;
@@ -304,7 +311,8 @@ int main(int argc, char **argv)
         else
             stop("%s: unknown", argv[i]);
     }
-    if (!(step > 0.0) || !(seconds >= step)) stop("--step %g --seconds %g: a step above 0, no longer than the run", step, seconds);
+    if (!(step > 0.0) || !(seconds >= step))
+        stop("--step %g --seconds %g: a step above 0, no longer than the run", step, seconds);
     const double begin = now();
     const Unit unit = load(argv[1], count_of_settings, settings);
     printf("start of the unit: %.1f ms\n", 1e3 * (now() - begin));

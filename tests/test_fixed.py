@@ -1,0 +1,115 @@
+"""solver.method = fixed: equal steps, one evaluation each, order two, whole impulses; a host that runs it against the
+clock.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import zipfile
+from pathlib import Path
+
+import fmpy
+import numpy as np
+import pytest
+from library import ROOT
+from mechanics import Instance, Z
+
+from bearing_model.generated.variables import CageModel, Method
+
+pytestmark = pytest.mark.c_only
+FIXED = {"solver.method": Method.FIXED}
+# balls and cage that meet nowhere: a smooth motion
+SMOOTH = {"cage.pocket_clearance": 4e-4, "start.spacing": 0.0}
+
+
+@pytest.mark.parametrize("cage", CageModel)
+@pytest.mark.parametrize("step", [3e-6, 7e-6])
+def test_every_step_costs_one_evaluation(core, cage, step):
+    """A communication step has the fewest whole steps of at most `step`, each with one evaluation; the start has one."""
+    bearing = Instance(core, FIXED | {"scene.cage": cage, "solver.step": step})
+    steps = int(np.ceil(1e-4 / step * (1.0 - 1e-9)))
+    assert steps in (34, 15)
+    before = bearing.step(1e-4).output("solver.rhs_evals")
+    for n in range(2, 11):
+        bearing.step(n * 1e-4)
+        assert bearing.output("solver.rhs_evals") == before + (n - 1) * steps
+    assert bearing.output("solver.steps") == 10 * steps
+    assert before == pytest.approx(steps, abs=1)
+
+
+def test_the_length_is_the_cages_where_none_is_given(core):
+    """10 us for rigid halves; for elastic ones at most three substeps of 3.2 us."""
+    lengths = {cage: Instance(core, FIXED | {"scene.cage": cage}).output("solver.step_size") for cage in CageModel}
+    assert lengths[CageModel.TWO_HALF] == pytest.approx(1e-5)
+    assert 6e-6 < lengths[CageModel.ELASTIC] <= 1e-5
+
+
+def test_order_two(core, record_property):
+    """Positions of a smooth motion over 0.4 ms beside Runge-Kutta's at 1e-9: an eighth of the length leaves a 64th of the
+    error; a rule of order one would leave an eighth.
+    """
+
+    def places(settings, tolerance=1e-9):
+        bearing = Instance(core, SMOOTH | settings, tolerance=tolerance)
+        for n in range(1, 5):
+            bearing.set(**{"shaft.F_y": 3000.0, "shaft.F_x": 800.0})
+            bearing.step(n * 1e-4)
+        return np.concatenate([bearing.output(f"ball.{name}") for name in ("x", "r", "psi")])
+
+    exact = places({"solver.method": Method.EXPLICIT})
+    error = [np.abs(places(FIXED | {"solver.step": step}) - exact).max() for step in (8e-6, 1e-6)]
+    slope = np.log(error[0] / error[1]) / np.log(8.0)
+    record_property("slope", float(slope))
+    assert slope == pytest.approx(2.0, abs=0.2)
+
+
+@pytest.mark.parametrize("step", [7e-6, 3e-4, 2.5e-3])
+def test_steps_have_the_whole_impulse(core, step):
+    """The means over all steps add up to 2 F tau/pi of each half sine, however the steps lie, and whatever they skip."""
+    F, tau, count = 1401.0, 1e-3, 3
+    pulses = {"pulse.F_r": F, "pulse.F_a": 0.5 * F, "pulse.t_start": 1e-3, "pulse.duration": tau, "pulse.count": count}
+    model, trajectory = core.model(parameters=pulses), core.new("InputTrajectory")
+    total = np.zeros(2)
+    for n in range(int(0.02 / step) + 1):
+        trajectory.pulse_r = trajectory.pulse_a = 0.0
+        core.lib.pulse_average(model.p, (n + 0.5) * step, 0.5 * step, trajectory)
+        total += step * np.array([trajectory.pulse_r, trajectory.pulse_a])
+    assert total == pytest.approx(count * 2.0 * F * tau / np.pi * np.array([1.0, 0.5]), rel=1e-9)
+
+
+def test_the_ring_feels_the_impulse(core):
+    """A pulse much shorter than a step moves a ring without balls' load by its impulse: m v = 2 F tau/pi."""
+    m, F, tau = 50.0, 1000.0, 1e-6
+    free = {"ring.m": m, "bearing.P_d": 2e-3, "pulse.F_r": F, "pulse.duration": tau, "pulse.t_start": 3e-4}
+    free |= {"pulse.count": 1, "ring.c": 0.0, "solver.step": 1e-5}
+    speeds = []
+    for change in ({"pulse.F_r": 0.0}, {}):
+        bearing = Instance(core, FIXED | SMOOTH | free | change, {"shaft.F_y": 0.0, "shaft.F_x": 0.0})
+        for n in range(1, 6):
+            bearing.step(n * 1e-4)
+        speeds.append(np.hypot(bearing.output("ring.v_y"), bearing.output("ring.v_z")))
+    assert abs(speeds[1] - speeds[0]) == pytest.approx(2.0 * F * tau / np.pi / m, rel=0.05)
+
+
+def test_a_step_out_of_its_limits_is_refused_by_name(core):
+    with pytest.raises(ValueError, match="solver.step = 0.002 s is not allowed"):
+        Instance(core, FIXED | {"solver.step": 2e-3})
+
+
+def test_the_host_runs_the_unit_against_the_clock(fmu, tmp_path):
+    """examples/real_time/host.c, as its head says to compile and start it."""
+    compiler = shutil.which("cc")
+    if compiler is None:
+        pytest.skip("no C compiler")
+    zipfile.ZipFile(fmu).extractall(tmp_path / "unit")
+    command = [compiler, "-O2", f"-I{Path(fmpy.__file__).parent / 'c-code'}", ROOT / "examples/real_time/host.c"]
+    subprocess.run([*map(str, command), "-ldl", "-lm", "-o", str(tmp_path / "host")], check=True)
+    options = ["--step", "1e-3", "--seconds", "0.2", "--set", "solver.method=3", "--set", "scene.cage=1"]
+    done = subprocess.run(
+        [str(tmp_path / "host"), str(tmp_path / "unit"), *options],
+        capture_output=True, text=True, timeout=60, check=False, env=os.environ,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert len(re.findall(r": 200 steps, mean", done.stdout)) == 2, done.stdout
+    assert Z == 9
