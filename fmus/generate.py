@@ -132,6 +132,7 @@ class Table:
     # by parameter: usual range as factors of its value, share of the stress that goes with it, and the source
     assumptions: dict
     origin: dict  # where the values of another bearing come from, by name
+    catalogue: dict  # its boundary dimensions and load ratings, which are no variables
     essentials: dict  # names by question
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
 
@@ -182,6 +183,7 @@ def load_table(bearing=None, path=None):
         *layout,
         raw.get("assumptions", {}),
         changes.get("origin", {}),
+        changes.get("catalogue", {}),
         raw.get("essentials", {}),
         tuple(states[n_plain:]),
     )
@@ -414,7 +416,8 @@ def add_origin(root, table):
     tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
     values = etree.SubElement(tool, "Origin")
     for name, origin in table.origin.items():
-        etree.SubElement(values, "Value", name=name, origin=origin)
+        value = {"value": repr(table.catalogue[name])} if name in table.catalogue else {}
+        etree.SubElement(values, "Value", name=name, origin=origin, **value)
 
 
 def add_variables(root, table):

@@ -33,14 +33,15 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, materials, rivet_heads, scaling
+from . import catalogue, limits, materials, oil, rivet_heads, scaling
 from .errors import UserError, unknown
-from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
+from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
-CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
+BOUNDARY = ("bore", "outside_diameter", "width")
+CATALOGUE = (*BOUNDARY, "C", "C_0")
 # a bearing's own
 CAGE_SIZES = (
     "Z",
@@ -206,7 +207,7 @@ def is_bearing(source):
     """Whether a name or file means a bearing, not a scene."""
     if str(source) in known_bearings() or str(source) in shipped_scenes():
         return str(source) in known_bearings()
-    return Path(source).is_file() and {"Z", "designation", "catalogue", "rivet"} & set(read_toml(Path(source))) != set()
+    return Path(source).is_file() and bool(OF_BEARINGS & set(read_toml(Path(source))))
 
 
 def bearing_case(source, rivet=None):
@@ -265,9 +266,12 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
     parameters = scaling.parameters_of(Z or (catalogue.balls(entry)[0] if entry else variables.Z))
     data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
+    check_boundary(path, document, data, entry)
     given = dict(start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), parameters))
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
+    oil.check_pair(path, given, written)
+    oil.check_given(path, given, written, {name: v.start for name, v in parameters.items()} | given)
     found = {
         part: materials.material_of(path, part, material_section(path, document, part), given, written)
         for part in materials.PARTS
@@ -284,7 +288,8 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     data |= by_catalogue | rated
     parts = Z, given, sizes | steel, inputs, data, entry
     all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(*parts)
-    origin |= dict.fromkeys(by_catalogue, "catalogue") | dict.fromkeys(rated, "rule")
+    ruled = [materials.PARTS[part].parameters[key] for part, material in found.items() for key in material.ruled]
+    origin |= dict.fromkeys(by_catalogue, "catalogue") | dict.fromkeys([*rated, *ruled], "rule")
     origin |= dict.fromkeys(
         [
             name
@@ -312,6 +317,20 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         found,
         bare,
     )
+
+
+def check_boundary(path, document, data, entry):
+    """UserError for a boundary dimension that is another one than the catalogue's of the designation, from which the
+    pitch circle follows; load ratings differ between makers.
+    """
+    for key in BOUNDARY:
+        if entry and key in data and not math.isclose(data[key], entry.data[key], rel_tol=1e-6):
+            written = document["catalogue"][key]
+            allowed = shown(f"catalogue.{key}", entry.data[key], written)
+            reason = (
+                f"{allowed} is allowed, of the {entry.designation} ({catalogue.SOURCE}); leave designation or {key} out"
+            )
+            raise refusal(path, f"catalogue.{key}", written, reason)
 
 
 def ratings(Z, given, entry):
@@ -374,6 +393,8 @@ def rules(Z, given, rivet, inputs, data, entry):
         parameters = scaling.scaled_parameters(Z, D, d_m, given, whole, data.get("bore"), data.get("width"))
         if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
             parameters["bearing.P_d"] = P_d
+        seats = {"ring.bore": "bore", "ring.outside": "outside_diameter"}
+        parameters |= {name: data[key] for name, key in seats.items() if key in data}
         parameters["cage.material"] = materials.PARTS["cage"].material
         by_rule = scaling.scaled_inputs(Z, D, d_m, inputs, data.get("C"))
     else:
@@ -382,7 +403,10 @@ def rules(Z, given, rivet, inputs, data, entry):
         parameters = {name: value for name, value in parameters.items() if value != scaling.start(name)}
         rivet_by_rule = {name: value for name, value in rivet_by_rule.items() if value != RIVET[name]}
         by_rule = {}
-    parameters |= scaling.scaled_materials(given)
+    parameters |= scaling.scaled_materials(given) | scaling.oil_by_points(given)
+    settle = scaling.settling((by_rule | inputs).get("shaft.omega", variables.INPUTS["shaft.omega"].start))
+    if settle != scaling.start("start.settle"):
+        parameters["start.settle"] = settle
     if Z != variables.Z or own_shape:
         parameters["scene.modes"] = scaling.modes(Z)
     return (
@@ -612,7 +636,7 @@ def scene_case(source, model):
     ]
     designation = model.bearing.partition(". ")[0].partition(":")[0]
     entry = catalogue.entries().get(designation) if model.origin.get("C") == "catalogue" else None
-    data = known[0].catalogue if known else entry.data if entry else {}
+    data = model.catalogue or (known[0].catalogue if known else entry.data if entry else {})
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
     return Case(

@@ -161,7 +161,12 @@ def start_document(case, path):
     table, sections = read_table(path, case.Z), {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
-    return {"Z": case.Z, "description": fmu_description(case, table), "origin": case.origin} | start
+    return {
+        "Z": case.Z,
+        "description": fmu_description(case, table),
+        "origin": case.origin,
+        "catalogue": case.catalogue,
+    } | start
 
 
 def cage_of(case, table):

@@ -95,13 +95,14 @@ PARTS = {
 @dataclass(frozen=True)
 class Material:
     """Name and properties of one part's material [SI]; sources: in words, by property; given: the properties that the
-    bearing file decides, all if it names the material.
+    bearing file decides, all if it names the material; ruled: those of them that follow from others by rule.
     """
 
     name: str
     values: dict
     sources: dict
     given: tuple = ()
+    ruled: tuple = ()
 
     def with_density(self, density):
         """The same with another density, which a given mass means [kg/m3]."""
@@ -174,8 +175,13 @@ def material_of(path, part, section, given, as_written):
         raise refusal(path, f"{part}.{key}", written.get(key, own[key]), reason)
     name = where.material if chosen is None else found_name(part, chosen) if isinstance(chosen, str) else OWN
     source = section.get("source", "the bearing file")
-    values |= own
-    return Material(name, values, sources | dict.fromkeys(own, source), tuple(own if chosen is None else values))
+    sources |= dict.fromkeys(own, source)
+    ruled = {}
+    if chosen is not None and {*OPTIONAL} <= values.keys() and {*OPTIONAL} & own.keys() == {"strength"}:
+        ruled["endurance"] = values["endurance"] * own["strength"] / values["strength"]
+        sources["endurance"] = "rule: the material's share of the strength"
+    values |= own | ruled
+    return Material(name, values, sources, tuple(own if chosen is None else values), tuple(ruled))
 
 
 def only_one(path, key, value, other, other_value, written=None, other_written=None):

@@ -14,13 +14,12 @@ from bearing_model.generated import variables
 from . import charts, plot
 from .animation import frames, number_of_balls
 from .design.bench import display_of
-from .duty.sn import Strength, in_words
+from .duty.sn import Strength, assumed, in_words
 from .errors import UserError
 from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
-    assumed_curve,
     assumed_rows,
     columns,
     early_rows,
@@ -101,9 +100,7 @@ def render(result, decides=None):
         rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
         early=[] if has_statistics(result) else list(early_rows(result)),
         no_statistics=no_statistics(result),
-        curve=in_words(Strength(fatigue_law(result.parameters))) + assumed_curve(result.about.get("given", ()))
-        if lives
-        else "",
+        curve=curve(result) if lives else "",
         balls=list(ball_rows(result)),
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
@@ -121,6 +118,12 @@ def render(result, decides=None):
         figure=figure,
         duration=duration,
     )
+
+
+def curve(result):
+    """The S-N curve in words, with what of it is assumed."""
+    strength = Strength(fatigue_law(result.parameters))
+    return in_words(strength) + assumed(strength, {*result.about.get("given", ()), *result.about.get("ruled", ())})
 
 
 def ball_channels(*names):

@@ -16,7 +16,7 @@ from .fmu import Instance
 from .interrupts import held_interrupts
 from .record import Record
 from .results import Result
-from .summary import given_names
+from .summary import given_names, ruled_names
 from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
@@ -153,6 +153,7 @@ def provenance(model, scene):
         },
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
+        "ruled": sorted(ruled_names(model)),
         "not_given": not_given(
             {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}
         ),

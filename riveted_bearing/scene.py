@@ -28,11 +28,13 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import UserError, shortlist, unknown
+from .errors import UserError, refusal, shortlist, unknown
+from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs")
+OF_BEARINGS = {"Z", "designation", "catalogue", "cage", "rings", "balls", "rivet"}  # keys of bearing files alone
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation")
@@ -171,7 +173,7 @@ def read_toml(path):
 
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
-    if "Z" in document:
+    if OF_BEARINGS & set(document):
         raise UserError(
             f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it"
         )
@@ -195,10 +197,13 @@ def apply(scene, where, document, model, folder):
         for kind in ("parameters", "inputs")
         for name, value in leaves(sections[kind], model.parameters | model.inputs)
     }
+    own = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
+    texts = dict(leaves(sections["parameters"], model.parameters))
+    check_given(where, parameters, texts, own | scene.parameters | parameters)
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
-        parameters=scene.parameters | parameters,
+        parameters=merged(scene.parameters, parameters, own),
         inputs=scene.inputs | inputs,
         units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
         **read_simulation(where, sections["simulation"], model),
@@ -405,8 +410,3 @@ def check_times(scene, where):
             scene.output_interval or scene.step,
             f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval",
         )
-
-
-def refusal(where, key, value, reason):
-    """The error for a value that cannot be used."""
-    return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")

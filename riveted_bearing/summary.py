@@ -222,13 +222,11 @@ def assumed_ranges(model, scene=None):
     }
 
 
-def assumed_curve(given):
-    """What an S-N curve is of which nothing is given, neither by a scene nor by the rivets' material, to stand behind
-    its words; "" for another one.
-    """
-    return "" if any(name.startswith("fatigue.") for name in given) else "; assumed, as of the 6207's rivets (15CrMn)"
-
-
 def given_names(model, scene=None):
     """Names of the parameters that a scene or the bearing's own file gives."""
     return {*(scene.parameters if scene else ()), *(name for name, origin in model.origin.items() if origin == "yours")}
+
+
+def ruled_names(model):
+    """Names of the parameters that follow from the bearing's file by rule."""
+    return {name for name, origin in model.origin.items() if origin == "rule"}

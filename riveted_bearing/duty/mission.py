@@ -52,12 +52,12 @@ from ..basis import basis, loads, speeds
 from ..errors import UserError, unknown
 from ..life import fatigue_law
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
-from ..summary import assumed_curve, given_names
+from ..summary import given_names, ruled_names
 from ..sweep import beside, count_of, key_of
 from ..units import scale, to_si
 from .history import binned, read_columns
 from .miner import Duty
-from .sn import in_words, read_strength
+from .sn import assumed, in_words, read_strength
 
 SECTIONS = (
     "description",
@@ -180,11 +180,11 @@ def plan_mission(name, document, model, path):
 
 def curves(path, document, scenes, model):
     """The S-N curves of the scenes in words, and whether they are assumed."""
-    section = section_of(path, document, "sn")
-    laws = {scene_law(scene, model): "" if section else assumed_curve(given_names(model, scene)) for scene in scenes}
-    return "; ".join(
-        dict.fromkeys(f"{in_words(read_strength(path, section, law))}{assumed}" for law, assumed in laws.items())
-    )
+    section, texts = section_of(path, document, "sn"), {}
+    for scene in scenes:
+        strength = read_strength(path, section, scene_law(scene, model))
+        texts[in_words(strength) + assumed(strength, given_names(model, scene) | ruled_names(model))] = None
+    return "; ".join(texts)
 
 
 def scene_law(scene, model):

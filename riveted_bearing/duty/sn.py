@@ -44,7 +44,7 @@ FKM_STEEL = "Steel"
 class Strength:
     """law: of the mean-stress correction and the curve before scatter and factors; rule: below the knee; T_S: scatter
     of strength; survival; factor: of strength by surface and size; table: (amplitude [Pa], cycles) instead of the
-    curve, or None.
+    curve, or None; own: keys of NUMBERS that the section [sn] gives.
     """
 
     law: FatigueLaw
@@ -53,6 +53,7 @@ class Strength:
     survival: float = 0.5
     factor: float = 1.0
     table: tuple | None = None
+    own: tuple = ()
 
 
 def read_strength(path, section, law):
@@ -92,7 +93,8 @@ def read_strength(path, section, law):
         raise refusal(
             where, "T_S" if "T_S" in numbers else "T_N", numbers.get("T_S", numbers.get("T_N")), "from 1 on is allowed"
         )
-    return Strength(law, rule, T_S, survival, surface_factor(numbers, law.sigma_m) * size_factor(numbers), table)
+    factor = surface_factor(numbers, law.sigma_m) * size_factor(numbers)
+    return Strength(law, rule, T_S, survival, factor, table, tuple(key for key in NUMBERS if key in numbers))
 
 
 def in_words(strength):
@@ -112,6 +114,24 @@ def in_words(strength):
     scatter = f", T_S {strength.T_S:.3g}, survival {100 * strength.survival:.4g} %" if strength.T_S > 1.0 else ""
     factor = f", factor of surface and size {strength.factor:.3g}" if strength.factor != 1.0 else ""
     return f"{curve}; mean stress: {mean}{limit}{scatter}{factor}"
+
+
+def used(strength):
+    """Names of the curve's constants that the damage rests on."""
+    names = () if strength.table else ("sigma_D", "N_D", "k_1", *(("k_2",) if strength.rule == "knee" else ()))
+    by_mean = {MeanStress.GOODMAN: "sigma_m", MeanStress.MORROW: "sigma_f"}.get(strength.law.mean_stress)
+    by_surface = "sigma_m" if strength.factor != 1.0 else None
+    return tuple(dict.fromkeys(filter(None, (*names, by_mean, by_surface))))
+
+
+def assumed(strength, given):
+    """Which constants of a curve nobody gave, to stand behind its words; "" for none.
+
+    given: names of the FMU's parameters that a scene or the bearing's file gives, or that follow from these by rule.
+    """
+    names = [name for name in used(strength) if name not in strength.own and f"fatigue.{name}" not in given]
+    which = "" if len(names) == len(used(strength)) else f"{', '.join(names)} "
+    return f"; {which}assumed, as of the 6207's rivets (15CrMn)" if names else ""
 
 
 def below(strength):
