@@ -302,9 +302,8 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         known = {*([] if Z is None else ["Z"]), *given, *inputs, *inputs_by_rule}
         origin |= dict.fromkeys((name for name in OF_EXAMPLE if name not in known), EXAMPLE)
     values = defaults() | by_rule | inputs_by_rule | given | inputs
-    check_limits(
-        path, document, parts, lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
-    )
+    inside = "" if prefix else in_cage(designation)
+    check_limits(path, document, parts, lambda name: called(name, prefix), inside)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     return Case(
         designation,
@@ -331,6 +330,11 @@ def check_boundary(path, document, data, entry):
                 f"{allowed} is allowed, of the {entry.designation} ({catalogue.SOURCE}); leave designation or {key} out"
             )
             raise refusal(path, f"catalogue.{key}", written, reason)
+
+
+def called(name, prefix):
+    """What a file calls a value that belongs to the rivet, or to the bearing."""
+    return prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
 
 
 def ratings(Z, given, entry):
@@ -429,11 +433,16 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     )
 
 
-def check_limits(path, document, parts, called=lambda name: name):
+def in_cage(designation):
+    """In whose cage a rivet's file does not fit, to stand behind a refusal."""
+    return f", in the cage of the {designation}; --bearing names another one"
+
+
+def check_limits(path, document, parts, names=lambda name: name, inside=""):
     """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
 
-    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; called: how the file calls
-    a value, if otherwise than a bearing file does.
+    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; names: how the file calls
+    a value, if otherwise than a bearing file does; inside: in_cage of a rivet's file.
     """
     values = limited_values(*parts)
     broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
@@ -452,13 +461,11 @@ def check_limits(path, document, parts, called=lambda name: name):
         if allowed:
             words, number = allowed
             others = ", ".join(
-                f"{called(name)} = {shown(name, values[name], written.get(name))}"
-                for name in broken.keys
-                if name != key
+                f"{names(name)} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key
             )
-            reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}"
-            raise refusal(path, called(key), written.get(key, values[key]), reason)
-    raise refusal(path, called(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}")
+            reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}{inside}"
+            raise refusal(path, names(key), written.get(key, values[key]), reason)
+    raise refusal(path, names(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}{inside}")
 
 
 def changed(parts, key, value):

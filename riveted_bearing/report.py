@@ -20,12 +20,15 @@ from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
+    assumed_as_bronze,
     assumed_rows,
     columns,
     early_rows,
+    flag_note,
     has_statistics,
     life_is_known,
     no_statistics,
+    settle_note,
     settled,
     summary_rows,
     table_note,
@@ -110,6 +113,8 @@ def render(result, decides=None):
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
+        as_bronze=assumed_as_bronze(result),
+        settle_note=settle_note(result),
         decides=decides,
         display_of=display_of,
         life_is_known=life_is_known(result),
@@ -243,8 +248,8 @@ def cards(result, lives):
                 f"largest since the start · {figure(last)} at the end",
             )
     for channel, title in (
-        ("head stress, worst rivet", "Head stress"),
-        ("middle stress, worst rivet", "Middle stress"),
+        ("head stress, worst rivet at each instant", "Head stress"),
+        ("middle stress, worst rivet at each instant", "Middle stress"),
         ("pocket force, all balls", "Pocket force"),
     ):
         if channel in rows:
@@ -392,11 +397,8 @@ def solver_rows(result):
             if count
         ]
         yield "onsets of events", ", ".join(seen) or "none"
-    flags = columns(result, "rivet[", "].flag")
-    if flags:
-        seen = np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))
-        meanings = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}
-        yield "flags of the rivets", ", ".join(text for bit, text in meanings.items() if seen & bit) or "none"
+    if columns(result, "rivet[", "].flag"):
+        yield "flags of the rivets", flag_note(result).partition(": ")[2] or "none"
 
 
 def figure(value):

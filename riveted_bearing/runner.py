@@ -139,12 +139,24 @@ def vibrations(model, parameters):
     return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"][:kept]]}
 
 
+def settle_turns(model, scene):
+    """Revolutions of the shaft against the housing before statistics begin."""
+    settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+    t = np.linspace(0.0, min(settle, scene.t_end), 101)
+    inner, outer = (
+        scene.inputs[name](t) if name in scene.inputs else model.default(model.inputs[name])
+        for name in ("shaft.omega", "housing.omega")
+    )
+    return float(np.mean(np.abs(inner - outer)) * t[-1] / (2.0 * np.pi))
+
+
 def provenance(model, scene):
     """Origin of a result: scene, inputs, FMU, versions, machine, date."""
     return {
         "scene": scene.name,
         "description": scene.description,
         "t_end": scene.t_end,
+        "settle_turns": settle_turns(model, scene),
         "step": scene.step,
         "inputs": {
             name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold}

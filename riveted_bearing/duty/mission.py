@@ -125,7 +125,9 @@ class Case:
 
 @dataclass(frozen=True)
 class Mission:
-    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on."""
+    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
+    whether its points have shares of a time that is not given.
+    """
 
     name: str
     description: str
@@ -137,6 +139,7 @@ class Mission:
     hours: float
     settings: dict
     basis: tuple
+    shares: bool = False
 
 
 def load_mission(path, model):
@@ -175,16 +178,16 @@ def plan_mission(name, document, model, path):
         hours,
         settings,
         rows,
+        any("share" in block for block in tables(path, document, "point")),
     )
 
 
 def curves(path, document, scenes, model):
     """The S-N curves of the scenes in words, and whether they are assumed."""
-    section, texts = section_of(path, document, "sn"), {}
-    for scene in scenes:
-        strength = read_strength(path, section, scene_law(scene, model))
-        texts[in_words(strength) + assumed(strength, given_names(model, scene) | ruled_names(model))] = None
-    return "; ".join(texts)
+    section, ruled = section_of(path, document, "sn"), ruled_names(model)
+    laws = {scene_law(scene, model): given_names(model, scene) | ruled for scene in scenes}
+    strengths = {law: read_strength(path, section, law) for law in laws}
+    return "; ".join(dict.fromkeys(in_words(s) + assumed(s, laws[law]) for law, s in strengths.items()))
 
 
 def scene_law(scene, model):
