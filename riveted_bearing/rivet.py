@@ -22,7 +22,7 @@ from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
-from .bearings import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, is_number, unit_scales
+from .bearings import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, in_cage, is_number, unit_scales
 from .errors import UserError
 from .results import make_folder, write_atomically
 from .scene import positive, read_toml, refusal

@@ -169,15 +169,22 @@ def test_a_mission_that_names_a_scene_says_what_it_replaces(own, tmp_path):
 
 
 def test_a_curve_of_which_nothing_is_given_is_assumed(model, tmp_path):
-    """A mission for the default FMU: nobody gave its S-N curve; a scene's parameter or a section [sn] is the user's
-    own.
+    """A mission for the default FMU: nobody gave its S-N curve; a scene's parameter or a section [sn] gives some of it,
+    and the rest is named.
     """
     point = {"simulation": {"t_end": 0.06}, "point": [{"hours": 1.0}]}
     curves = [
         dict(plan_mission("m", point | more, model, tmp_path / "m.toml").basis)["S-N curve"]
-        for more in ({}, {"parameters": {"fatigue": {"sigma_D": "230 MPa"}}}, {"sn": {"sigma_D": "230 MPa"}})
+        for more in (
+            {},
+            {"parameters": {"fatigue": {"sigma_D": "230 MPa"}}},
+            {"sn": {"sigma_D": "230 MPa", "N_D": 1e6, "k_1": 7, "rule": "haibach"}},
+            {"sn": {"sigma_D": "230 MPa", "N_D": 1e6, "k_1": 7, "rule": "haibach", "sigma_m": "700 MPa"}},
+        )
     ]
-    assert ["assumed" in curve for curve in curves] == [True, False, False]
+    words = [curve.partition("; mean stress")[2].partition("; ")[2] for curve in curves]
+    of_6207 = "assumed, as of the 6207's rivets (15CrMn)"
+    assert words == [of_6207, f"N_D, k_1, k_2, sigma_m {of_6207}", f"sigma_m {of_6207}", ""]
 
 
 def test_what_a_scene_gives_does_not_follow_by_rule(fmu, monkeypatch):
@@ -225,7 +232,11 @@ def test_info_is_of_the_fmu_that_is_named(own):
 @pytest.mark.parametrize(
     ("hours", "text"),
     [
-        (0.00123, "0.00123 h"),
+        (3.76e-8, "0.000135 s"),
+        (0.00123, "4.43 s"),
+        (0.0123, "44.3 s"),
+        (0.0323, "1.94 min"),
+        (0.123, "0.123 h"),
         (53.21, "53.2 h"),
         (4263.0, "4,260 h"),
         (1e6, "1,000,000 h"),

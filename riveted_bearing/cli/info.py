@@ -146,11 +146,10 @@ def preload(case):
     from ..preload import of_geometry
 
     given, T, thermal = case.values["joint.preload"], case.values["cage.T"], of_geometry(Geometry(**case.joint))
-    yield f"preload of the rivets at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", origins(case, "joint.preload")
+    yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", origins(case, "joint.preload")
     if abs(thermal.at(given, T) - given) > 1e-3 * given:
-        more = "more" if thermal.rate > 0.0 else "less"
-        label = f"preload with the cage at {T - ZERO:.4g} degC, which expands {more} than the rivets"
-        yield label, f"some {thermal.at(given, T):.3g}", "N", f"{thermal.rate:+.3g} N/K"
+        reason = f"the cage expands {'more' if thermal.rate > 0.0 else 'less'} than the rivets, {thermal.rate:+.3g} N/K"
+        yield f"preload with the cage at {T - ZERO:.4g} degC", f"some {thermal.at(given, T):.3g}", "N", reason
 
 
 def oil(case):
@@ -168,14 +167,14 @@ def oil(case):
         origins(case, "oil.eta"),
     )
     yield (
-        "oil: kinematic viscosity at two temperatures",
+        "kinematic viscosity",
         ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in points),
         "mm2/s",
         origins(case, *points),
     )
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
     yield (
-        "temperature: oil, inner ring, outer ring, balls, cage",
+        "oil, inner ring, outer ring, balls, cage",
         ", ".join(f"{case.values[name] - ZERO:.4g}" for name in names),
         "degC",
         origins(case, *names),
