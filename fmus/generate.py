@@ -374,8 +374,9 @@ def write_description(table):
     if table.enumerations:
         add_types(root, table)
     add_log_categories(root)
+    settle = next((v.start for v in table.variables if v.name == "start.settle"), 0.0)
     # a tolerance here would overrule solver.tol
-    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", stepSize="1e-4")
+    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime=f"{max(0.4, 2.0 * settle):g}", stepSize="1e-4")
     if table.origin:
         add_origin(root, table)
     indices = add_variables(root, table)

@@ -54,7 +54,7 @@ def run_again(folder, arguments):
 
 def install(folder):
     """Make bearing_model that of the bearing of a build folder; nothing may have imported its variables before."""
-    import bearing_model
+    import bearing_model.generated
 
     assert VARIABLES not in sys.modules, "too late: another bearing's variables are in use"
     spec = importlib.util.spec_from_file_location(VARIABLES, Path(folder) / "generated" / "variables.py")

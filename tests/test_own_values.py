@@ -4,10 +4,13 @@ twice is refused by its key.
 
 import math
 import re
+import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from lxml import etree
 from typer.testing import CliRunner
 
 from bearing_model.generated import variables
@@ -24,7 +27,12 @@ from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
 from riveted_bearing.fmu import Model
 from riveted_bearing.matrices import scene_at
+from riveted_bearing.report import render
+from riveted_bearing.results import to_toml
 from riveted_bearing.scene import load_scene
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
+from generate import load_table, write_description
 
 OWN = 'designation = "6309"\nZ = 8\n'
 
@@ -339,3 +347,24 @@ def test_shares_have_no_hours(model, tmp_path):
     document["point"] = [{"hours": 0.7}]
     mission = plan_mission("m", document, model, tmp_path / "m.toml")
     assert time_text(0.7, mission) == "0.7 h"
+
+
+def test_a_report_says_what_a_run_says(model):
+    """Assumed as of bronze, settling, preload at temperature: the page has them too."""
+    result = run(None, fmu=model.path, t_end=0.02, parameters={"start.settle": 5e-3}, inputs={"cage.T": "60 degC"})
+    result.parameters["cage.material"] = "brass"
+    page = render(result)
+    assert "Assumed, as of a cage of bronze: cage.mu 0.05, cage.mu_land 0.08" in page
+    assert "after 1.5 revolutions of the shaft" in page and "with the cage at 60 degC" in page
+
+
+def test_an_fmu_keeps_the_catalogues_values(tmp_path):
+    """Bore and load ratings are no variables: the description notes them beside their origin."""
+    resolved = tmp_path / "bearing.toml"
+    case = read(tmp_path, f'{OWN}[catalogue]\nC = "50 kN"\n')
+    notes = {"Z": 8, "origin": case.origin, "catalogue": case.catalogue}
+    resolved.write_text("\n".join(to_toml(notes)), encoding="utf-8")
+    root = etree.fromstring(write_description(load_table(resolved)).encode())
+    values = {v.get("name"): v.attrib for v in root.iterfind("VendorAnnotations/Tool/Origin/Value")}
+    assert (values["C"]["origin"], float(values["C"]["value"])) == ("yours", 50e3)
+    assert float(values["bore"]["value"]) == 0.045 and "value" not in values["bearing.D"]

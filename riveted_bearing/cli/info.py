@@ -161,7 +161,7 @@ def oil(case):
     T = own.pop("oil.T")
     points = ("oil.nu_1", "oil.nu_2")
     yield (
-        "oil's viscosity at its temperature",
+        f"oil viscosity at {T - ZERO:.4g} degC",
         f"{1e3 * viscosity(own, start, T):.4g}",
         "mPa.s",
         origins(case, "oil.eta"),
