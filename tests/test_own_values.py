@@ -15,7 +15,10 @@ from typer.testing import CliRunner
 
 from bearing_model.generated import variables
 from bearing_model.physics.viscosity import Oil
+from rivet_model import stiffness
+from rivet_model.closed_form import stack_stiffness
 from rivet_model.geometry import Geometry
+from rivet_model.load_cases import COARSE, Joint
 from riveted_bearing import UserError, preload, run, summary
 from riveted_bearing.basis import basis
 from riveted_bearing.bearings import bearing_case, case_of
@@ -27,6 +30,7 @@ from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
 from riveted_bearing.fmu import Model
 from riveted_bearing.matrices import scene_at
+from riveted_bearing.oil import viscosity
 from riveted_bearing.report import render
 from riveted_bearing.results import to_toml
 from riveted_bearing.scene import load_scene
@@ -146,6 +150,10 @@ def test_two_points_give_a_bearings_viscosity(tmp_path):
     assert case.values["oil.eta"] == pytest.approx(rho * law.nu(T_0), rel=1e-5)
     assert case.values["oil.beta"] == pytest.approx(law.beta(T_0), rel=1e-5)
     assert case.origin["oil.eta"] == "rule"
+    start = {name: value for name, value in case.values.items() if name in variables.PARAMETERS and name[:4] == "oil."}
+    for T in (313.15, 373.15):  # as an FMU of this file has it at its start
+        density = rho * (1.0 - 7.5e-4 * (T - T_0))
+        assert viscosity(start, start, T) == pytest.approx(density * law.nu(T), rel=1e-5)
 
 
 @pytest.mark.parametrize("eta", ["6 mPa.s", "20 mPa.s"])
@@ -221,6 +229,16 @@ def test_info_has_the_preload_at_temperature(tmp_path, model):
     assert float(hot.removeprefix("some ")) == pytest.approx(P + 70.0 * rate, rel=0.01)
     path.write_text(f'{OWN}[cage]\nmaterial = "steel"\n[inputs]\noil.T = "90 degC"\n')
     assert "preload with the cage at 90 degC" not in {row[0] for row in geometry(bearing_case(path))}
+
+
+@pytest.mark.slow
+def test_the_stack_by_rule_beside_finite_elements(tmp_path):
+    """The 6309's rivets of 2.5 mm in steel by coarse elements, which are 3 % stiffer than the fine ones: 5 %."""
+    case = read(
+        tmp_path, f'{OWN}[cage]\nmaterial = "steel"\n[rivet]\nshank_diameter = "2.5 mm"\nhead_diameter = "4.4 mm"\n'
+    )
+    g = Geometry(**case.joint)
+    assert stack_stiffness(g, 4.763e7) == pytest.approx(stiffness.stack_stiffness(Joint(g, COARSE)), rel=0.05)
 
 
 def test_a_preload_that_is_lost_is_zero():
