@@ -64,7 +64,7 @@ IMPOSSIBLE = [  # what the file says, the key that is refused; the value must be
     ({"rivet.middle_zone": '"0.3 mm"'}, "rivet.middle_zone"),
     (OTHER | {"catalogue.bore": '"55 mm"'}, "catalogue.bore"),
     (OTHER | {"catalogue.outside_diameter": '"79 mm"'}, "catalogue.outside_diameter"),
-    (OTHER | {"catalogue.width": '"14 mm"'}, "catalogue.width"),
+    (OTHER | {"cage.width": '"18.5 mm"', "catalogue.width": '"17 mm"'}, "catalogue.width"),
 ]
 POSSIBLE = [{"designation": f'"{name}"'} for name in list(entries())[::4]] + [
     {"bearing.D": '"14 mm"'},
