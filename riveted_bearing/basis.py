@@ -120,7 +120,7 @@ def preload(model, scenes):
     words = (
         lambda numbers, name=name: in_words(model, name, numbers) for name in (preloads.PRELOAD, preloads.TEMPERATURE)
     )
-    return preloads.in_words(model.thermal, list(dict.fromkeys(pairs)), *words)
+    return preloads.in_words(preloads.of_fmu(model), list(dict.fromkeys(pairs)), *words)
 
 
 def temperatures(model, scenes):

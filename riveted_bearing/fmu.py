@@ -121,13 +121,6 @@ class Model:
             return json.loads(archive.read(CAGE_MODES)) if CAGE_MODES in archive.namelist() else None
 
     @functools.cached_property
-    def thermal(self):
-        """How the rivets' preload goes with the cage's temperature: a preload.Thermal, None if it is not known."""
-        from .preload import of_fmu
-
-        return of_fmu(self)
-
-    @functools.cached_property
     def folder(self):
         """Folder of the unpacked FMU, for all its instances; removed with the Model."""
         folder = extract(str(self.path))

@@ -6,6 +6,7 @@ is the temperature at which the rivets are set.
 
 import math
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 from bearing_model.physics.derived import default_table
 from rivet_model.closed_form import stack_stiffness
@@ -16,6 +17,7 @@ from .scene import History, Scene
 
 PRELOAD, TEMPERATURE, OUTPUT = "joint.preload", "cage.T", "rivet[1].P"
 TRIALS = (293.15, 303.15)  # temperatures at which an FMU tells its preload [K]
+KNOWN = WeakKeyDictionary()  # the Thermal of each Model
 LARGE = 500.0  # preload of the trials [N]: it does not vanish
 
 
@@ -32,6 +34,13 @@ class Thermal:
 
 
 def of_fmu(model):
+    """The Thermal of an FMU; None if it is not known."""
+    if model not in KNOWN:
+        KNOWN[model] = measured(model)
+    return KNOWN[model]
+
+
+def measured(model):
     """The Thermal of an FMU, by two of its starts; None if it does not start there."""
     found = []
     for T in TRIALS:

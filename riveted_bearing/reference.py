@@ -15,7 +15,8 @@ from pathlib import Path
 VARIABLES = "bearing_model.generated.variables"
 AGAIN = (
     "import importlib.util as u, sys; s = u.spec_from_file_location('reference', sys.argv[1]); "
-    "m = u.module_from_spec(s); s.loader.exec_module(m); m.main(*sys.argv[2:])"
+    "m = u.module_from_spec(s); s.loader.exec_module(m); m.install(sys.argv[2]); "
+    "from riveted_bearing.cli import program; program(sys.argv[3:])"
 )
 
 
@@ -64,11 +65,3 @@ def install(folder):
     from bearing_model.rivet import rivet_table
 
     rivet_table.DEFAULT_TABLE = Path(folder) / "rivet_table.json"
-
-
-def main(folder, *arguments):
-    """The program with the reference of a build folder."""
-    install(folder)
-    from riveted_bearing.cli import program
-
-    program(arguments)

@@ -248,8 +248,8 @@ def cards(result, lives):
                 f"largest since the start · {figure(last)} at the end",
             )
     for channel, title in (
-        ("head stress, worst rivet at each instant", "Head stress"),
-        ("middle stress, worst rivet at each instant", "Middle stress"),
+        ("head stress, largest of rivets", "Head stress"),
+        ("middle stress, largest of rivets", "Middle stress"),
         ("pocket force, all balls", "Pocket force"),
     ):
         if channel in rows:

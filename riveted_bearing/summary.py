@@ -36,8 +36,8 @@ def summary_rows(result):
         return []
     rows = [
         counted(result, "pocket force, all balls", "N", "stat.Q_c_{}", 1.0),
-        stress(result, "head stress, worst rivet at each instant", "stat.sigma_head_{}"),
-        stress(result, "middle stress, worst rivet at each instant", "stat.sigma_mid_{}"),
+        stress(result, "head stress, largest of rivets", "stat.sigma_head_{}"),
+        stress(result, "middle stress, largest of rivets", "stat.sigma_mid_{}"),
         *(sampled(result, *channel) for channel in channels(result)),
     ]
     return [row for row in rows if row]
@@ -95,7 +95,7 @@ def early_rows(result):
     peaks = [
         ("pocket force, largest in the step", "N", 1.0, ["cage.F_pocket_peak"], None),
         *(
-            (f"{place} stress, worst rivet at each instant", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None)
+            (f"{place} stress, largest of rivets", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None)
             for place, short in (("head", "head"), ("middle", "mid"))
         ),
     ]
