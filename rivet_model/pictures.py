@@ -2,6 +2,7 @@
 behind them.
 """
 
+import textwrap
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -145,7 +146,7 @@ def plot_curves(data, title=""):
         panel[c.label].plot(c.scale * c.x, c.head / 1e6, style, color=HEAD, label="head" + kind)
         panel[c.label].plot(c.scale * c.x, c.mid / 1e6, style, color=MIDDLE, label="middle" + kind)
         panel[c.label].set(xlabel=f"{c.label} [{c.unit}]", ylabel="stress [MPa]", ylim=(0.0, None))
-        panel[c.label].set_title(f"Over {c.label}{c.source}\n{c.loads}", fontsize="small")
+        panel[c.label].set_title(f"Over {c.label}{c.source}\n{textwrap.fill(c.loads, 56)}", fontsize="small")
     yielded = data["fit, with yield"]
     axes[1].set_ylim(0.0, 1.5e-6 * max(yielded.head.max(), yielded.mid.max()))
     axes[1].axvspan(-20.0, 0.0, color="0.93", zorder=0)
