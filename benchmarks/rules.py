@@ -78,7 +78,7 @@ class Rule:
             "head": f"{start / RIVET['head_diameter']:.3g} d_h, less at narrow bridges",
             "ring": "6207's × (bore/35 mm)² B/17 mm",
             "tilting ring": "6207's × (bore/35 mm)⁴ B/17 mm",
-            "damping ratio": "6207's × root of (bore/35 mm)⁴ B/17 mm",
+            "damping ratio": "6207's × (bore/35 mm)³ B/17 mm",
         }[self.of]
 
 

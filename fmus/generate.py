@@ -137,6 +137,7 @@ class Table:
     # by parameter: usual range as factors of its value, share of the stress that goes with it, and the source
     assumptions: dict
     origin: dict  # where the values of another bearing come from, by name
+    catalogue: dict  # its boundary dimensions and load ratings, which are no variables
     essentials: dict  # names by question
     retired_items: dict  # of enumerations: number and reason, by name
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
@@ -151,7 +152,8 @@ class Table:
     @property
     def guid(self):
         """Digest of all that description and binary must agree on."""
-        digest = hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()
+        content = {name: value for name, value in asdict(self).items() if name != "catalogue" or value}
+        digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
         return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
 
 
@@ -189,6 +191,7 @@ def load_table(bearing=None, path=None):
         *layout,
         raw.get("assumptions", {}),
         changes.get("origin", {}),
+        changes.get("catalogue", {}),
         raw.get("essentials", {}),
         raw.get("retired_items", {}),
         tuple(states[n_plain:]),
@@ -389,8 +392,9 @@ def write_description(table):
     if table.enumerations:
         add_types(root, table)
     add_log_categories(root)
+    settle = next((v.start for v in table.variables if v.name == "start.settle"), 0.0)
     # a tolerance here would overrule solver.tol
-    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime="0.4", stepSize="1e-4")
+    etree.SubElement(root, "DefaultExperiment", startTime="0", stopTime=f"{max(0.4, 2.0 * settle):g}", stepSize="1e-4")
     if table.origin:
         add_origin(root, table)
     indices = add_variables(root, table)
@@ -432,7 +436,8 @@ def add_origin(root, table):
     tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
     values = etree.SubElement(tool, "Origin")
     for name, origin in table.origin.items():
-        etree.SubElement(values, "Value", name=name, origin=origin)
+        value = {"value": repr(table.catalogue[name])} if name in table.catalogue else {}
+        etree.SubElement(values, "Value", name=name, origin=origin, **value)
 
 
 def add_variables(root, table):

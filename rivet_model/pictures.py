@@ -2,6 +2,7 @@
 behind them.
 """
 
+import textwrap
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -44,6 +45,7 @@ class Curve:
     x: np.ndarray
     head: np.ndarray
     mid: np.ndarray
+    row: float  # distance of the printed rows [SI]
 
     @property
     def title(self):
@@ -83,33 +85,48 @@ def joint_response(joint):
     return stress, lambda fit_a: np.where(fit_a > 0.0, np.interp(fit_a, fitted.fit_a, fitted.fit_eff), fit_a)
 
 
-def curves(stress, fit_eff, size=1.0):
-    """Curves by name: preload alone at the largest clearance; REFERENCE over the fit, elastic and with the flange's
-    yield; over the transverse load.
+def curves(stress, fit_eff, size=1.0, paper=True):
+    """Curves by name: preload alone at the largest clearance; the reference loads over the fit, elastic and with the
+    flange's yield; over the transverse load.
 
-    size: Geometry.size, with which the swell goes.
+    size: Geometry.size: lengths go with it, forces with its square, so that stresses are alike; paper: whether the
+    rivet is the paper's, whose figures show the same.
     """
-    preload, fit, V = np.linspace(0.0, 60.0, 25), 1e-6 * np.arange(-90.0, 40.1, 2.0), np.linspace(0.0, 60.0, 25)
-    loose, r, swell = -90e-6, REFERENCE, size * SWELL
+    newtons, microns, r, swell = whole(10.0 * size**2), whole(10.0 * size), reference(size), size * SWELL
+    most, unit = newtons * round(60.0 * size**2 / newtons), 0.1 * microns
+    preload, V = np.linspace(0.0, most, 25), np.linspace(0.0, most, 25)
+    low, high = (microns * round(end * size / microns) for end in (-90.0, 40.0))
+    fit, loose, usual = 1e-6 * np.arange(low, high + unit, 2.0 * unit), 1e-6 * low, size * FIT
     swollen = f"swell {1e6 * swell:.3g} µm"
     alone = f"fit {micrometres(loose)} (clearance), no external load"
-    loaded = f"preload {r.P:g} N, external tension {r.N:g} N, transverse load {r.V:g} N, {swollen}"
-    preloaded = f"preload {r.P:g} N, no external tension, fit {micrometres(FIT)} (clearance), {swollen}"
+    loaded = f"preload {r.P:.4g} N, external tension {r.N:.4g} N, transverse load {r.V:.4g} N, {swollen}"
+    preloaded = f"preload {r.P:.4g} N, no external tension, fit {micrometres(usual)} (clearance), {swollen}"
 
     def curve(label, unit, scale, x, load, fit_a, loads, figure="", kind=""):
         sigma = stress(load, fit_a)
-        return Curve(label, unit, scale, loads, figure, kind, x, sigma[..., HEAD_P1], sigma[..., MID_VM])
+        row = newtons if unit == "N" else 1e-6 * microns
+        shown = figure if paper else ""
+        return Curve(label, unit, scale, loads, shown, kind, x, sigma[..., HEAD_P1], sigma[..., MID_VM], row)
 
     return {
         "preload": curve("preload", "N", 1.0, preload, JointLoad(P=preload), loose + swell, alone, "Fig. 11"),
-        "fit, elastic": curve("fit", "µm", 1e6, fit, REFERENCE, fit + swell, loaded, "Fig. 12", "elastic"),
+        "fit, elastic": curve("fit", "µm", 1e6, fit, r, fit + swell, loaded, "Fig. 12", "elastic"),
         "fit, with yield": curve(
-            "fit", "µm", 1e6, fit, REFERENCE, fit_eff(fit + swell), loaded, "Fig. 12", "the flange yields"
+            "fit", "µm", 1e6, fit, r, fit_eff(fit + swell), loaded, "Fig. 12", "the flange yields"
         ),
-        "transverse load": curve(
-            "transverse load", "N", 1.0, V, replace(REFERENCE, N=0.0, V=V), FIT + swell, preloaded
-        ),
+        "transverse load": curve("transverse load", "N", 1.0, V, replace(r, N=0.0, V=V), usual + swell, preloaded),
     }
+
+
+def reference(size):
+    """REFERENCE for a joint of another size, with equal stresses."""
+    return JointLoad(*(size**2 * load for load in (REFERENCE.P, REFERENCE.N, REFERENCE.V)))
+
+
+def whole(value):
+    """1, 2 or 5 times a power of ten, the next one below."""
+    power = 10.0 ** np.floor(np.log10(value) + 1e-9)
+    return float(power * max(digit for digit in (1.0, 2.0, 5.0) if digit * power <= value * (1.0 + 1e-9)))
 
 
 def micrometres(length):
@@ -129,7 +146,7 @@ def plot_curves(data, title=""):
         panel[c.label].plot(c.scale * c.x, c.head / 1e6, style, color=HEAD, label="head" + kind)
         panel[c.label].plot(c.scale * c.x, c.mid / 1e6, style, color=MIDDLE, label="middle" + kind)
         panel[c.label].set(xlabel=f"{c.label} [{c.unit}]", ylabel="stress [MPa]", ylim=(0.0, None))
-        panel[c.label].set_title(f"Over {c.label}{c.source}\n{c.loads}", fontsize="small")
+        panel[c.label].set_title(f"Over {c.label}{c.source}\n{textwrap.fill(c.loads, 56)}", fontsize="small")
     yielded = data["fit, with yield"]
     axes[1].set_ylim(0.0, 1.5e-6 * max(yielded.head.max(), yielded.mid.max()))
     axes[1].axvspan(-20.0, 0.0, color="0.93", zorder=0)
@@ -276,9 +293,9 @@ def along(ax, start, end, radius, text, foot):
 # The section ----------------------------------------------------------------------------------------------------------
 
 
-def plot_section(joint, load=REFERENCE, fit=FIT + SWELL, magnified=60.0):
-    """Figure: meshes; the joint in the plane of V, deformed, with its largest principal stress; the fillet that carries
-    most.
+def plot_section(joint, magnified=60.0):
+    """Figure: meshes; the joint under the reference loads in the plane of V, deformed, with its largest principal
+    stress; the fillet that carries most.
 
     Gaps and displacements are magnified alike, so that bodies touch in the picture where they touch in the solution.
     """
@@ -291,6 +308,7 @@ def plot_section(joint, load=REFERENCE, fit=FIT + SWELL, magnified=60.0):
             _draw_mesh(ax, mesh)
     left.set(title="mesh (lower flange: mirrored)", xlabel="r [mm]", ylabel="x [mm]", aspect="equal")
 
+    load, fit = reference(joint.geometry.size), joint.geometry.size * (FIT + SWELL)
     forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
     parts = [part for theta in (0.0, np.pi) for part in section(joint, forces, q, theta, load.P, fit, magnified)]
     limit = max(stress.max() for _, _, _, stress in parts) / 1e6

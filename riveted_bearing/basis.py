@@ -2,12 +2,12 @@
 pages and files.
 """
 
-from types import SimpleNamespace
+import itertools
 
 import numpy as np
 
-from bearing_model.physics.temperature import heat_oil
-
+from . import oil as oils
+from . import preload as preloads
 from .errors import UserError, shortlist
 from .scene import in_words
 
@@ -41,6 +41,7 @@ def basis(model, scenes, curve=""):
         ("speed", speeds(model, scenes)),
         ("oil", oil(model, scenes)),
         ("temperatures", temperatures(model, scenes)),
+        ("preload", preload(model, scenes)),
         *([("S-N curve", curve)] if curve else []),
     ]
 
@@ -78,9 +79,19 @@ def speeds(model, scenes):
 
 
 def oil(model, scenes):
-    """Viscosity of the oil at its temperature."""
+    """Viscosity of the oil at its temperature, and a point of it that nobody gave beside one that is given."""
     found = {viscosity(model, scene, T) for scene in scenes for T in extremes(values(model, [scene], "oil.T"))}
-    return f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}"
+    alone = dict.fromkeys(text for scene in scenes for text in point_assumed(model, scene))
+    return "; ".join([f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}", *alone])
+
+
+def point_assumed(model, scene):
+    """The point of the oil that stands beside a given one, in words."""
+    given = {*scene.parameters, *(name for name, origin in model.origin.items() if origin == "yours")}
+    for name, other in (oils.POINTS, oils.POINTS[::-1]):
+        if name in given and other not in given:
+            at = text(model, [scene], other.replace("nu", "T"))
+            yield f"{other} {text(model, [scene], other)} at {at} is assumed"
 
 
 def extremes(numbers):
@@ -90,17 +101,26 @@ def extremes(numbers):
 
 def viscosity(model, scene, T):
     """Viscosity of a scene's oil [Pa.s] at T [K]; UserError if its two points make no oil."""
-    own = {
-        name.removeprefix("oil."): scene.parameters.get(name, model.default(v))
-        for name, v in model.parameters.items()
-        if name.startswith("oil.")
-    }
-    hot = SimpleNamespace(oil=SimpleNamespace())
+    start = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
     try:
-        heat_oil(SimpleNamespace(oil=SimpleNamespace(**own)), T, hot)
+        return oils.viscosity(start | {name: scene.parameters.get(name, v) for name, v in start.items()}, start, T)
     except ValueError as problem:
         raise UserError(f"{scene.source or model.path}: oil.nu_1, oil.nu_2: {problem}") from None
-    return float(hot.oil.eta)
+
+
+def preload(model, scenes):
+    """Preload of the rivets as given and at the cage's temperature."""
+    pairs = [
+        pair
+        for scene in scenes
+        for pair in itertools.product(
+            extremes(values(model, [scene], preloads.PRELOAD)), extremes(values(model, [scene], preloads.TEMPERATURE))
+        )
+    ]
+    words = (
+        lambda numbers, name=name: in_words(model, name, numbers) for name in (preloads.PRELOAD, preloads.TEMPERATURE)
+    )
+    return preloads.in_words(preloads.of_fmu(model), list(dict.fromkeys(pairs)), *words)
 
 
 def temperatures(model, scenes):

@@ -33,14 +33,15 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, materials, rivet_heads, scaling
+from . import catalogue, limits, materials, oil, rivet_heads, scaling
 from .errors import UserError, unknown
 from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
-CATALOGUE = ("bore", "outside_diameter", "width", "C", "C_0")
+BOUNDARY = ("bore", "outside_diameter", "width")
+CATALOGUE = (*BOUNDARY, "C", "C_0")
 # a bearing's own
 CAGE_SIZES = (
     "Z",
@@ -264,11 +265,14 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
     data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
+    check_boundary(path, document, data, entry)
     given = dict(
         start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), variables.PARAMETERS)
     )
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
+    oil.check_pair(path, given, written)
+    oil.check_given(path, given, written, {name: v.start for name, v in variables.PARAMETERS.items()} | given)
     found = {
         part: materials.material_of(path, part, material_section(path, document, part), given, written)
         for part in materials.PARTS
@@ -302,9 +306,8 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         known = {*([] if Z is None else ["Z"]), *given, *inputs, *inputs_by_rule}
         origin |= dict.fromkeys((name for name in OF_EXAMPLE if name not in known), EXAMPLE)
     values = defaults() | by_rule | inputs_by_rule | given | inputs
-    check_limits(
-        path, document, parts, lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
-    )
+    inside = "" if prefix else in_cage(designation)
+    check_limits(path, document, parts, lambda name: called(name, prefix), inside)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     return Case(
         designation,
@@ -317,6 +320,25 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
         found,
         bare,
     )
+
+
+def check_boundary(path, document, data, entry):
+    """UserError for a boundary dimension that is another one than the catalogue's of the designation, from which the
+    pitch circle follows; load ratings differ between makers.
+    """
+    for key in BOUNDARY:
+        if entry and key in data and not math.isclose(data[key], entry.data[key], rel_tol=1e-6):
+            written = document["catalogue"][key]
+            allowed = shown(f"catalogue.{key}", entry.data[key], written)
+            reason = (
+                f"{allowed} is allowed, of the {entry.designation} ({catalogue.SOURCE}); leave designation or {key} out"
+            )
+            raise refusal(path, f"catalogue.{key}", written, reason)
+
+
+def called(name, prefix):
+    """What a file calls a value that belongs to the rivet, or to the bearing."""
+    return prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
 
 
 def ratings(Z, given, entry):
@@ -379,6 +401,8 @@ def rules(Z, given, rivet, inputs, data, entry):
         parameters = scaling.scaled_parameters(Z, D, d_m, given, whole, data.get("bore"), data.get("width"))
         if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
             parameters["bearing.P_d"] = P_d
+        seats = {"ring.bore": "bore", "ring.outside": "outside_diameter"}
+        parameters |= {name: data[key] for name, key in seats.items() if key in data}
         parameters["cage.material"] = materials.PARTS["cage"].material
         by_rule = scaling.scaled_inputs(Z, D, d_m, inputs, data.get("C"))
     else:
@@ -387,7 +411,10 @@ def rules(Z, given, rivet, inputs, data, entry):
         parameters = {name: value for name, value in parameters.items() if value != scaling.start(name)}
         rivet_by_rule = {name: value for name, value in rivet_by_rule.items() if value != RIVET[name]}
         by_rule = {}
-    parameters |= scaling.scaled_materials(given)
+    parameters |= scaling.scaled_materials(given) | scaling.oil_by_points(given)
+    settle = scaling.settling((by_rule | inputs).get("shaft.omega", variables.INPUTS["shaft.omega"].start))
+    if settle != scaling.start("start.settle"):
+        parameters["start.settle"] = settle
     return (
         Z,
         {name: value for name, value in parameters.items() if name not in given},
@@ -408,11 +435,16 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     )
 
 
-def check_limits(path, document, parts, called=lambda name: name):
+def in_cage(designation):
+    """In whose cage a rivet's file does not fit, to stand behind a refusal."""
+    return f", in the cage of the {designation}; --bearing names another one"
+
+
+def check_limits(path, document, parts, names=lambda name: name, inside=""):
     """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
 
-    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; called: how the file calls
-    a value, if otherwise than a bearing file does.
+    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; names: how the file calls
+    a value, if otherwise than a bearing file does; inside: in_cage of a rivet's file.
     """
     values = limited_values(*parts)
     broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
@@ -431,13 +463,11 @@ def check_limits(path, document, parts, called=lambda name: name):
         if allowed:
             words, number = allowed
             others = ", ".join(
-                f"{called(name)} = {shown(name, values[name], written.get(name))}"
-                for name in broken.keys
-                if name != key
+                f"{names(name)} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key
             )
-            reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}"
-            raise refusal(path, called(key), written.get(key, values[key]), reason)
-    raise refusal(path, called(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}")
+            reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}{inside}"
+            raise refusal(path, names(key), written.get(key, values[key]), reason)
+    raise refusal(path, names(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}{inside}")
 
 
 def changed(parts, key, value):
@@ -615,7 +645,7 @@ def scene_case(source, model):
     ]
     designation = model.bearing.partition(". ")[0].partition(":")[0]
     entry = catalogue.entries().get(designation) if model.origin.get("C") == "catalogue" else None
-    data = known[0].catalogue if known else entry.data if entry else {}
+    data = model.catalogue or (known[0].catalogue if known else entry.data if entry else {})
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
     return Case(

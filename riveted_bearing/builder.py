@@ -162,7 +162,8 @@ def start_document(case, path):
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
     modes = {"modes": table.modes.room} if table.modes else {}
-    return {"Z": case.Z} | modes | {"description": fmu_description(case, table), "origin": case.origin} | start
+    about = {"description": fmu_description(case, table), "origin": case.origin, "catalogue": case.catalogue}
+    return {"Z": case.Z} | modes | about | start
 
 
 def cage_of(case, table):

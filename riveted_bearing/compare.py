@@ -20,6 +20,7 @@ from bearing_model.generated import variables
 from bearing_model.solver import integrator
 
 from .errors import UserError
+from .reference import is_installed
 from .runner import simulate
 
 POINTS = 20  # instants of the short horizon
@@ -126,10 +127,11 @@ def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", pr
 
 
 def check_same_bearing(model):
-    """UserError unless the FMU has the reference's number of balls and its variables."""
+    """UserError unless the reference in use is that of the FMU's bearing."""
     Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)
-    if Z != variables.Z:
-        raise UserError(f"{model.path}: bearing.Z = {Z}; the reference in this installation is for Z = {variables.Z}")
+    if Z != variables.Z or not is_installed(model):
+        own = f"bearing.Z = {Z}: the reference in use is that of a bearing with Z = {variables.Z}"
+        raise UserError(f"{model.path}: {own}; `riveted-bearing compare --fmu {model.path}` takes this FMU's own one")
     missing = sorted({family(name) for name in model.parameters} - set(variables.PARAMETERS))
     if missing:
         raise UserError(f"{model.path}: parameter {missing[0]} is not known to the reference: build the FMU anew")

@@ -1,5 +1,6 @@
 """Errors that the user can put right: one message each, without a traceback."""
 
+import reprlib
 from difflib import get_close_matches
 
 
@@ -14,6 +15,11 @@ def unknown(where, kind, name, allowed):
     near = get_close_matches(str(name), list(allowed), n=1, cutoff=0.6)
     hint = f'did you mean "{near[0]}"?' if near else f"allowed: {shortlist(allowed)}"
     return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
+
+
+def refusal(where, key, value, reason):
+    """The error for a value that cannot be used."""
+    return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")
 
 
 def extra(name):

@@ -117,14 +117,22 @@ class Model:
         return hashlib.sha256(self.path.read_bytes()).hexdigest()
 
     @functools.cached_property
-    def origin(self):
-        """Where start values come from, by name: "yours", "catalogue", "rule", "shipped"; empty for the default FMU."""
+    def noted(self):
+        """What the vendor annotation notes of each value of a bearing file: its attributes by name."""
         with zipfile.ZipFile(self.path) as archive:
             root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-        return {
-            value.get("name"): value.get("origin")
-            for value in root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Origin/Value")
-        }
+        found = root.iterfind("VendorAnnotations/Tool[@name='riveted-bearing']/Origin/Value")
+        return {value.get("name"): dict(value.attrib) for value in found}
+
+    @functools.cached_property
+    def origin(self):
+        """Where start values come from, by name: "yours", "catalogue", "rule", "shipped"; empty for the default FMU."""
+        return {name: note.get("origin") for name, note in self.noted.items()}
+
+    @functools.cached_property
+    def catalogue(self):
+        """Boundary dimensions [m] and load ratings [N] by the names of a bearing file, as far as the FMU has them."""
+        return {name: float(note["value"]) for name, note in self.noted.items() if "value" in note}
 
     @functools.cached_property
     def cage_modes(self):

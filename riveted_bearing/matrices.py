@@ -83,7 +83,9 @@ def scene_at(model, scene, point):
     }
     inputs = {name: point.load * value for name, value in own.items()} | {"shaft.omega": point.omega}
     return replace(
-        scene, inputs=scene.inputs | {name: History(np.zeros(1), np.array([value])) for name, value in inputs.items()}
+        scene,
+        replaced=tuple(text for text in scene.replaced if not text.startswith("shaft.omega ")),
+        inputs=scene.inputs | {name: History(np.zeros(1), np.array([value])) for name, value in inputs.items()},
     )
 
 

@@ -20,12 +20,15 @@ from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
+    assumed_as_bronze,
     assumed_rows,
     columns,
     early_rows,
+    flag_note,
     has_statistics,
     life_is_known,
     no_statistics,
+    settle_note,
     settled,
     summary_rows,
     table_note,
@@ -110,7 +113,7 @@ def render(result, decides=None):
         rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
         early=[] if has_statistics(result) else list(early_rows(result)),
         no_statistics=no_statistics(result),
-        curve=in_words(curve) + assumed(curve, result.about.get("given", ())) if lives else "",
+        curve=curve(result) if lives else "",
         balls=list(ball_rows(result)),
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
@@ -120,6 +123,8 @@ def render(result, decides=None):
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
+        as_bronze=assumed_as_bronze(result),
+        settle_note=settle_note(result),
         decides=decides,
         display_of=display_of,
         life_is_known=life_is_known(result),
@@ -128,6 +133,12 @@ def render(result, decides=None):
         figure=figure,
         duration=duration,
     )
+
+
+def curve(result):
+    """The S-N curve in words, with what of it is assumed."""
+    strength = Strength(fatigue_law(result.parameters))
+    return in_words(strength) + assumed(strength, result.about.get("given", ()))
 
 
 def ball_channels(*names):
@@ -247,8 +258,8 @@ def cards(result, lives):
                 f"largest since the start · {figure(last)} at the end",
             )
     for channel, title in (
-        ("head stress, worst rivet", "Head stress"),
-        ("middle stress, worst rivet", "Middle stress"),
+        ("head stress, largest of rivets", "Head stress"),
+        ("middle stress, largest of rivets", "Middle stress"),
         ("pocket force, all balls", "Pocket force"),
     ):
         if channel in rows:
@@ -392,12 +403,8 @@ def solver_rows(result):
             if count
         ]
         yield "onsets of events", ", ".join(seen) or "none"
-    flags = columns(result, "rivet[", "].flag")
-    if flags:
-        values = np.concatenate([result.data[name] for name in flags])
-        seen = np.bitwise_or.reduce(values[np.isfinite(values)].astype(int))
-        meanings = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}
-        yield "flags of the rivets", ", ".join(text for bit, text in meanings.items() if seen & bit) or "none"
+    if columns(result, "rivet[", "].flag"):
+        yield "flags of the rivets", flag_note(result).partition(": ")[2] or "none"
 
 
 def figure(value):

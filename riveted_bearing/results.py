@@ -189,7 +189,7 @@ def origin_problem(name, value):
     """What is wrong with a fact about the origin of a result, nothing if it may stand there or has no meaning here."""
     if name in ("scene", "description", "fmu", "guid", "model", "generated", "machine", "date", "stopped"):
         return "" if isinstance(value, str) else "not a text"
-    if name in ("given", "messages", "replaced"):
+    if name in ("given", "ruled", "messages", "replaced"):
         return "" if isinstance(value, list) and all(isinstance(one, str) for one in value) else "not a list of texts"
     if name == "mode_frequencies":
         return (
@@ -203,7 +203,7 @@ def origin_problem(name, value):
             if isinstance(value, dict) and all(isinstance(one, str) for one in value.values())
             else "not a table of texts"
         )
-    if name in ("t_end", "step"):
+    if name in ("t_end", "step", "settle_turns"):
         return "" if is_number(value) else "not a number"
     return ""
 

@@ -22,12 +22,13 @@ from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
-from .bearings import CAGE_SIZES, bearing_case, check_limits, is_number, unit_scales
+from .bearings import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, in_cage, is_number, unit_scales
 from .errors import UserError
 from .results import make_folder, write_atomically
 from .scene import positive, read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
+OF_6207 = "in the cage of the 6207"
 CAGE_NAMES = {  # key of a geometry file -> of a bearing file
     "Z": "Z",
     "d_m": "bearing.d_m",
@@ -36,31 +37,53 @@ CAGE_NAMES = {  # key of a geometry file -> of a bearing file
     "cage_outer_diameter": "cage.D_o",
     "cage_inner_diameter": "cage.D_i",
 }
-ROWS = {"preload": 10.0, "fit": 10e-6, "transverse load": 10.0}  # distance of the printed rows, SI
 
 
 @threadpool_limits.wrap(limits=1)  # small matrices
-def rivet_curves(source=None):
+def rivet_curves(source=None, bearing=None):
     """Title, curves (see rivet_model.pictures.curves) and Joint of a rivet.
 
-    source: rivet table (JSON) or geometry (TOML), None for the tracked table; for a geometry the finite elements are
-    solved, in some 20 s. Raises UserError naming file and fault.
+    source: rivet table (JSON) or geometry (TOML), None for the tracked table, or for the own rivet of the bearing
+    (designation or file) if there is one; for a geometry the finite elements are solved, in some 20 s. Raises UserError
+    naming file and fault.
     """
-    path = Path(source or rivet_table.DEFAULT_TABLE)
-    if path.suffix == ".toml":
-        joint = condensed(read_geometry(path), path)
-        return (
-            f"{path.name}: finite elements, in the cage of the 6207 where the file gives no other sizes",
-            pictures.curves(*pictures.joint_response(joint), joint.geometry.size),
-            joint,
+    path = Path(source or bearing or rivet_table.DEFAULT_TABLE)
+    if bearing is not None or path.suffix == ".toml":
+        geometry = source_geometry(source, bearing)
+        joint = condensed(geometry, path)
+        cage = (
+            f"in the cage of the {designation_of(bearing)}"
+            if bearing
+            else f"{OF_6207} where the file gives no other sizes"
         )
-    t = read_table(path)
-    geometry = Geometry(**t.geometry)
-    return (
-        f"{path.name}: {table_text(t)}",
-        pictures.curves(*pictures.table_response(t), geometry.size),
-        condensed(geometry, path),
-    )
+        response, title = pictures.joint_response(joint), f"{path.name}: finite elements, {cage}"
+    else:
+        t = read_table(path)
+        geometry = Geometry(**t.geometry)
+        joint = condensed(geometry, path)
+        response, title = pictures.table_response(t), f"{path.name}: {table_text(t)}"
+    return title, pictures.curves(*response, geometry.size, is_papers(geometry)), joint
+
+
+def source_geometry(source, bearing):
+    """Geometry of a rivet given as for rivet_curves."""
+    if source is None:
+        return geometry_of(bearing_case(bearing))
+    if bearing is not None and Path(source).suffix != ".toml":
+        raise UserError(f"--bearing {bearing}: {source} is a table, which is made for a cage already")
+    return given_geometry(source, bearing)
+
+
+def designation_of(bearing):
+    """What a bearing (designation or file) is called."""
+    return bearing_case(bearing).designation
+
+
+def is_papers(geometry):
+    """Whether a rivet has the sizes and the steel of the paper's."""
+    own = Geometry()
+    names = [name for name in RIVET_SIZES if name not in ("seat_diameter", "T_0")]
+    return all(getattr(geometry, name) == getattr(own, name) for name in (*names, "E_rivet", "nu_rivet"))
 
 
 def read_geometry(path, bearing=None):
@@ -78,7 +101,8 @@ def read_geometry(path, bearing=None):
         "rivet": own_keys(document),
         "parameters": {CAGE_NAMES[name]: document[name] for name in own if name in CAGE_NAMES},
     }
-    check_limits(path, written, (own.get("Z", case.Z), given, case.rivet, {}, {}, None), called)
+    parts = own.get("Z", case.Z), given, case.rivet, {}, {}, None
+    check_limits(path, written, parts, called, in_cage(case.designation))
     try:
         return Geometry(**(case.joint | own))
     except ValueError as problem:
@@ -228,10 +252,9 @@ def sources_digest():
 
 
 def curve_tables(curves):
-    """Title and rich table of each curve, a row every ROWS."""
+    """Title and rich table of each curve, a row every Curve.row."""
     for curve in curves.values():
-        step = ROWS[curve.label]
-        shown = np.isclose(curve.x / step, np.round(curve.x / step), atol=1e-6)
+        shown = np.isclose(curve.x / curve.row, np.round(curve.x / curve.row), atol=1e-6)
         rows = Table(
             *(
                 Column(text, justify="right")

@@ -16,7 +16,7 @@ from .fmu import Instance
 from .interrupts import held_interrupts
 from .record import Record
 from .results import Result
-from .summary import given_names
+from .summary import given_names, ruled_names
 from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
@@ -137,12 +137,24 @@ def vibrations(model, parameters):
     return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"]]}
 
 
+def settle_turns(model, scene):
+    """Revolutions of the shaft against the housing before statistics begin."""
+    settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+    t = np.linspace(0.0, min(settle, scene.t_end), 101)
+    inner, outer = (
+        scene.inputs[name](t) if name in scene.inputs else model.default(model.inputs[name])
+        for name in ("shaft.omega", "housing.omega")
+    )
+    return float(np.mean(np.abs(inner - outer)) * t[-1] / (2.0 * np.pi))
+
+
 def provenance(model, scene):
     """Origin of a result: scene, inputs, FMU, versions, machine, date."""
     return {
         "scene": scene.name,
         "description": scene.description,
         "t_end": scene.t_end,
+        "settle_turns": settle_turns(model, scene),
         "step": scene.step,
         "inputs": {
             name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold}
@@ -151,6 +163,7 @@ def provenance(model, scene):
         },
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
+        "ruled": sorted(ruled_names(model)),
         "not_given": not_given(
             {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}
         ),

@@ -18,6 +18,8 @@ from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
+from . import oil
+
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
 BY_BALL = ("cage.guide_clearance",)
 BY_SHANK = ("joint.fit", "joint.swell")
@@ -45,9 +47,11 @@ SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's 
 }
 LOADS = ("shaft.F_x", "shaft.F_y", "shaft.F_z", "shaft.M_y", "shaft.M_z")
 PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
+LAND = ("cage.E", "cage.nu", "bearing.E", "bearing.nu")  # of cage and rings
 INERTIA = ("cage.m", "cage.x_c", "cage.J_p", "cage.J_t")  # of one half, in the order of half_shape.Inertia
 RIVET = asdict(Geometry())
 SPEED = 8.0  # n d_m, 480,000 mm/min [m/s]
+SETTLED = 15.0  # revolutions of the shaft before statistics begin, as the 6207's 50 ms at its speed
 
 
 def start(name):
@@ -90,13 +94,29 @@ def scaled_joint(rivet):
 
 def scaled_materials(given):
     """Parameters that follow from given materials: balls are of the rings' steel, the S-N curve of a rivet's steel
-    keeps its ratios to the strength.
+    keeps its ratios to the strength, the land's contact stiffness goes with cage and ring (Hertz: K ~ E*).
     """
     values = {"bearing.rho": given["ring.rho"]} if "ring.rho" in given else {}
+    if given.keys() & {*LAND}:
+        values["cage.K_land"] = rounded(compliance({}) / compliance(given) * start("cage.K_land"))
     if "fatigue.sigma_m" in given:
         share = given["fatigue.sigma_m"] / start("fatigue.sigma_m")
         values |= {name: rounded(share * start(name)) for name in ("fatigue.sigma_D", "fatigue.sigma_f")}
     return {name: value for name, value in values.items() if value != start(name)}
+
+
+def compliance(given):
+    """1/E* of land and ring [1/Pa] for given elastic constants, the 6207's for those that are not."""
+    E_c, nu_c, E, nu = (given.get(name, start(name)) for name in LAND)
+    return (1.0 - nu_c**2) / E_c + (1.0 - nu**2) / E
+
+
+def oil_by_points(given):
+    """oil.eta [Pa.s] and oil.beta [1/K] at oil.T_0 of an oil whose two points are given, from these alone."""
+    if not {*oil.POINTS} <= given.keys():
+        return {}
+    values = {name: given.get(name, v.start) for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
+    return {name: rounded(value) for name, value in oil.of_points(values).items()}
 
 
 def parts_temperatures(inputs):
@@ -134,11 +154,16 @@ def half_inertia(values, rivet):
 
 
 def inner_ring(bore, width):
-    """Inertia and damping of the inner ring with its share of the shaft, for bore and width over those of the 6207."""
+    """Inertia, damping and support of the inner ring with its share of the shaft, for bore and width over those of the
+    6207.
+
+    The support is similar too: its angular stiffness grows with the third power of the size, as ring.m does, and
+    ring.c_tilt with the root of stiffness times inertia.
+    """
     mass, inertia = bore**2 * width, bore**4 * width
-    values = {"ring.m": mass * start("ring.m"), "ring.c": mass * start("ring.c")}
+    values = {name: mass * start(name) for name in ("ring.m", "ring.c", "ring.k_tilt")}
     values |= {name: inertia * start(name) for name in ("ring.J_p", "ring.J_t")}
-    values["ring.c_tilt"] = math.sqrt(inertia) * start("ring.c_tilt")
+    values["ring.c_tilt"] = math.sqrt(mass * inertia) * start("ring.c_tilt")
     return {name: rounded(value) for name, value in values.items()}
 
 
@@ -169,6 +194,12 @@ def scaled_rivet(Z, D, d_m, given, rivet):
             max(values["head_diameter"], min(usual, across - 2.0 * half_shape.LEAST_WALL))
         )
     return {name: value for name, value in values.items() if name not in rivet}
+
+
+def settling(omega):
+    """start.settle [s] for a speed of the shaft [rad/s]: SETTLED revolutions, not below the default."""
+    turns = SETTLED * 2.0 * math.pi / abs(omega) if omega else 0.0
+    return rounded(min(max(turns, start("start.settle")), variables.PARAMETERS["start.settle"].max))
 
 
 def scaled_inputs(Z, D, d_m, inputs, C=None):

@@ -28,7 +28,8 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import UserError, shortlist, unknown
+from .errors import UserError, refusal, shortlist, unknown
+from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
@@ -94,13 +95,15 @@ def shipped_scenes():
 def load_scene(source, model, *changes):
     """Read a scene and apply changes to it.
 
-    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs; model: the
-    Model to run it; changes: pairs (origin for messages, document like the file's), later ones win.
+    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs, over at least
+    twice its start.settle; model: the Model to run it; changes: pairs (origin for messages, document like the file's), later ones win.
     scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
     start = Scene(parameters={"scene.statistics": "on"})
     if source is None:
+        settle = model.default(model.parameters["start.settle"])
+        start = replace(start, t_end=max(start.t_end, 2.0 * settle))
         of_file, folder = replace(start, name=model.path.stem, description=working_point(model)), Path()
     else:
         path = find_scene(source)
@@ -181,7 +184,12 @@ def apply(scene, where, document, model, folder):
             raise unknown(where, "key", key, SECTIONS)
     sections = {name: section_of(where, document, name) for name in SECTIONS[1:]}
     parameters = read_section(
-        where, "parameters", sections["parameters"], model.parameters, model.inputs, model.parameter_value
+        where,
+        "parameters",
+        sections["parameters"],
+        model.parameters,
+        model.inputs,
+        lambda value, v: parameter_value(value, v, model),
     )
     inputs = read_section(
         where,
@@ -196,10 +204,13 @@ def apply(scene, where, document, model, folder):
         for kind in ("parameters", "inputs")
         for name, value in leaves(sections[kind], model.parameters | model.inputs)
     }
+    own = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
+    texts = dict(leaves(sections["parameters"], model.parameters))
+    check_given(where, parameters, texts, own | scene.parameters | parameters)
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
-        parameters=scene.parameters | parameters,
+        parameters=merged(scene.parameters, parameters, own),
         inputs=scene.inputs | inputs,
         units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
         **read_simulation(where, sections["simulation"], model),
@@ -244,6 +255,17 @@ def leaves(tree, names, prefix=""):
             yield from leaves(value, names, f"{name}.")
         else:
             yield name, value
+
+
+def parameter_value(value, variable, model):
+    """A parameter's value checked; UserError for another material than that of the FMU's cage."""
+    found, own = model.parameter_value(value, variable), model.default(variable)
+    if variable.name == "cage.material" and found != own:
+        raise UserError(
+            f"{own} is allowed, of the material for which this FMU and its rivet table were built; "
+            f"for {found} build an FMU from a bearing file with [cage] material"
+        )
+    return found
 
 
 def read_simulation(where, section, model):
@@ -406,8 +428,3 @@ def check_times(scene, where):
             scene.output_interval or scene.step,
             f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval",
         )
-
-
-def refusal(where, key, value, reason):
-    """The error for a value that cannot be used."""
-    return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")

@@ -8,6 +8,9 @@ from bearing_model.generated import variables
 
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
+OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
+FLAGS = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}  # by bit
+SETTLED = 10.0  # revolutions of the shaft that statistics should leave out
 
 
 @dataclass(frozen=True)
@@ -33,8 +36,8 @@ def summary_rows(result):
         return []
     rows = [
         counted(result, "pocket force, all balls", "N", "stat.Q_c_{}", 1.0),
-        stress(result, "head stress, worst rivet", "stat.sigma_head_{}"),
-        stress(result, "middle stress, worst rivet", "stat.sigma_mid_{}"),
+        stress(result, "head stress, largest of rivets", "stat.sigma_head_{}"),
+        stress(result, "middle stress, largest of rivets", "stat.sigma_mid_{}"),
         *(sampled(result, *channel) for channel in channels(result)),
     ]
     return [row for row in rows if row]
@@ -75,12 +78,24 @@ def no_statistics(result):
     return f"no statistics yet: they begin at start.settle = {settle}, and the run ended at {end}; let it run longer (t_end), or set start.settle lower"
 
 
+def settle_note(result):
+    """A warning where the statistics begin before the bearing has settled, for slow shafts; else ""."""
+    turns, settle = result.about.get("settle_turns", 0.0), result.parameters.get("start.settle", 0.0)
+    if not 0.0 < turns < SETTLED or not has_statistics(result):
+        return ""
+    enough = SETTLED / turns * settle
+    return (
+        f"statistics and damage begin at start.settle = {settle:g} s, after {turns:.2g} revolutions of the shaft: start and "
+        f"first contacts count; start.settle = {enough:.2g} s leaves out {SETTLED:g} revolutions"
+    )
+
+
 def early_rows(result):
     """For a run without statistics: (channel, unit, value at the end, largest since the start) of what it has."""
     peaks = [
         ("pocket force, largest in the step", "N", 1.0, ["cage.F_pocket_peak"], None),
         *(
-            (f"{place} stress, worst rivet", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None)
+            (f"{place} stress, largest of rivets", "MPa", 1e-6, [f"rivet.sigma_{short}_max"], None)
             for place, short in (("head", "head"), ("middle", "mid"))
         ),
     ]
@@ -117,6 +132,25 @@ def assumed_rows(result):
             factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
             value = factor * result.parameters[name]
             yield name, value, low * value, high * value, unit, stress, source
+
+
+def assumed_as_bronze(result):
+    """Values of a cage of bronze that nobody gave for one of another material, in words; "" for none."""
+    known = {*result.about.get("given", ()), *result.about.get("ruled", ())}
+    if result.parameters.get("cage.material", "bronze") == "bronze":
+        return ""
+    shown = (
+        f"{name} {result.parameters[name]:g}" for name in OF_BRONZE if name in result.parameters and name not in known
+    )
+    return ", ".join(shown)
+
+
+def flag_note(result):
+    """Which parts yield, and where the stress table ends, at a communication point of the run; "" for none."""
+    flags = columns(result, "rivet[", "].flag")
+    seen = int(np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))) if flags else 0
+    found = [text for bit, text in FLAGS.items() if seen & bit]
+    return f"flags of the rivets (rivet[k].flag): {', '.join(found)}" if found else ""
 
 
 def is_known(name, given, parameters):
@@ -225,3 +259,8 @@ def assumed_ranges(model, scene=None):
 def given_names(model, scene=None):
     """Names of the parameters that a scene or the bearing's own file gives."""
     return {*(scene.parameters if scene else ()), *(name for name, origin in model.origin.items() if origin == "yours")}
+
+
+def ruled_names(model):
+    """Names of the parameters that follow from the bearing's file by rule."""
+    return {name for name, origin in model.origin.items() if origin == "rule"}

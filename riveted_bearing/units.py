@@ -45,6 +45,7 @@ MULTIPLES = {
     "1": {"%": (1e2, 0.0)},
 }
 SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0)} | MULTIPLES["s"]
+SHORT = 0.1  # h: a shorter life is told in minutes or seconds
 LONGEST = 1e6  # h: a longer life is no figure to tell
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/|[^\d.,\s]).*?)?\s*")
 
@@ -92,11 +93,13 @@ def scale(symbol, scales):
 
 
 def hours_text(hours):
-    """A life in hours with three digits, or that it is longer than LONGEST."""
+    """A life in hours, minutes or seconds with three digits, or that it is longer than LONGEST."""
     if not math.isfinite(hours):
         return "no damage"
     if hours > LONGEST:
         return "> 1e6 h"
+    if hours < SHORT:
+        return f"{3600.0 * hours:.3g} s" if hours < 1.0 / 60.0 else f"{60.0 * hours:.3g} min"
     return f"{hours:.3g} h" if hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
 
 

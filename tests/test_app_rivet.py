@@ -57,17 +57,42 @@ def test_titles_say_under_which_loads():
     assert [title for title, _ in rivet.curve_tables(pictures.curves(*pictures.table_response(TABLE)))] == TITLES
 
 
-def test_curves_of_a_larger_joint_have_its_swell():
-    """By rule the swell goes with the shank: at a fit of minus the swell the bores touch just as at 0 without it."""
-    asked = []
+def test_curves_of_a_larger_joint_go_with_its_size():
+    """By rule: lengths with the shank, forces with its section, so that stresses are alike; rows at 1, 2 or 5; the
+    paper's figures show its own rivet alone.
+    """
+    asked, size = [], 2.5 / 1.5
 
     def stress(load, fit):
-        asked.append(np.ravel(fit)[-1])
+        asked.append((load, np.ravel(fit)[-1]))
         return pictures.table_response(TABLE)[0](load, fit)
 
-    curves = pictures.curves(stress, lambda fit: fit, 2.5 / 1.5)
-    assert asked[-1] == pytest.approx(-10e-6 + 4e-6 * 2.5 / 1.5) and asked[1] == pytest.approx(40e-6 + 4e-6 * 2.5 / 1.5)
-    assert curves["transverse load"].loads.endswith("swell 6.67 µm")
+    curves = pictures.curves(stress, lambda fit: fit, size, paper=False)
+    assert asked[-1][1] == pytest.approx(-6e-6 * size) and asked[1][0].P == pytest.approx(20.0 * size**2)
+    assert curves["fit, elastic"].x[[0, -1]] == pytest.approx([-150e-6, 70e-6])
+    assert curves["preload"].x[-1] == 160.0 and curves["preload"].row == 20.0
+    assert curves["transverse load"].loads == (
+        "preload 55.56 N, no external tension, fit −17 µm (clearance), swell 6.67 µm"
+    )
+    titles = [title for title, rows in rivet.curve_tables(curves) if rows.row_count >= 8]
+    assert len(titles) == 4 and not any("paper" in title for title in titles)
+
+
+def test_a_rivet_in_the_cage_of_a_bearing(tmp_path):
+    """2.5 mm do not fit the 6207's cage, which the refusal names; in the 6309's they do."""
+    path = tmp_path / "thick.toml"
+    path.write_text('shank_diameter = "2.5 mm"\nhead_diameter = "4.4 mm"\n')
+    with pytest.raises(UserError, match="in the cage of the 6207; --bearing names another one"):
+        rivet.source_geometry(path, None)
+    geometry = rivet.source_geometry(path, "6309")
+    assert geometry.shank_diameter == 2.5e-3 and geometry.ball_diameter == bearing_case("6309").values["bearing.D"]
+    assert rivet.source_geometry(None, "6309").shank_diameter == pytest.approx(1.5e-3 * 17.4625 / 11.1125, rel=1e-5)
+    assert rivet.is_papers(Geometry()) and not rivet.is_papers(geometry)
+    refused = command("rivet", str(path), "--out", "pictures", folder=tmp_path)
+    assert refused.returncode == 2 and "in the cage of the 6207" in refused.stderr
+    assert not (tmp_path / "pictures").exists()
+    wrong = command("rivet", str(ROOT / "rivet_model" / "tables" / "6207.json"), "--bearing", "6309", folder=tmp_path)
+    assert wrong.returncode == 2 and "--bearing 6309" in wrong.stderr
 
 
 def test_curves_of_a_geometry_are_its_finite_elements(joint):

@@ -2,6 +2,7 @@
 seen.
 """
 
+import zipfile
 from dataclasses import replace
 
 import numpy as np
@@ -124,8 +125,24 @@ def test_refusals(model, monkeypatch):
     with pytest.raises(UserError, match="reference: method = 'Euler'"):
         compare(model, scene, short=1e-5, long=0.0, method="Euler")
     monkeypatch.setattr("riveted_bearing.compare.variables.Z", 8)
-    with pytest.raises(UserError, match=r"bearing.Z = 9; .* Z = 8"):
+    with pytest.raises(UserError, match=r"bearing.Z = 9: .* Z = 8"):
         compare(model, scene)
+
+
+def test_an_fmu_of_another_bearing_needs_its_own_reference(model, tmp_path):
+    """Nine balls alone do not make it the 6207; without its build folder the way to one is said."""
+    path = tmp_path / "mine.fmu"
+    with zipfile.ZipFile(model.path) as old, zipfile.ZipFile(path, "w") as new:
+        for member in old.infolist():
+            data = old.read(member)
+            if member.filename == "modelDescription.xml":
+                data = data.replace(model.description.guid.encode(), b"{0000}")
+            new.writestr(member, data)
+    other = Model(path)
+    with pytest.raises(UserError, match="takes this FMU's own one"):
+        compare(other, load_scene("demo", other))
+    refused = CliRunner().invoke(program, ["compare", "--fmu", str(path)])
+    assert refused.exit_code == 2 and f"riveted-bearing build --bearing FILE --out {path}" in refused.stderr
 
 
 def test_command(tmp_path):

@@ -49,6 +49,7 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "pulse.F_r": 1000.0,
     "pulse.F_a": 1000.0,
 }
+BESIDE = {"oil.nu_1": "oil.nu_2 = 5e-6\n", "oil.nu_2": "oil.nu_1 = 25e-6\n"}
 NO_EFFECT = {"solver.max_steps": "a limit that no run here reaches"}
 
 
@@ -144,7 +145,8 @@ def other_case(tmp_path, name, value):
     """The own bearing with one parameter of its file."""
     written = f'"{value}"' if isinstance(value, str) else repr(value)
     path = tmp_path / "mine.toml"
-    path.write_text(f"{OWN}[parameters]\n{name} = {written}\n", encoding="utf-8")
+    beside = BESIDE.get(name, "")  # of an oil one point alone is refused
+    path.write_text(f"{OWN}[parameters]\n{name} = {written}\n{beside}", encoding="utf-8")
     return bearing_case(path)
 
 

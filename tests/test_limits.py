@@ -13,6 +13,8 @@ from riveted_bearing.units import to_si
 
 BASE = {"designation": '"6308"'}  # what a file leaves out follows by catalogue and rule
 
+OTHER = {"designation": '"mine"', "Z": "8", "bearing.D": '"15.081 mm"', "bearing.d_m": '"65 mm"'}  # of its own sizes
+
 IMPOSSIBLE = [  # what the file says, the key that is refused; the value must be the file's own text
     ({"bearing.D": '"18 mm"'}, "bearing.D"),
     ({"bearing.D": "0.018"}, "bearing.D"),
@@ -60,9 +62,9 @@ IMPOSSIBLE = [  # what the file says, the key that is refused; the value must be
     ({"rivet.edge_break": '"0.4 mm"'}, "rivet.edge_break"),
     ({"rivet.flange_thickness": '"0.8 mm"'}, "rivet.flange_thickness"),
     ({"rivet.middle_zone": '"0.3 mm"'}, "rivet.middle_zone"),
-    ({"catalogue.bore": '"55 mm"'}, "catalogue.bore"),
-    ({"catalogue.outside_diameter": '"79 mm"'}, "catalogue.outside_diameter"),
-    ({"catalogue.width": '"14 mm"'}, "catalogue.width"),
+    (OTHER | {"catalogue.bore": '"55 mm"'}, "catalogue.bore"),
+    (OTHER | {"catalogue.outside_diameter": '"79 mm"'}, "catalogue.outside_diameter"),
+    (OTHER | {"cage.width": '"18.5 mm"', "catalogue.width": '"17 mm"'}, "catalogue.width"),
 ]
 POSSIBLE = [{"designation": f'"{name}"'} for name in list(entries())[::4]] + [
     {"bearing.D": '"14 mm"'},
@@ -83,7 +85,7 @@ POSSIBLE = [{"designation": f'"{name}"'} for name in list(entries())[::4]] + [
     {"rivet.head_diameter": '"4 mm"'},
     {"rivet.head_diameter": "3.0e-3"},
     {"rivet.material": '"15CrMn"', "rivet.E": '"200 GPa"'},
-    {"catalogue.bore": '"42 mm"'},
+    OTHER | {"catalogue.bore": '"42 mm"'},
     {"designation": '"mine"', "Z": "8", "bearing.D": '"15.081 mm"', "bearing.d_m": '"65 mm"'},
     {"designation": '"mine"', "Z": "12", "bearing.D": '"7.938 mm"', "bearing.d_m": '"54 mm"'},
 ]

@@ -164,7 +164,7 @@ def test_the_fmu_refuses_another_material(tmp_path):
         ("cage.E", 207e9, "1.1e+11"),
         ("cage.nu", 0.3, "0.33"),
         ("cage.rho", 7850.0, "8800"),
-        ("cage.material", "steel", "1 is allowed"),
+        ("cage.material", "steel", "bronze is allowed"),
     )
     for name, value, allowed in settings:
         with pytest.raises(UserError) as refused:
@@ -321,9 +321,10 @@ def test_oil_alone_is_said_once():
     """A run that heats the oil and leaves the parts is told, one that heats both or neither is not."""
     alone = warnings_of(inputs={"oil.T": 363.15})
     assert len(alone) == 1 and all(
-        word in alone[0] for word in ("oil.T = 363.15 K", "cage.T = 293.15 K", "clearances, preload and fit")
+        word in alone[0] for word in ("oil.T = 90 degC", "cage.T = 20 degC", "clearances, preload and fit")
     )
     assert not warnings_of(inputs={"oil.T": 363.15, "cage.T": 350.0}) and not warnings_of()
+    assert not warnings_of(inputs={"oil.T": 293.15})  # that of the parts
 
 
 def test_sizes_that_leave_the_table_behind_are_said():

@@ -84,6 +84,17 @@ def test_6310(tmp_path):
     """dy/dt at 1200 states, Jacobian, start and outputs of both twins: the tests of test_twin.py with their tolerances."""
     build("6310", out=tmp_path / "6310.fmu", table="closed-form")
     folder = build_folder(ROOT, "6310")
+    compared = subprocess.run(
+        [sys.executable, "-m", "riveted_bearing", "compare", "--fmu", tmp_path / "6310.fmu", "--short", "20 us"]
+        + ["--long", "0", "--set", "scene.cage=two_half", "--out", tmp_path],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert compared.returncode == 0 and "6310: " in compared.stdout, compared.stderr
+    worst = [line.split() for line in compared.stdout.splitlines() if line.startswith("rivet[k].sigma_head ")]
+    assert float(worst[0][-1]) < 1e-3  # at the tightest tolerance: the same rivet table
     subprocess.run(
         [sys.executable, "-m", "cmake", "--build", folder, "--target", "bearing_test"], check=True, capture_output=True
     )

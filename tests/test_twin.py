@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from library import TWO_HALF
 from mechanics import SLICE, Instance, Z
+from other_bearing import BUILD
 
 from bearing_model.generated import variables
 from bearing_model.instance.energy import energy_total
@@ -298,7 +299,9 @@ def test_derivatives(core, record_property):
     record_property("worst", plain(worst))
     print(f"relative differences of dy/dt {[f'{k} {v:.1e}' for k, v in worst.items()]}; states by situation {seen}")
     assert min(seen.values()) >= 40  # of 1,800: every situation occurs; observed 44 for the 6310
-    assert max(worst.values()) < 1e-11  # observed 1.7e-12
+    assert max(worst.values()) < (
+        3e-11 if BUILD else 1e-11
+    )  # observed 1.7e-12, for the 6310 1.6e-11 of the ring's tilt
 
 
 def test_derivatives_see_a_small_error(core):

@@ -431,12 +431,14 @@ static void report_parts_left(Bearing *b)
     const Inputs *u = &b->s.u[0], *start = &b->start;
     const bool alone = u->ring.T_i == start->ring.T_i && u->ring.T_e == start->ring.T_e &&
                        u->ball.T == start->ball.T && u->cage.T == start->cage.T;
-    if (!alone || u->oil.T == start->oil.T) return;
+    const double T = u->oil.T, zero = 273.15;  // [K] of 0 degC
+    const bool equal = u->ring.T_i == T && u->ring.T_e == T && u->ball.T == T && u->cage.T == T;
+    if (!alone || equal || T == start->oil.T) return;
     bearing_log(
         b, LOG_WARNING,
-        "oil.T = %g K is set, the parts' temperatures are not: ring.T_i = %g K, ring.T_e = %g K, ball.T = "
-        "%g K, cage.T = %g K, at which clearances, preload and fit are taken",
-        u->oil.T, u->ring.T_i, u->ring.T_e, u->ball.T, u->cage.T);
+        "oil.T = %g degC is set, the parts' temperatures are not: ring.T_i = %g degC, ring.T_e = %g degC, "
+        "ball.T = %g degC, cage.T = %g degC, at which clearances, preload and fit are taken",
+        T - zero, u->ring.T_i - zero, u->ring.T_e - zero, u->ball.T - zero, u->cage.T - zero);
 }
 
 // Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.

@@ -18,9 +18,13 @@ SHIPPED = Path(__file__).resolve().parents[1] / "data" / "cascade.toml"
 @command
 def cascade(
     study: Annotated[
-        Path,
-        typer.Argument(help="cascade file (TOML): scene, seeds, cases; see docs/life.md", metavar="[CASCADE.toml]"),
-    ] = SHIPPED,
+        Path | None,
+        typer.Argument(
+            help="cascade file (TOML): scene, seeds, cases; see docs/life.md; default: the FMU's own working point, "
+            "of the 6207 with a large clearance and with interference",
+            metavar="[CASCADE.toml]",
+        ),
+    ] = None,
     fmu: FMU = None,
     out: Annotated[
         Path | None, typer.Option(help="folder of runs, cascade.json and picture; default: results/CASCADE")
@@ -31,13 +35,15 @@ def cascade(
     """What happens when the first rivet goes: order, times and loads until three are gone or the cage opens; a second
     call does only missing runs.
     """
-    from ..design.cascade import plan_cascade, run_cascades, write_cascades, write_picture
+    from ..design.cascade import default_document, plan_cascade, run_cascades, write_cascades, write_picture
     from ..errors import UserError
     from ..fmu import Model
 
-    if not study.is_file():
+    if study is not None and not study.is_file():
         raise UserError(f"{study}: no such cascade file")
-    model, document = Model(fmu), read_toml(study)
+    model = Model(fmu)
+    document = default_document(model, read_toml(SHIPPED)) if study is None else read_toml(study)
+    study = study or (Path(f"{model.path.stem}_cascade.toml") if model.origin else SHIPPED)
     plan_cascade(study, document)
     folder = out or Path("results") / study.stem
     make_folder(folder)

@@ -39,9 +39,15 @@ def compare(
     from ..compare import ledger_table, long_table, short_table
     from ..fmu import Model
     from ..plot import plot_comparison
+    from ..reference import folder_of, is_installed, run_again
     from ..scene import seconds
 
     model = Model(fmu)
+    if not is_installed(model):
+        options = ["--fmu", model.path, "--out", out, "--short", short, "--long", long, "--seeds", seeds]
+        options += ["--method", method, *(text for setting in settings or () for text in ("--set", setting))]
+        arguments = ["compare", *([scene] if scene else []), *options]
+        raise typer.Exit(run_again(folder_of(model), map(str, arguments)))
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], None, None, None)))
     horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
     make_folder(out)

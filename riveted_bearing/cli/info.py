@@ -8,6 +8,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
+from bearing_model.generated import variables
 from bearing_model.kinematics import fault_frequencies
 from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
@@ -16,6 +17,7 @@ from ..summary import DEG, RPM
 from .terminal import FMU, command, console, print_basis
 
 BOUNDARY = ("bore", "outside_diameter", "width")
+ZERO = 273.15  # K of 0 degC
 RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
 
 
@@ -70,6 +72,7 @@ def info_tables(case):
     state = case.equilibrium()
     return [
         ("Geometry and masses", pairs(geometry(case))),
+        *([("Oil and temperatures", pairs(oil(case)))] if case.rivet is not None else []),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {RPM * case.load.omega:,.0f} rev/min", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
@@ -119,6 +122,7 @@ def geometry(case):
             "mm",
             origins(case, *(f"rivet.{name}" for name in RIVET)),
         )
+        yield from preload(case)
     for part, material in case.materials.items():
         yield (
             f"material of {'the ' + part if part in ('cage', 'rivet') else part}",
@@ -133,6 +137,48 @@ def geometry(case):
         origins(case, "cage.m"),
     )
     yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:.3g}", "kg", origins(case, "ring.m")
+
+
+def preload(case):
+    """Preload of the rivets as given and at the cage's temperature, the latter by rule: an FMU's own table has it
+    exactly.
+    """
+    from ..preload import of_geometry
+
+    given, T, thermal = case.values["joint.preload"], case.values["cage.T"], of_geometry(Geometry(**case.joint))
+    yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", origins(case, "joint.preload")
+    if abs(thermal.at(given, T) - given) > 1e-3 * given:
+        reason = f"the cage expands {'more' if thermal.rate > 0.0 else 'less'} than the rivets, {thermal.rate:+.3g} N/K"
+        yield f"preload with the cage at {T - ZERO:.4g} degC", f"some {thermal.at(given, T):.3g}", "N", reason
+
+
+def oil(case):
+    """Name, value, unit and origin of oil and temperatures."""
+    from ..oil import viscosity
+
+    own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
+    start = {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
+    T = own.pop("oil.T")
+    points = ("oil.nu_1", "oil.nu_2")
+    yield (
+        f"oil viscosity at {T - ZERO:.4g} degC",
+        f"{1e3 * viscosity(own, start, T):.4g}",
+        "mPa.s",
+        origins(case, "oil.eta"),
+    )
+    yield (
+        "kinematic viscosity",
+        ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in points),
+        "mm2/s",
+        origins(case, *points),
+    )
+    names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
+    yield (
+        "oil, inner ring, outer ring, balls, cage",
+        ", ".join(f"{case.values[name] - ZERO:.4g}" for name in names),
+        "degC",
+        origins(case, *names),
+    )
 
 
 def origins(case, *names):

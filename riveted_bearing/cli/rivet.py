@@ -18,18 +18,24 @@ def rivet(
             metavar="TABLE|GEOMETRY", help="rivet table (JSON) or geometry (TOML); default: the table shipped"
         ),
     ] = None,
+    bearing: Annotated[
+        str | None,
+        typer.Option(
+            help="bearing file (TOML) or designation in whose cage the rivet is, by default its own one; default: the 6207"
+        ),
+    ] = None,
     out: Annotated[Path, typer.Option(help="folder for the pictures")] = Path("results"),
 ):
     """Stress of the rivet over preload, fit and transverse load; drawing, curves, mesh, deformed section with its
     stress, modes of a cage half.
     """
-    from ..rivet import curve_tables, given_geometry, rivet_curves, seat_note, write_pictures
+    from ..rivet import curve_tables, rivet_curves, seat_note, source_geometry, write_pictures
 
-    if source:
-        given_geometry(source)  # a wrong file leaves no folder
+    if source or bearing:
+        source_geometry(source, bearing)  # a wrong file leaves no folder
     make_folder(out)
     with messages.status("finite elements"):
-        title, curves, joint = rivet_curves(source)
+        title, curves, joint = rivet_curves(source, bearing)
         paths = write_pictures(out, title, curves, joint)
     console.print(f"[bold]{escape(title)}[/]", soft_wrap=True)
     for name, rows in curve_tables(curves):

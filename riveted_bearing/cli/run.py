@@ -128,7 +128,16 @@ def four_digits(value):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
-    from ..summary import assumed_rows, has_statistics, no_statistics, rivet_rows, table_note
+    from ..summary import (
+        assumed_as_bronze,
+        assumed_rows,
+        flag_note,
+        has_statistics,
+        no_statistics,
+        rivet_rows,
+        settle_note,
+        table_note,
+    )
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
@@ -138,7 +147,8 @@ def print_summary(result):
     if rivets:
         worst = max(rivets, key=lambda row: row[1].p999)
         console.print(
-            f"worst rivet: {worst[0]} (head p99.9 {worst[1].p999:.4g} MPa, middle p99.9 {worst[2].p999:.4g} MPa)"
+            f"of the single rivets, rivet {worst[0]} has the largest p99.9 in its head: "
+            f"{worst[1].p999:.4g} MPa, in its middle {worst[2].p999:.4g} MPa"
         )
     if missing := no_statistics(result):
         messages.print(f"[yellow]note:[/] {missing}", soft_wrap=True)
@@ -171,7 +181,9 @@ def print_summary(result):
         )
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
-    if note := table_note(result):
+    if names := assumed_as_bronze(result):
+        console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
+    for note in filter(None, (settle_note(result), flag_note(result), table_note(result))):
         messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:

@@ -22,6 +22,7 @@ import numpy as np
 from bearing_model.generated import variables
 
 from ..basis import basis
+from ..duty.mission import curves
 from ..errors import UserError, unknown
 from ..scene import leaves, load_scene, refusal, section_of
 from ..sweep import (
@@ -111,6 +112,7 @@ class Bench:
         self.fmu = model.path.read_bytes()
         self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
         self.scenes = {}
+        self.counts_damage = False
 
     def sweep(self, names, scenes):
         """The runs of scenes by key, in which the names vary."""
@@ -127,8 +129,9 @@ class Bench:
         )
 
     def basis(self):
-        """What the runs asked for so far rest on."""
-        return basis(self.model, self.scenes.values() or [self.scene])
+        """What the runs asked for so far rest on; of a damage also the S-N curve, of the scene without what varies."""
+        curve = curves(self.path, {}, [self.scene], self.model) if self.counts_damage else ""
+        return basis(self.model, self.scenes.values() or [self.scene], curve)
 
     def check(self, responses):
         """Refuse a response that the rows will not have, before anything is simulated."""
@@ -136,6 +139,7 @@ class Bench:
         for name in responses:
             if name != "damage" and COLUMNS.get(name, name) not in columns:
                 raise unknown(self.path, "response", name, ["damage", *COLUMNS, *columns])
+        self.counts_damage = any(name == "damage" or ".damage_" in name for name in responses)
         return self
 
     def scene_at(self, names, point):

@@ -93,6 +93,18 @@ def plan_cascade(path, document):
     return named, count_of(path, "breaks", document.get("breaks", 3))
 
 
+def default_document(model, shipped):
+    """What a cascade is without a file: the shipped one, of an FMU of its own with the fit that the FMU has, and long
+    enough for its speed.
+    """
+    if not model.origin:
+        return shipped
+    settle = model.default(model.parameters["start.settle"])
+    t_end = max(shipped["simulation"]["t_end"], 2.0 * settle)
+    kept = {key: shipped[key] for key in ("seeds", "breaks")}
+    return kept | {"description": "Rivet after rivet at the FMU's own working point", "simulation": {"t_end": t_end}}
+
+
 def run_cascades(path, document, model, folder, client, progress=None):
     """The Cascades of all cases; runs are read from the folder where they are there."""
     cases, breaks = plan_cascade(path, document)
@@ -105,6 +117,7 @@ def run_cascades(path, document, model, folder, client, progress=None):
     for name, parameters in cases.items():
         section = section_of(path, document, "parameters") | parameters
         bench = Bench(path, common | {"parameters": section}, model, folder, client, progress)
+        bench.counts_damage = True
         rivets = sum(each.startswith("rivet[") and each.endswith("].intact") for each in model.parameters)
         if breaks >= rivets:
             raise refusal(path, "breaks", breaks, f"less than the number of rivets, {rivets}, is allowed")

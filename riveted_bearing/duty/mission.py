@@ -125,7 +125,9 @@ class Case:
 
 @dataclass(frozen=True)
 class Mission:
-    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on."""
+    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
+    whether its points have shares of a time that is not given.
+    """
 
     name: str
     description: str
@@ -137,6 +139,7 @@ class Mission:
     hours: float
     settings: dict
     basis: tuple
+    shares: bool = False
 
 
 def load_mission(path, model):
@@ -175,6 +178,7 @@ def plan_mission(name, document, model, path):
         hours,
         settings,
         rows,
+        any("share" in block for block in tables(path, document, "point")),
     )
 
 

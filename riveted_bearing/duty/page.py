@@ -51,12 +51,22 @@ def cards(life):
     found, settings = life.estimate, life.mission.settings
     yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
     yield f"{100 * settings['confidence']:g} % interval", interval_text(life), width_text(life)
-    yield "Mission", f"{figure(life.mission.hours)} h", passes_text(found.life, life.mission.hours)
+    yield "Mission", *mission_text(life)
     yield (
         "Runs",
         f"{sum(life.counts)}",
         f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated",
     )
+
+
+def mission_text(life):
+    """How long a mission is, and a life in passes of it; one of shares alone has no length."""
+    mission, found = life.mission, life.estimate
+    if not mission.shares:
+        return f"{figure(mission.hours)} h", passes_text(found.life, mission.hours)
+    if any(part.event for part in mission.parts):
+        return "shares of an hour", f"events count for each hour · {passes_text(found.life, mission.hours)}"
+    return "shares of time", "of any length"
 
 
 def open_ends(life):
@@ -106,13 +116,18 @@ def part_rows(life):
     """Name, load, speed, weight, how it was simulated, damage per hour or event, share of each part."""
     share = dict(zip(life.kept, life.estimate.shares, strict=True))
     for i, part in enumerate(life.mission.parts):
-        weight = f"{figure(part.weight)} {'times' if part.event else 'h'}"
+        weight = f"{figure(part.weight)} times" if part.event else time_text(part.weight, life.mission)
         if i in life.bounds:
             how, rate, text = "left out", "", f"< {100 * life.bounds[i] * life.estimate.life:.2g} %"
         else:
             how = "interpolated" if part.scene is None else f"{life.counts[i]} seeds"
             rate, text = f"{rate_at_place(life, i):.3g}", share_text(share[i])
         yield part.name, part.load, part.speed, weight, how, rate, "event" if part.event else "h", text
+
+
+def time_text(hours, mission):
+    """The hours of a point, or their share of the whole if the mission has shares."""
+    return f"{figure(100.0 * hours / mission.hours)} %" if mission.shares else f"{figure(hours)} h"
 
 
 def rate_at_place(life, i):

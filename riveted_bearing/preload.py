@@ -1,0 +1,79 @@
+"""Preload of the rivets at the cage's temperature: P = P_0 + k (T - T_0), not below 0.
+
+k = k_stack (alpha_flange - alpha_rivet) grip (bearing_model/rivet/rivet_rom.py) is a constant of the rivet table; T_0
+is the temperature at which the rivets are set.
+"""
+
+import math
+from dataclasses import dataclass
+from weakref import WeakKeyDictionary
+
+from bearing_model.physics.derived import default_table
+from rivet_model.closed_form import stack_stiffness
+
+from .errors import UserError
+from .fmu import Instance
+from .scene import History, Scene
+
+PRELOAD, TEMPERATURE, OUTPUT = "joint.preload", "cage.T", "rivet[1].P"
+TRIALS = (293.15, 303.15)  # temperatures at which an FMU tells its preload [K]
+KNOWN = WeakKeyDictionary()  # the Thermal of each Model
+LARGE = 500.0  # preload of the trials [N]: it does not vanish
+
+
+@dataclass(frozen=True)
+class Thermal:
+    """Change of the preload per kelvin [N/K], and the temperature at which the rivets are set [K]."""
+
+    rate: float
+    T_0: float
+
+    def at(self, preload, T):
+        """Preload at T [N]."""
+        return max(0.0, preload + self.rate * (T - self.T_0))
+
+
+def of_fmu(model):
+    """The Thermal of an FMU; None if it is not known."""
+    if model not in KNOWN:
+        KNOWN[model] = measured(model)
+    return KNOWN[model]
+
+
+def measured(model):
+    """The Thermal of an FMU, by two of its starts; None if it does not start there."""
+    found = []
+    for T in TRIALS:
+        inputs = {name: History([0.0], [T]) for name in model.inputs if name.endswith((".T", ".T_i", ".T_e"))}
+        try:
+            with Instance(model) as instance:
+                instance.initialize(Scene(parameters={PRELOAD: LARGE}, inputs=inputs))
+                found.append(instance.read([OUTPUT])[OUTPUT])
+        except UserError:
+            return None
+    rate = (found[1] - found[0]) / (TRIALS[1] - TRIALS[0])
+    return Thermal(rate, TRIALS[0] - (found[0] - LARGE) / rate if rate else TRIALS[0])
+
+
+def of_geometry(geometry):
+    """The Thermal of a rivet in its cage by rule from the shipped table's, without finite elements."""
+    k = stack_stiffness(geometry, default_table().joint["k_stack"])
+    expansion = (geometry.alpha_flange - geometry.alpha_rivet) * 2.0 * geometry.flange_thickness
+    return Thermal(k * expansion, geometry.T_0)
+
+
+def in_words(thermal, pairs, newtons, degrees):
+    """Preload as given and at temperature, and why they differ.
+
+    pairs: (preload [N], temperature of the cage [K]) of all cases; newtons, degrees: a range of values in words.
+    """
+    given = newtons([preload for preload, _ in pairs])
+    if thermal is None:
+        return f"{given} as given"
+    hot = [thermal.at(*pair) for pair in pairs]
+    if all(math.isclose(P, P_0, rel_tol=1e-3, abs_tol=1e-3) for P, (P_0, _) in zip(hot, pairs, strict=True)):
+        return given
+    more = "more" if thermal.rate > 0.0 else "less"
+    reason = f"the cage expands {more} than the rivets, {thermal.rate:+.3g} N/K"
+    at = degrees([T for _, T in pairs])
+    return f"{given} at {thermal.T_0 - 273.15:.4g} degC, {newtons(hot)} with the cage at {at}: {reason}"

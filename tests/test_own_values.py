@@ -1,0 +1,388 @@
+"""A designer's own bearing: nothing of the paper's 6207 stands in for a value without being said, and a value given
+twice is refused by its key.
+"""
+
+import math
+import re
+import sys
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from lxml import etree
+from typer.testing import CliRunner
+
+from bearing_model.generated import variables
+from bearing_model.physics.viscosity import Oil
+from rivet_model import stiffness
+from rivet_model.closed_form import stack_stiffness
+from rivet_model.geometry import Geometry
+from rivet_model.load_cases import COARSE, Joint
+from riveted_bearing import UserError, preload, run, summary
+from riveted_bearing.basis import basis
+from riveted_bearing.bearings import bearing_case, case_of
+from riveted_bearing.cli import program
+from riveted_bearing.cli.info import geometry, oil
+from riveted_bearing.design.bench import Bench
+from riveted_bearing.design.cascade import default_document
+from riveted_bearing.duty.mission import plan_mission
+from riveted_bearing.duty.page import mission_text, time_text
+from riveted_bearing.fmu import Model
+from riveted_bearing.matrices import scene_at
+from riveted_bearing.oil import viscosity
+from riveted_bearing.report import render
+from riveted_bearing.results import to_toml
+from riveted_bearing.scene import load_scene
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
+from generate import load_table, write_description
+
+OWN = 'designation = "6309"\nZ = 8\n'
+
+
+@pytest.fixture(scope="module")
+def model(fmu):
+    return Model(fmu)
+
+
+def read(tmp_path, text):
+    """The Case of a bearing file."""
+    path = tmp_path / "mine.toml"
+    path.write_text(text, encoding="utf-8")
+    return bearing_case(path)
+
+
+def shown(*arguments):
+    """What the program prints."""
+    done = CliRunner().invoke(program, [str(argument) for argument in arguments])
+    assert done.exit_code == 0, done.output
+    return done.stdout
+
+
+def scene_of(model, *documents):
+    return load_scene(None, model, *((f"document {i}", document) for i, document in enumerate(documents, 1)))
+
+
+# What a file is -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("section", ["cage", "rings", "balls", "rivet"])
+def test_a_file_of_materials_alone_is_a_bearing_file(tmp_path, section):
+    """Without designation, balls and pitch diameter: those are the 6207's, which is said."""
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        f"[{section}]\n{'E' if section != 'rivet' else 'head_diameter'} = 2.7e-3\n".replace("E = 2.7e-3", "")
+    )
+    assert case_of(path).origin["bearing.D"] == "6207"
+    text = " ".join(shown("info", path).split())
+    assert "of the 6207 Z, bearing (D, d_m), shaft (F_x, F_y, omega)" in text
+    with pytest.raises(UserError, match="this is a bearing file, not a scene"):
+        load_scene(path, SimpleNamespace())
+
+
+@pytest.mark.parametrize(("key", "value", "allowed"), [("bore", "40 mm", "45 mm"), ("width", "0.03", "0.025")])
+def test_a_boundary_dimension_that_contradicts_the_designation_is_refused(tmp_path, key, value, allowed):
+    written = f'"{value}"' if "mm" in value else value
+    with pytest.raises(UserError, match=rf"catalogue.{key} = .*{value}.*: {allowed}.* is allowed, of the 6309"):
+        read(tmp_path, f"{OWN}[catalogue]\n{key} = {written}\n")
+    assert read(tmp_path, f'{OWN}[catalogue]\nbore = "45 mm"\nC = "50 kN"\n').catalogue["C"] == 50e3
+
+
+# What follows by rule -------------------------------------------------------------------------------------------------
+
+
+def test_seats_are_the_catalogues(tmp_path):
+    """45 and 100 mm; by d_m -+ D/0.6, which is for unknown bearings, 43.4 and 101.6 mm.  The 6207 keeps its rule."""
+    case = read(tmp_path, OWN)
+    assert (case.values["ring.bore"], case.values["ring.outside"]) == (0.045, 0.1)
+    assert case.origin["ring.bore"] == "rule" and bearing_case("6207").values["ring.bore"] == 0.0
+    assert read(tmp_path, f'{OWN}[parameters]\nring.bore = "44 mm"\n').values["ring.bore"] == 0.044
+
+
+def test_the_support_against_tilt_is_similar(tmp_path):
+    """Twice as large: eight times as stiff, 16 times as damped, so that the damping ratio c/sqrt(k J) stays."""
+    case = bearing_case("6309")
+    r = (0.045 / 0.035) ** 2 * 25.0 / 17.0
+    assert case.values["ring.k_tilt"] == pytest.approx(2e4 * r, rel=1e-5)
+    ratio = case.values["ring.c_tilt"] / math.sqrt(case.values["ring.k_tilt"] * case.values["ring.J_t"])
+    assert ratio == pytest.approx(1.0 / math.sqrt(2e4 * 1.2e-4), rel=1e-5)
+
+
+@pytest.mark.parametrize(("speed", "settle"), [("500 rev/min", 1.8), ("9000 rev/min", 0.1), ("30000 rev/min", 0.05)])
+def test_settling_lasts_fifteen_revolutions(tmp_path, speed, settle):
+    """At least 50 ms, which the 6207 keeps."""
+    case = read(tmp_path, f'{OWN}[inputs]\nshaft.omega = "{speed}"\n')
+    assert case.values["start.settle"] == pytest.approx(settle, rel=1e-5)
+    assert read(tmp_path, f"{OWN}[parameters]\nstart.settle = 0.2\n").values["start.settle"] == 0.2
+    assert bearing_case("6207").values["start.settle"] == 0.05 and "start.settle" not in bearing_case("6207").origin
+
+
+def test_the_lands_stiffness_goes_with_the_cages_material(tmp_path):
+    """Hertz: K ~ E*, 1/E* of cage and ring together."""
+    case = read(tmp_path, f'{OWN}[cage]\nmaterial = "PEEK"\n')
+
+    def softness(E, nu):
+        return (1 - nu**2) / E + (1 - 0.3**2) / 207e9
+
+    assert case.values["cage.K_land"] == pytest.approx(2e9 * softness(110e9, 0.33) / softness(4.1e9, 0.4), rel=1e-5)
+    assert bearing_case("6309").values["cage.K_land"] == 2e9
+
+
+def test_the_knee_goes_with_a_rivets_strength(tmp_path):
+    """A named steel of which the strength alone is another one: the knee keeps the steel's own share, 117/365."""
+    case = read(tmp_path, f'{OWN}[rivet]\nmaterial = "C10C"\nstrength = "500 MPa"\n')
+    assert case.values["fatigue.sigma_D"] == pytest.approx(500e6 * 117 / 365)
+    assert (case.origin["fatigue.sigma_m"], case.origin["fatigue.sigma_D"]) == ("yours", "rule")
+    case = read(tmp_path, f'{OWN}[rivet]\nmaterial = "C10C"\nstrength = "500 MPa"\nendurance = "120 MPa"\n')
+    assert case.values["fatigue.sigma_D"] == 120e6 and case.origin["fatigue.sigma_D"] == "yours"
+
+
+# Oil given once -------------------------------------------------------------------------------------------------------
+
+POINTS = '[parameters]\noil.nu_1 = "100 mm2/s"\noil.nu_2 = "11 mm2/s"\n'
+
+
+def test_two_points_give_a_bearings_viscosity(tmp_path):
+    """oil.eta and oil.beta at oil.T_0 are those of the points: an FMU made of this file does not have the 6207's."""
+    case, law = read(tmp_path, OWN + POINTS), Oil(100e-6, 313.15, 11e-6, 373.15)
+    T_0, rho = (variables.PARAMETERS[f"oil.{name}"].start for name in ("T_0", "rho"))
+    assert case.values["oil.eta"] == pytest.approx(rho * law.nu(T_0), rel=1e-5)
+    assert case.values["oil.beta"] == pytest.approx(law.beta(T_0), rel=1e-5)
+    assert case.origin["oil.eta"] == "rule"
+    start = {name: value for name, value in case.values.items() if name in variables.PARAMETERS and name[:4] == "oil."}
+    for T in (313.15, 373.15):  # as an FMU of this file has it at its start
+        density = rho * (1.0 - 7.5e-4 * (T - T_0))
+        assert viscosity(start, start, T) == pytest.approx(density * law.nu(T), rel=1e-5)
+
+
+@pytest.mark.parametrize("eta", ["6 mPa.s", "20 mPa.s"])
+def test_a_viscosity_given_twice_is_refused(tmp_path, model, eta):
+    """The 6207's own value, too, which the FMU could not tell from one that nobody gave."""
+    words = r"oil.eta = '.*': oil.nu_1 and oil.nu_2 mean 14.55 mPa.s at oil.T_0 = 85.85 degC: leave"
+    with pytest.raises(UserError, match=words):
+        read(tmp_path, f'{OWN}{POINTS}oil.eta = "{eta}"\n')
+    points = {"oil": {"nu_1": "100 mm2/s", "nu_2": "11 mm2/s"}}
+    with pytest.raises(UserError, match=f"document 1: {words}"):
+        scene_of(model, {"parameters": {"oil": points["oil"] | {"eta": eta}}})
+    assert read(tmp_path, f'{OWN}{POINTS}oil.eta = "14.6 mPa.s"\n').values["oil.eta"] == pytest.approx(14.6e-3)
+
+
+def test_the_later_document_decides(model):
+    """Two points of --set replace the viscosity of a scene's file, and a viscosity of --set that of the points."""
+    eta, points = {"oil": {"eta": "6 mPa.s"}}, {"oil": {"nu_1": "100 mm2/s", "nu_2": "11 mm2/s"}}
+    for documents, expected in (((eta, points), "14.55"), ((points, {"oil": {"eta": "8 mPa.s"}}), "8")):
+        rows = dict(basis(model, [scene_of(model, *({"parameters": document} for document in documents))]))
+        assert float(rows["oil"].split()[0]) == pytest.approx(float(expected), rel=1e-3)
+
+
+def test_points_beside_an_fmu_with_a_viscosity_of_its_own(model, monkeypatch):
+    """An FMU of 12 mPa.s whose points are left at the 6207's: a scene's two points alone decide."""
+    own = Model.default
+
+    def default(self, variable):
+        return 12e-3 if variable.name == "oil.eta" else own(self, variable)
+
+    monkeypatch.setattr(Model, "default", default)
+    scene = scene_of(model, {"parameters": {"oil": {"nu_1": "100 mm2/s", "nu_2": "11 mm2/s"}}})
+    assert scene.parameters["oil.eta"] == pytest.approx(14.55e-3, rel=1e-3)
+    assert dict(basis(model, [scene]))["oil"].startswith("14.5")
+
+
+@pytest.mark.parametrize(("given", "other"), [("nu_1", "nu_2"), ("nu_2", "nu_1")])
+def test_one_point_is_no_oil(tmp_path, model, given, other):
+    """A bearing file needs the other one; of a scene the other one is the FMU's, and said to be assumed."""
+    value = {"nu_1": "30 mm2/s", "nu_2": "8 mm2/s"}[given]
+    with pytest.raises(UserError, match=f"oil.{given} = '{value}': give oil.{other} at oil.T_{other[-1]} too"):
+        read(tmp_path, f'{OWN}[parameters]\noil.{given} = "{value}"\n')
+    rows = dict(basis(model, [scene_of(model, {"parameters": {"oil": {given: value}}})]))
+    paper = {"nu_1": "oil.nu_1 25 mm2/s at 40 degC", "nu_2": "oil.nu_2 5 mm2/s at 100 degC"}[other]
+    assert rows["oil"].endswith(f"; {paper} is assumed")
+
+
+# Preload at temperature -----------------------------------------------------------------------------------------------
+
+
+def test_the_basis_has_the_preload_at_temperature(model):
+    """The FMU's own P at its start, with the reason; nothing more where cage and assembly are equally warm."""
+    warm = {
+        "inputs": {"oil.T": "90 degC", "cage.T": "90 degC", "ball.T": "90 degC", "ring.T_i": 363.15, "ring.T_e": 363.15}
+    }
+    scene = scene_of(model, warm, {"simulation": {"t_end": 1e-4, "outputs": ["rivet[*].P"]}})
+    text = dict(basis(model, [scene]))["preload"]
+    P = run(None, fmu=model.path, t_end=1e-4, inputs=warm["inputs"], outputs=["rivet[*].P"]).data["rivet[1].P"][0]
+    assert P > 50.0 and text.startswith(f"20 N at 20 degC, {P:.5g} N with the cage at 90 degC: the cage expands more")
+    assert dict(basis(model, [scene_of(model)]))["preload"] == "20 N"
+
+
+def test_info_has_the_preload_at_temperature(tmp_path, model):
+    """By the shank as a bar: for the 6207 the shipped table's; for a cage of the rivets' expansion nothing changes."""
+    thermal = preload.of_geometry(Geometry())
+    assert thermal.rate == pytest.approx(preload.of_fmu(model).rate, rel=1e-6) and thermal.T_0 == pytest.approx(293.15)
+    path = tmp_path / "mine.toml"
+    path.write_text(f'{OWN}[cage]\nmaterial = "brass"\n[inputs]\noil.T = "90 degC"\n')
+    rows = {row[0]: row[1:] for row in geometry(bearing_case(path))}
+    P = bearing_case(path).values["joint.preload"]
+    assert rows["preload of a rivet at 20 degC"] == (f"{P:.4g}", "N", "rule")
+    hot, _, reason = rows["preload with the cage at 90 degC"]
+    rate = float(re.search(r"expands more than the rivets, \+([\d.]+) N/K", reason)[1])
+    assert float(hot.removeprefix("some ")) == pytest.approx(P + 70.0 * rate, rel=0.01)
+    path.write_text(f'{OWN}[cage]\nmaterial = "steel"\n[inputs]\noil.T = "90 degC"\n')
+    assert "preload with the cage at 90 degC" not in {row[0] for row in geometry(bearing_case(path))}
+
+
+@pytest.mark.slow
+def test_the_stack_by_rule_beside_finite_elements(tmp_path):
+    """The 6309's rivets of 2.5 mm in steel by coarse elements, which are 3 % stiffer than the fine ones: 5 %."""
+    case = read(
+        tmp_path, f'{OWN}[cage]\nmaterial = "steel"\n[rivet]\nshank_diameter = "2.5 mm"\nhead_diameter = "4.4 mm"\n'
+    )
+    g = Geometry(**case.joint)
+    assert stack_stiffness(g, 4.763e7) == pytest.approx(stiffness.stack_stiffness(Joint(g, COARSE)), rel=0.05)
+
+
+def test_a_preload_that_is_lost_is_zero():
+    """A cage that expands less loosens its rivets; 0 is the least."""
+    thermal = preload.Thermal(-1.0, 293.15)
+    words = preload.in_words(thermal, [(20.0, 293.15), (20.0, 393.15)], lambda v: f"{min(v):g} to {max(v):g} N", str)
+    assert thermal.at(20.0, 393.15) == 0.0
+    assert words.startswith("20 to 20 N at 20 degC, 0 to 20 N with") and "expands less" in words
+
+
+def test_info_shows_oil_and_temperatures(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(f'{OWN}{POINTS}[inputs]\noil.T = "100 degC"\n')
+    rows = {row[0]: row[1:] for row in oil(bearing_case(path))}
+    eta = 11e-6 * 900.0 * (1.0 - 7.5e-4 * (373.15 - 359.0006))
+    assert rows["oil viscosity at 100 degC"] == (f"{1e3 * eta:.4g}", "mPa.s", "rule")
+    assert rows["kinematic viscosity"] == ("100 at 40 degC, 11 at 100 degC", "mm2/s", "yours")
+    assert rows["oil, inner ring, outer ring, balls, cage"] == ("100, 100, 100, 100, 100", "degC", "yours, rule")
+    assert "Oil and temperatures" in shown("info", path)
+
+
+# Runs -----------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("speed", "said"), [("500 rev/min", True), ("18238 rev/min", False), ("0 rev/min", False)])
+def test_a_run_says_when_it_has_not_settled(model, speed, said):
+    """50 ms are 0.42 revolutions at 500 r/min and 15 at the paper's speed; 1.2 s leave out ten."""
+    result = run(None, fmu=model.path, t_end=2e-3, parameters={"start.settle": 1e-3}, inputs={"shaft.omega": speed})
+    result.parameters["start.settle"] = 1e-3
+    turns = result.about["settle_turns"]
+    assert turns == pytest.approx(float(speed.split()[0]) / 60e3)
+    slow = SimpleNamespace(
+        about={"settle_turns": 50.0 * turns}, parameters={"start.settle": 0.05}, data={"time": np.array([0.0, 0.4])}
+    )
+    note = summary.settle_note(slow)
+    assert bool(note) == said
+    assert not said or ("0.42 revolutions" in note and "start.settle = 1.2 s" in note)
+
+
+def test_what_stays_as_of_bronze_is_said():
+    """Friction and damping have no source for other materials."""
+    values = {"cage.mu": 0.05, "cage.mu_land": 0.08, "cage.modal_damping": 0.01, "joint.mu": 0.15}
+    result = SimpleNamespace(parameters=values | {"cage.material": "steel"}, about={"given": ["joint.mu"]})
+    assert summary.assumed_as_bronze(result) == "cage.mu 0.05, cage.mu_land 0.08, cage.modal_damping 0.01"
+    result.parameters["cage.material"] = "bronze"
+    assert summary.assumed_as_bronze(result) == ""
+
+
+def test_a_flange_that_yields_is_said_on_the_terminal(model, tmp_path):
+    done = CliRunner().invoke(
+        program,
+        ["run", "--fmu", str(model.path), "--set", "joint.fit=20 um", "--t-end", "1 ms", "--no-plot"]
+        + ["--out", str(tmp_path)],
+    )
+    assert done.exit_code == 0 and "flags of the rivets (rivet[k].flag): flange yields" in done.stderr
+
+
+def test_another_material_of_the_cage_is_refused_by_name(model):
+    with pytest.raises(UserError, match=r"cage.material = 'brass': bronze is allowed.*for brass build an FMU"):
+        scene_of(model, {"parameters": {"cage": {"material": "brass"}}})
+    assert scene_of(model, {"parameters": {"cage": {"material": "bronze"}}}).parameters["cage.material"] == "bronze"
+
+
+def test_a_slow_bearing_of_its_own_runs_beyond_its_settling(model, monkeypatch):
+    own = Model.default
+    monkeypatch.setattr(Model, "default", lambda self, v: 1.8 if v.name == "start.settle" else own(self, v))
+    assert load_scene(None, model).t_end == 3.6 and load_scene("demo", model).t_end == 0.4
+
+
+def test_a_speed_of_matrices_replaces_the_scenes(own):
+    """The scene's speed stands nowhere, its load does."""
+    model = Model(own)
+    scene = load_scene("demo", model)
+    scene = scene.__class__(
+        **vars(scene) | {"replaced": (*scene.replaced, "shaft.omega 18238 rev/min for 9000 rev/min")}
+    )
+    at = scene_at(model, scene, SimpleNamespace(load=1.0, omega=942.5))
+    assert at.replaced == ("shaft.F_y 2994 N for 4100 N",)
+    assert dict(basis(model, [at]))["speed"] == "9000.2 rev/min"
+
+
+def test_info_of_an_fmu_has_what_its_file_gave(fmu, own, tmp_path, monkeypatch):
+    """Boundary dimensions and load ratings, and with them the life, which are no variables of the FMU."""
+    noted = {"bore": "0.045", "outside_diameter": "0.1", "width": "0.025", "C": "53000.0", "C_0": "31900.0"}
+    monkeypatch.setattr(
+        Model, "noted", {name: {"name": name, "origin": "yours", "value": value} for name, value in noted.items()}
+    )
+    text = shown("info", "--fmu", own)
+    assert "45 x 100 x 25" in text and "53, 31.9" in text and "reference life L_10r" in text
+
+
+# Studies --------------------------------------------------------------------------------------------------------------
+
+
+def test_a_cascade_without_a_file_is_the_fmus_own(model, own):
+    """The 6207's by the paper's fits; of another FMU its own fit, loads and speed, long enough for its settling."""
+    shipped = {
+        "seeds": 4,
+        "breaks": 3,
+        "simulation": {"t_end": 0.25},
+        "case": [{"name": "clearance"}],
+        "description": "",
+    }
+    assert default_document(model, shipped) is shipped
+    found = default_document(Model(own), shipped)
+    assert "case" not in found and "scene" not in found and found["simulation"]["t_end"] == 0.25
+
+
+def test_a_damages_basis_has_its_curve(model, tmp_path):
+    """Studies whose response is a damage state the S-N curve, others do not."""
+    bench = Bench(tmp_path / "s.toml", {"simulation": {"t_end": 0.06}}, model, tmp_path, None)
+    assert "S-N curve" not in dict(bench.check(["stress"]).basis())
+    assert "amplitude 250 MPa" in dict(bench.check(["damage"]).basis())["S-N curve"]
+
+
+def test_shares_have_no_hours(model, tmp_path):
+    """70 % is no 0.7 h, and a mission of shares has no length."""
+    points = [{"share": 0.7}, {"share": "30 %", "inputs": {"shaft.omega": "9000 rev/min"}}]
+    document = {"simulation": {"t_end": 0.06}, "point": points}
+    mission = plan_mission("m", document, model, tmp_path / "m.toml")
+    assert [time_text(part.weight, mission) for part in mission.parts] == ["70 %", "30 %"]
+    life = SimpleNamespace(mission=mission, estimate=SimpleNamespace(life=100.0))
+    assert mission_text(life) == ("shares of time", "of any length")
+    document["point"] = [{"hours": 0.7}]
+    mission = plan_mission("m", document, model, tmp_path / "m.toml")
+    assert time_text(0.7, mission) == "0.7 h"
+
+
+def test_a_report_says_what_a_run_says(model):
+    """Assumed as of bronze, settling, preload at temperature: the page has them too."""
+    result = run(None, fmu=model.path, t_end=0.02, parameters={"start.settle": 5e-3}, inputs={"cage.T": "60 degC"})
+    result.parameters["cage.material"] = "brass"
+    page = render(result)
+    assert "Assumed, as of a cage of bronze: cage.mu 0.05, cage.mu_land 0.08" in page
+    assert "after 1.5 revolutions of the shaft" in page and "with the cage at 60 degC" in page
+
+
+def test_an_fmu_keeps_the_catalogues_values(tmp_path):
+    """Bore and load ratings are no variables: the description notes them beside their origin."""
+    resolved = tmp_path / "bearing.toml"
+    case = read(tmp_path, f'{OWN}[catalogue]\nC = "50 kN"\n')
+    notes = {"Z": 8, "origin": case.origin, "catalogue": case.catalogue}
+    resolved.write_text("\n".join(to_toml(notes)), encoding="utf-8")
+    root = etree.fromstring(write_description(load_table(resolved)).encode())
+    values = {v.get("name"): v.attrib for v in root.iterfind("VendorAnnotations/Tool/Origin/Value")}
+    assert (values["C"]["origin"], float(values["C"]["value"])) == ("yours", 50e3)
+    assert float(values["bore"]["value"]) == 0.045 and "value" not in values["bearing.D"]
