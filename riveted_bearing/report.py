@@ -97,7 +97,6 @@ def render(result, decides=None):
     )
     film, missing = frames(result)
     lives, elastic = all_lives(result), result.parameters.get("scene.cage") == "elastic"
-    curve = Strength(fatigue_law(result.parameters)) if lives else None
     return environment.from_string((PARTS / "page.html").read_text(encoding="utf-8")).render(
         about=NOT_SAID | result.about,
         stopped=result.stopped,

@@ -285,19 +285,21 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 }
 
 // ---- stepping ---------------------------------------------------------------------------------------------
-// Sets the trajectory of the inputs u from the present time to the next edge of a pulse, in a communication
-// step that began at t_0 with the frame at frame_angle.  Where the load on the ring jumps, the derivative at the
-// present state is no longer current.
-static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle)
+// Sets the trajectory of the inputs u from the present time to `stop`, the next edge of a pulse or the end of a step of
+// a fixed length, in a communication step that began at t_0 with the frame at frame_angle.  Where the load on the ring
+// jumps, the derivative at the present state is no longer current.
+static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle,
+                             double stop)
 {
     InstanceState *s = &b->s;
     const RingLoad before = b->ring_load;
     input_trajectory_update(&s->p, u, t_0, s->integrator.t, &b->trajectory);
+    if (is_fixed(b)) pulse_average(&s->p, stop, 0.5 * (stop - s->integrator.t), &b->trajectory);
     b->trajectory.frame_angle = frame_angle;
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
 
-    // With fixed steps, the next evaluation is at the end of the next step: it has the new load.
+    // With fixed steps, the next evaluation is at the end of the next step: the new load grows over that step.
     if (is_fixed(b) || memcmp(&b->ring_load, &before, sizeof before) == 0) return;
     s->integrator.f_is_current = 0;
 }
@@ -356,8 +358,7 @@ PartStatus part_step(Bearing *b, double t_end)
     int status = 0;
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
-        begin_trajectory(b, u, t_begin, frame_angle);
-        if (is_fixed(b)) pulse_average(&s->p, stop, 0.5 * (stop - s->integrator.t), &b->trajectory);
+        begin_trajectory(b, u, t_begin, frame_angle, stop);
         const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
         status = integrator_advance(b->integrator, stop, left);
         end_trajectory(b);
