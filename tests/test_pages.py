@@ -37,7 +37,7 @@ LIMITS = {  # words of a page
     "docs/sweeps.md": 550,
     "docs/validation.md": 2400,
 }
-NOTE, ALL_NOTES, ALL_PAGES = 400, 2000, 25_000
+NOTE, ALL_PAGES = 400, 25_000
 SENTENCE, LINE, LONG_LINES = 35, 160, 0.01
 
 ABBREVIATIONS = "Fig Figs Eq Eqs eq eqs Ref Refs Sec Tab Nos Vol vol p pp e.g i.e cf vs al approx resp Dr".split()
@@ -173,9 +173,7 @@ def test_words(page):
 
 def test_words_of_all_pages():
     count = {name_of(page): len(page.read_text(encoding="utf-8").split()) for page in PAGES}
-    notes = sum(count[name_of(page)] for page in NOTES)
     total = sum(found for name, found in count.items() if name not in GENERATED)
-    assert notes <= ALL_NOTES, f"{notes} words of notes, at most {ALL_NOTES}"
     assert total <= ALL_PAGES, f"{total} words, at most {ALL_PAGES}"
 
 

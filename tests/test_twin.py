@@ -175,8 +175,8 @@ def random_states(model, y, rng, count):
     ys[:, SLICE["cage_psi"]] = turn
     ys[:, SLICE["cage_y"]], ys[:, SLICE["cage_z"]] = d.com_e * np.cos(turn), d.com_e * np.sin(turn)
     add(1e-4, "cage_x", common=True)
-    # the worse land is up to 1.05 of its clearance away from the middle: by tilt, the rest by the place of the cage
-    part, reach = rng.uniform(size=(count, 1)), 1.05 * d.C_land / np.sqrt(2.0)
+    # the worse land is up to 1.4 of its clearance away from the middle: by tilt, the rest by the place of the cage
+    part, reach = rng.uniform(size=(count, 1)), 1.4 * d.C_land / np.sqrt(2.0)
     (
         add((1.0 - part) * reach, "cage_y", "cage_z", common=True),
         add(part * reach / p.cage.land_x, "cage_beta", "cage_gamma", common=True),
