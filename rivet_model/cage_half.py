@@ -24,6 +24,7 @@ from skfem import BilinearForm, ElementHex1, ElementHex2, ElementVector, FacetBa
 
 from . import half, half_shape
 from .half import HalfMesh
+from .half_lands import LandLoads
 
 SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # for splu
 # the first patterns: body forces that rigid motions x, y, z and rotations about x, y, z would need, per unit density
@@ -201,6 +202,7 @@ class Patterns:
     twist: slice  # moment about x that friction gives to the pad there
     # at the seat's bottom, under the rivet's head: force along x, moments about r and t; then forces along r and t
     head: slice
+    land: slice  # radial loads on the outer rim: half_lands.LandLoads
     # unit forces (x, r, t) at points of pocket 0's wall: near parts, then parts on the far end of the pitch before
     pocket: slice
 
@@ -216,10 +218,12 @@ class CageHalf(CyclicSolid):
         self.g, self.size = g, size or HalfMesh()
         super().__init__(half.pitch_mesh(g, self.size), g.Z, g.E_flange, g.nu_flange)
         self.points = np.reshape(points, (-1, 2))
+        self.land = LandLoads(self, g)
         groups = {
             "body": self.body_loads(),
             **self._pad_loads(),
             "head": self._head_loads(),
+            "land": self.land.loads,
             "pocket": self._pocket_loads(),
         }
         ends = np.cumsum([0] + [loads.shape[1] for loads in groups.values()])

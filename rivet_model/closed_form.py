@@ -136,7 +136,14 @@ def half_data(geometry):
     )
     chi = np.array([0.0, np.pi / 4, np.pi / 2])
     return rivet_table.HalfData(
-        **inertia._asdict(), chi=chi, path=np.zeros((3, Z, 8, 3)), spin=spin, law=law, k_closed=K_CLOSED, k_open=K_OPEN
+        **inertia._asdict(),
+        chi=chi,
+        path=np.zeros((3, Z, 8, 3)),
+        spin=spin,
+        land=np.zeros((Z // 2 + 1, 3, 2, 8)),
+        law=law,
+        k_closed=K_CLOSED,
+        k_open=K_OPEN,
     )
 
 

@@ -108,6 +108,7 @@ def _half_source(half):
         _array("path_chi", half.chi),
         _array("path_rows", path_rows(half), "float"),
         '_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "the path has another shape");\n',
+        _array("land_rows", half.land),
         _array("law_coefficients", uniform_coefficients(law)),
         f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
         f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",
@@ -116,6 +117,7 @@ def _half_source(half):
     ]
     text = f"""{{
         .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
+        .land = land_rows,
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,

@@ -18,7 +18,7 @@ import numpy as np
 from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, joint_law, law_load
 from bearing_model.rivet.rivet_table import HalfData
 
-from . import half_shape, splines
+from . import half_lands, half_shape, splines
 from .cage_half import BODY, SPIN, CageHalf
 from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
@@ -312,6 +312,7 @@ def make_half(elastic, alone, progress=lambda done, total: None):
         chi=CHI,
         path=path,
         spin=spin,
+        land=half_lands.land_rows(elastic, alone, rigid_rows),
         law=law,
         k_closed=k_closed,
         k_open=k_open,

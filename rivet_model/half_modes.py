@@ -27,7 +27,7 @@ from bearing_model.cage.elastic.half_modes import (
     spin_load,
 )
 
-from . import half_loads, half_shape
+from . import half_lands, half_loads, half_shape
 from .cage_half import BODY, SYMMETRIC
 
 # Octets of modes a pitch, a pair counted as two.  Measured on the 6207: 40 and 48 modes give the same forces and stress
@@ -231,11 +231,12 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
     for wave in waves(massive, max(count, round(FOUND * Z)), progress):
         u = everything.T @ (elastic.loads.T @ wave.shape)  # [places, modes]
         rim = rims[wave.n] @ wave.shape
-        rows += [(wave.omega[i], wave.n, wave.parity[i], u[:, i], rim[:, i]) for i in range(len(wave.omega))]
+        land = half_lands.land_shapes(elastic, wave)
+        rows += [(wave.omega[i], wave.n, wave.parity[i], u[:, i], rim[:, i], land[i]) for i in range(len(wave.omega))]
         static.append(everything.T @ massive.compliance(wave.n) @ everything)
     static = np.stack(static)
     rows.sort(key=lambda row: row[0])
-    for omega, n, parity, u, _ in rows:
+    for omega, n, parity, u, *_ in rows:
         static[n] -= (1.0 if parity else 0.5) * Z / omega**2 * np.outer(u, u.conj())
     found = HalfModes(
         Z=Z,
@@ -245,23 +246,27 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
         parity=np.array([row[2] for row in rows]),
         residual=residual(elastic, places, elastic.circulant(static)),
         law=None,
+        land_residual=None,
         **amplitudes(Z, len(half_loads.CHI), rows),
     )
     return fewer(found, count), found
 
 
 def with_law(modes, alone):
-    """HalfModes with the law of their joints around the stiffness that they leave; alone: JointAlone."""
+    """HalfModes with the law of their joints around the stiffness that they leave, and what of the land's film they leave
+    to the joints; alone: JointAlone.
+    """
     R = joint_residual(modes)
     # the other elements are 0: mirroring in the rivet's plane changes their sign
     even = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0
     stiffness = np.linalg.inv(np.where(even, 0.5 * (R + R.T), 0.0))
-    return replace(modes, law=half_loads.make_law_behind(alone, stiffness))
+    modes = replace(modes, law=half_loads.make_law_behind(alone, stiffness))
+    return replace(modes, land_residual=half_lands.land_residual(modes, alone, alone.elastic))
 
 
 def amplitudes(Z, nodes, rows):
     """The shapes of HalfModes from displacements of pitch 0 at all places."""
-    n, u, rim = (np.array([row[i] for row in rows]) for i in (1, 3, 4))
+    n, u, rim, land = (np.array([row[i] for row in rows]) for i in (1, 3, 4, 5))
     at_rivet = u[:, : len(EVEN)] * np.exp(-1j * np.pi * n / Z)[:, None]
     at_rivet = np.where(EVEN > 0.0, at_rivet.real, at_rivet.imag)
     at_pocket = u[:, len(EVEN) : -1].reshape(-1, nodes, 3)
@@ -271,6 +276,7 @@ def amplitudes(Z, nodes, rows):
         "pad": at_rivet[:, : len(PAD)],
         "rivet": at_rivet[:, len(PAD) :],
         "rim": rim.real,
+        "land": land,
         "spin": spin,
     }
 
@@ -344,7 +350,8 @@ def fewer(modes, n):
         raise ValueError(f"modes = {n}: a number from 0 to {total} is needed")
     kept = int(np.searchsorted(np.cumsum(modes.count), n, side="right"))
     arrays = {
-        name: getattr(modes, name) for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "spin")
+        name: getattr(modes, name)
+        for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "land", "spin")
     }
     rest = replace(modes, **{name: values[kept:] for name, values in arrays.items()})
     return replace(
@@ -352,6 +359,7 @@ def fewer(modes, n):
         **{name: values[:kept] for name, values in arrays.items()},
         residual=softer(modes.residual, rest),
         law=None,
+        land_residual=None,
     )
 
 

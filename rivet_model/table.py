@@ -93,6 +93,7 @@ def _half_section(half):
         "chi": [float(v) for v in half.chi],
         "path": rounded(tidy(half.path), 4).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
+        "land": rounded(tidy(half.land)).tolist(),
         "stiffness": rounded(tidy(law.stiffness)).tolist(),
         "slip_stiffness": rounded(tidy(law.slip_stiffness)).tolist(),
         "law": _law_section(law),
@@ -112,13 +113,15 @@ def _modes_section(modes):
     residual to five.  The energy U to seven: of open joints it is nearly all of e L^/2.
     """
     shapes = {
-        name: rounded(tidy(getattr(modes, name)), 7).tolist() for name in ("pocket", "pad", "rivet", "rim", "spin")
+        name: rounded(tidy(getattr(modes, name)), 7).tolist()
+        for name in ("pocket", "pad", "rivet", "rim", "land", "spin")
     }
     return {
         "omega": rounded(modes.omega, 9).tolist(),
         "harmonic": modes.harmonic.tolist(),
         "parity": modes.parity.tolist(),
         **shapes,
+        "land_residual": rounded(tidy(modes.land_residual)).tolist(),
         "residual": {name: rounded(tidy(values)).tolist() for name, values in vars(modes.residual).items()},
         "law": _law_section(modes.law)
         | {

@@ -23,13 +23,23 @@ over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: thes
 force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere. At the wall the film stays finite: q^2 is g_0 at the
 wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry contact F = K_land (e - C)^1.5
 carries.
+
+A half bends under the pressure on its rim (half_path.py): harmonics G_p = int P exp(i p theta) dtheta of its
+radial load P, outward positive, in the frame of the half.  The pressure's shape over the angle is (V.n)/h^3, its size that of
+the film's force; Sommerfeld's substitution from the narrowest gap,
+
+    cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
+
+spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the narrowest
+gap. Of rigid halves alone: the gap
+is that of round lands, and the modes of elastic halves do not feel their lands yet.
 """
 
 from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.generated.variables import Lubrication
+from bearing_model.generated.variables import Lubrication, Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
@@ -37,6 +47,9 @@ from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
 
 EPS_CAP = 1.2
+LAND_HIGHEST = (3 * Z - 1) // 2  # harmonic of the load on a rim
+LAND_POINTS = 24  # of its sum over the angle
+PSI = 2.0 * np.pi * np.arange(LAND_POINTS) / LAND_POINTS
 
 
 def land_film_integrals(a, b, q2):
@@ -62,11 +75,39 @@ def land_film_heating(s_2):
     return np.where(np.real(s) > 1e-3, np.log(s + root) / (maximum(s, 1e-3) * root), 1.0 - 2.0 / 3.0 * s_2)
 
 
+def harmonics_at(along, across):
+    """cos and sin of p theta, p = 0...LAND_HIGHEST, for directions (cos, sin) of theta [..., points]: two [..., points, p]."""
+    cosine, sine = [1.0 + 0.0 * along, along], [0.0 * across, across]
+    while len(cosine) <= LAND_HIGHEST:
+        cosine.append(2.0 * along * cosine[-1] - cosine[-2])
+        sine.append(2.0 * along * sine[-1] - sine[-2])
+    return np.stack(cosine, axis=-1), np.stack(sine, axis=-1)
+
+
+def land_load(e, V, q2, force, dry):
+    """Harmonics of the radial load on a rim [N], two [..., LAND_HIGHEST + 1]: Re and Im G_p.
+
+    e, V: eccentricity and squeeze velocity along the half's axes [2, ...]; force: of the film; dry: of the contact.
+    """
+    u, n = ([x / np.sqrt(v[0] * v[0] + v[1] * v[1] + 1e-30) for x in v] for v in (e, V))
+    q2 = minimum(q2, 1.0)
+    eps, q = (np.sqrt(maximum(x, 1e-30))[..., None] for x in (1.0 - q2, q2))
+    one = 1.0 + eps * np.cos(PSI)
+    cosine, sine = (eps + np.cos(PSI)) / one, q * np.sin(PSI) / one
+    along, across = cosine * u[0][..., None] - sine * u[1][..., None], cosine * u[1][..., None] + sine * u[0][..., None]
+    weight = maximum(along * n[0][..., None] + across * n[1][..., None], 0.0) * one * one
+    by_cos, by_sin = harmonics_at(along, across)
+    G = [np.sum(weight[..., None] * wave, axis=-2) for wave in (by_cos, by_sin)]
+    size = force / np.sqrt(G[0][..., 1] ** 2 + G[1][..., 1] ** 2 + 1e-30)
+    at = harmonics_at(u[0][..., None], u[1][..., None])
+    return tuple(-size[..., None] * x - dry[..., None] * y[..., 0, :] for x, y in zip(G, at, strict=True))
+
+
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
 
     film[land]: rates yy, yz, zz of its film, -dF/dv [N.s/m], and spin, -dM/domega [N.m.s], [..., 1] each, for the
-    integrator's Jacobian.
+    integrator's Jacobian.  land: harmonics of the loads on the rims, Re and Im G_p [..., half, p].
     """
     p, d = model.p, model.d
     h0, h1 = w.half
@@ -94,6 +135,7 @@ def land_film_force(model, w):
     kappa = d.kappa * heated
     F_y, F_z = -kappa * (I_c * V_y - I_s * V_z), -kappa * (I_c * V_z + I_s * V_y)
     couette = d.couette * heated / np.sqrt(q2)
+    force = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
 
     # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
     # film force too
@@ -125,6 +167,12 @@ def land_film_force(model, w):
         "spin": couette + g * R * R,
     }
     w.film = [SimpleNamespace(**{name: rate[..., h : h + 1] for name, rate in rates.items()}) for h in range(2)]
+
+    axes = wide_pair(h0.b_y, h1.b_y), wide_pair(h0.b_z, h1.b_z)
+    e_h, V_h = (
+        [vec_dot(y * outer.b_y + z * outer.b_z, axis_of) for axis_of in axes] for y, z in ((e_y, e_z), (V_y, V_z))
+    )
+    w.land = None if model.modes else land_load(e_h, V_h, q2 + 0.0 * e, force, N)
 
     F = F_y * outer.b_y + F_z * outer.b_z
     M = M_x * outer.a + vec_cross(x_land * axis, F)

@@ -21,7 +21,7 @@ from bearing_model.cage.elastic.half_modes import PAD, RIVET, HalfModes, Residua
 from bearing_model.cage.two_half import half_path
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[2] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-6"
+FORMAT = "rivet-table-7"
 # numbered from 1: the output rivet.table_kind
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}
 SECTIONS = ("header", "shank", "fit_eff", "joint", "half", "modes")
@@ -54,6 +54,8 @@ class HalfData:
     chi: np.ndarray  # nodes of the wall's angle [rad]
     path: np.ndarray  # [chi, Z, 8, 3]
     spin: np.ndarray  # [8] per (rad/s)^2 at mass m
+    # [waves, harmonic, 1 and x, 8] rows by a radial line load at the land: half_path.land_path_rows
+    land: np.ndarray
     law: joint_law.JointLaw
     k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
     k_open: float
@@ -220,6 +222,7 @@ def _read_half(path, section, Z):
         chi=chi,
         path=section.array("path", (len(chi), Z, 8, 3)),
         spin=spin,
+        land=section.array("land", (Z // 2 + 1, 3, 2, 8)),
         law=joint_law.JointLaw(law.number("length"), knots, coefficients, stiffness, slip_stiffness, np.sign(spin[4])),
     )
 
@@ -272,7 +275,14 @@ def _read_modes(path, section, Z, chi):
     )
     energy = energy.reshape(coefficients.shape[:-1])
     law = joint_law.LawBehind(law.number("length"), knots, coefficients, energy, stiffness)
-    shapes = {"pocket": (len(chi), 3, 2), "pad": (len(PAD),), "rivet": (len(RIVET),), "rim": (2,), "spin": ()}
+    shapes = {
+        "pocket": (len(chi), 3, 2),
+        "pad": (len(PAD),),
+        "rivet": (len(RIVET),),
+        "rim": (2,),
+        "land": (3, 2),
+        "spin": (),
+    }
     arrays = {key: section.array(key, (len(omega), *shape)) for key, shape in shapes.items()}
     return HalfModes(
         Z=Z,
@@ -282,6 +292,7 @@ def _read_modes(path, section, Z, chi):
         parity=parity.astype(int),
         residual=residual,
         law=law,
+        land_residual=section.array("land_residual", (Z // 2 + 1, 3, 2, 3)),
         **arrays,
     )
 

@@ -206,6 +206,29 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->cylinder_laminar_omega = 0.999 * portable_pow(d->cylinder_laminar / d->cylinder_vortex, 1.0 / 0.539);
 }
 
+static void derive_lands(const Parameters *p, Derived *d)
+{
+    for (int i = 0; i < LAND_POINTS; i++) {
+        const double psi = 2.0 * PI * i / LAND_POINTS;
+        d->land_cos[i] = portable_cos(psi);
+        d->land_sin[i] = portable_sin(psi);
+    }
+    const bool odd[ROWS] = {[ROW_V_T] = true, [ROW_M_R] = true, [ROW_DM_R] = true};
+    const bool opposed[ROWS] = {[ROW_V_R] = true, [ROW_V_T] = true};
+    const double *from = rivet_table.half.land;
+    for (int n = 0; n < LAND_WAVES; n++) {
+        for (int each = 0; each < LAND_EACH; each++, from += 2 * ROWS)
+            for (int i = 0; i < ROWS; i++)
+                d->land_path.row[n][each][2 * odd[i] + opposed[i]][i] =
+                    from[i] + p->cage.land_x * from[ROWS + i];
+        for (int k = 0; k < Z; k++) {
+            const double angle = 2.0 * PI * n * (k + 0.5) / Z;
+            d->land_path.wave[n][0][k] = portable_cos(angle);
+            d->land_path.wave[n][1][k] = portable_sin(angle);
+        }
+    }
+}
+
 static const double BROKEN_PLAY = 1.0;  // of a rivet that is gone [m]
 
 // Rivet k: preload, fit, hole.  A broken one has no preload and a free fit; its hole bears nothing.
@@ -298,6 +321,7 @@ void model_derive(const Parameters *p, Derived *d)
     derive_balls(p, d);
     derive_pockets(p, d);
     derive_cage(p, d);
+    derive_lands(p, d);
     derive_relative(p, d);
     derive_joint(p, d);
     derive_scales(p, d);

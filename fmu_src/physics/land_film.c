@@ -27,6 +27,16 @@
 // The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.  At the wall the film stays finite:
 // q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry
 // contact F = K_land (e - C)^1.5 carries.
+//
+// A half bends under the pressure on its rim (half_path.h): harmonics G_p = int P exp(i p theta) dtheta of its
+// radial load P, outward positive, in the frame of the half.  The pressure's shape over the angle is (V.n)/h^3, its size
+// that of the film's force; Sommerfeld's substitution from the narrowest gap,
+//
+//     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
+//
+// spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the
+// narrowest gap.  Of rigid halves alone: the gap is that of round lands, and
+// the modes of elastic halves do not feel their lands yet.
 #include "physics/land_film.h"
 
 #include "physics/hertz.h"
@@ -119,6 +129,81 @@ INLINE void add_wrench_along(const Rotor *outer, scalar x, scalar F_y, scalar F_
     }
 }
 
+// Adds weight times cos and sin of p theta for directions (cos, sin) of theta, to sums over the lanes.
+INLINE void add_harmonics(wide along, wide across, wide weight, wide re[LAND_HARMONICS],
+                          wide im[LAND_HARMONICS])
+{
+    const wide twice = 2.0 * along;
+    wide c_0 = weight, c_1 = weight * along, s_0 = wide_set(0.0), s_1 = weight * across;
+    for (int p = 0; p < LAND_HARMONICS; p++) {
+        re[p] += c_0;
+        im[p] += s_0;
+        const wide c_2 = wide_fma(twice, c_1, -c_0), s_2 = wide_fma(twice, s_1, -s_0);
+        c_0 = c_1, s_0 = s_1, c_1 = c_2, s_1 = s_2;
+    }
+}
+
+// Sum over the points of a film in one order for every lane width: eight partial sums.
+enum { LAND_PARTS = 8 / LANE_WIDTH };
+
+INLINE scalar sum_points(wide sum[LAND_PARTS][LAND_HARMONICS], int p)
+{
+    scalar part[8];
+    for (int i = 0; i < LAND_PARTS; i++) wide_store(&part[i * LANE_WIDTH], sum[i][p]);
+    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+// Harmonics of the load on a rim.  e, V: eccentricity and squeeze velocity along the half's axes; force: of the film;
+// dry: of the contact.
+INLINE void land_load(const Derived *d, const scalar e[2], const scalar V[2], scalar q2, scalar force,
+                      scalar dry, LandLoad *load)
+{
+    const scalar inv_e = 1.0 / scalar_sqrt(e[0] * e[0] + e[1] * e[1] + 1e-30);
+    const scalar inv_V = 1.0 / scalar_sqrt(V[0] * V[0] + V[1] * V[1] + 1e-30);
+    const scalar u[2] = {e[0] * inv_e, e[1] * inv_e}, n[2] = {V[0] * inv_V, V[1] * inv_V};
+    const scalar inside = scalar_min(q2, 1.0);
+    const wide eps = wide_set(scalar_sqrt(scalar_max(1.0 - inside, 1e-30)));
+    const wide q = wide_set(scalar_sqrt(scalar_max(inside, 1e-30)));
+    const wide u_0 = wide_set(u[0]), u_1 = wide_set(u[1]), n_0 = wide_set(n[0]), n_1 = wide_set(n[1]);
+    wide re[LAND_PARTS][LAND_HARMONICS], im[LAND_PARTS][LAND_HARMONICS];
+    for (int i = 0; i < LAND_PARTS; i++)
+        for (int p = 0; p < LAND_HARMONICS; p++) re[i][p] = im[i][p] = wide_set(0.0);
+    for (int first = 0; first < LAND_POINTS; first += 8)
+        for (int i = 0; i < LAND_PARTS; i++) {
+            const int m = first + i * LANE_WIDTH;
+            const wide c_psi = wide_load(&d->land_cos[m]), s_psi = wide_load(&d->land_sin[m]);
+            const wide one = 1.0 + eps * c_psi, inv = 1.0 / one;
+            const wide cosine = (eps + c_psi) * inv, sine = q * s_psi * inv;
+            const wide along = cosine * u_0 - sine * u_1, across = cosine * u_1 + sine * u_0;
+            const wide closing = wide_max(along * n_0 + across * n_1, wide_set(0.0));
+            add_harmonics(along, across, closing * one * one, re[i], im[i]);
+        }
+    const scalar raw_re = sum_points(re, 1), raw_im = sum_points(im, 1);
+    const scalar size = -force / scalar_sqrt(raw_re * raw_re + raw_im * raw_im + 1e-30);
+    for (int p = 0; p < LAND_HARMONICS; p++) {
+        load->re[p] = size * sum_points(re, p);
+        load->im[p] = size * sum_points(im, p);
+    }
+    if (scalar_value(dry) == 0.0) return;
+    const scalar twice = 2.0 * u[0];
+    scalar c_0 = -dry, c_1 = -dry * u[0], s_0 = 0.0, s_1 = -dry * u[1];
+    for (int p = 0; p < LAND_HARMONICS; p++) {
+        load->re[p] += c_0;
+        load->im[p] += s_0;
+        const scalar c_2 = twice * c_1 - c_0, s_2 = twice * s_1 - s_0;
+        c_0 = c_1, s_0 = s_1, c_1 = c_2, s_1 = s_2;
+    }
+}
+
+// A vector (y, z) across the outer ring's axis along the axes of a half.
+INLINE void land_turn(const Rotor *outer, const Rotor *half, scalar y, scalar z, scalar along[2])
+{
+    const scalar F[3] = {outer ? y * outer->b_y[0] + z * outer->b_z[0] : 0.0 * y,
+                         outer ? y * outer->b_y[1] + z * outer->b_z[1] : y,
+                         outer ? y * outer->b_y[2] + z * outer->b_z[2] : z};
+    along[0] = dot3(F, half->b_y), along[1] = dot3(F, half->b_z);
+}
+
 // The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
 // at rest in its place.
 INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor *outer)
@@ -147,6 +232,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const wide kappa = d->kappa * heated * inv_q2 * inv_q2;
     wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
     const wide couette = d->couette * heated * inv_q;
+    const wide force = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
 
     // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
     // share of the film force
@@ -195,6 +281,12 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
             add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
         w->film[h] = (LandFilm){wide_lane(K_yy, i), wide_lane(K_yz, i), wide_lane(K_zz, i),
                                 wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h};
+        if (model->modes == NULL) {
+            scalar e_h[2], V_h[2];
+            land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), e_h);
+            land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), V_h);
+            land_load(d, e_h, V_h, wide_lane(q2, i), wide_lane(force, i), wide_lane(N, i), &w->land[h]);
+        }
         w->land_elastic += wide_lane(elastic, i);
         w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
     }

@@ -4,6 +4,6 @@
 #include "numbers/isa.h"
 #include "physics/model.h"
 
-// Adds force and moment to both halves (Rotor F, M); sets their film rates, the dissipated power and the
-// elastic energy.
+// Adds force and moment to both halves (Rotor F, M); sets their film rates, the loads on their rims, the dissipated power
+// and the elastic energy.
 void land_film_force(const Model *model, Work *w);

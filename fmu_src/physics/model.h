@@ -16,6 +16,8 @@
 
 typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
+enum { LAND_POINTS = 24 };  // of the sum over a land's film
+
 // ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
     double K;        // Q = K delta^1.5 [N/m^1.5]
@@ -85,6 +87,9 @@ typedef struct {
     double couette;          // Couette torque / speed of a land [N.m.s]
     double nahme;            // (Na/8) / omega^2 of a land's film, 0 without heating [s2]
     double ln_land;          // ln Lambda of a land film of thickness C
+    // points of the sum over a film: cos and sin of their angle psi (land_film.c)
+    double land_cos[LAND_POINTS], land_sin[LAND_POINTS];
+    LandPath land_path;                                 // rows by the load on a rim, at the land's place
     double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
     double disk_laminar_omega, cylinder_laminar_omega;  // cage speeds below which each is laminar [rad/s]
@@ -159,6 +164,11 @@ typedef struct {
     scalar yy, yz, zz, spin;
 } LandFilm;
 
+// ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----
+typedef struct {
+    scalar re[LAND_HARMONICS], im[LAND_HARMONICS];
+} LandLoad;
+
 // ---- the balls in the pockets of one half; written by pocket_force, 0 for pockets without contact ---------
 typedef struct {
     ball_array Q;                             // contact load [N]
@@ -224,6 +234,7 @@ typedef struct {
     // lands (land_film_force): elastic energy [J], films
     scalar land_elastic;
     LandFilm film[2];
+    LandLoad land[2];
 
     // what one kind of cage has
     TwoHalfWork two_half;

@@ -110,7 +110,8 @@ typedef struct {
     double m;    // mass [kg]
     double x_c;  // axial distance of the centre of mass from the split [m]
     HalfPath path;
-    double spin[ROWS];  // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
+    double spin[ROWS];   // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
+    const double *land;  // [LAND_WAVES][LAND_EACH][1 and x][ROWS] by a load on the rim (half_path.h)
     JointLaw law;
 } CageHalfData;
 

@@ -30,7 +30,7 @@ from functools import cached_property
 import numpy as np
 
 from bearing_model.cage.common.joint_law import LawBehind
-from bearing_model.cage.two_half.half_path import cubic_slopes
+from bearing_model.cage.two_half.half_path import cubic_slopes, land_harmonics
 
 PAD = ("x", "r", "t", "phi_x", "phi_r", "phi_t")
 RIVET = ("dP", "dm_r", "dm_t")
@@ -67,9 +67,13 @@ class HalfModes:
     pad: np.ndarray  # [entries, PAD]
     rivet: np.ndarray  # [entries, RIVET]
     rim: np.ndarray  # [entries, outer and inner] amplitude of the radial displacement cos(n theta): mean over the rim
+    # [entries, harmonic, 1 and x] amplitudes of the rim's radial displacement at the land (half_lands.py) [kg^-1/2, and 1/m]
+    land: np.ndarray
     spin: np.ndarray  # [entries] force per (rad/s)^2 at mass m
     residual: Residual
     law: LawBehind  # of the joints, around the stiffness that these modes leave
+    # [waves, harmonic, 1 and x, (x, phi_r, phi_t)] motions of the pads beside those of the modes by G_p = 1 on one half
+    land_residual: np.ndarray
 
     @property
     def count(self):
@@ -95,6 +99,19 @@ class HalfModes:
         pocket = self.residual.pocket
         beyond = pocket[-2][::-1] * EVEN[:, None] * MIRROR
         return cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.concatenate([pocket, beyond[None]]))
+
+
+def land_shapes(modes, x):
+    """Radial displacement of the rim at the land x by all coordinates: cos |p| theta of the a, sin |p| theta of the b,
+    [n, harmonic].
+    """
+    p = land_harmonics(modes.Z)[modes.harmonic]
+    both = np.zeros((2, len(p), (3 * modes.Z - 1) // 2 + 1))
+    for i in range(p.shape[1]):
+        W = modes.land[:, i, 0] + x * modes.land[:, i, 1]
+        for part, sign in ((0, 1.0), (1, np.sign(p[:, i]))):
+            np.add.at(both[part], (np.arange(len(p)), np.abs(p[:, i])), W * sign)
+    return coordinates(modes, *both)
 
 
 def phases(modes, shift):
@@ -147,7 +164,7 @@ def denser(modes, ratio):
     forces of the spin by sqrt(ratio).
     """
     root = np.sqrt(ratio)
-    scaled = {name: getattr(modes, name) / root for name in ("omega", "pocket", "pad", "rivet", "rim")}
+    scaled = {name: getattr(modes, name) / root for name in ("omega", "pocket", "pad", "rivet", "rim", "land")}
     return replace(
         modes, **scaled, spin=modes.spin * root, residual=replace(modes.residual, spin=modes.residual.spin * ratio)
     )

@@ -20,6 +20,53 @@ PATH_MIRROR = np.array([1.0, 1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
 PATH_SIDE = np.array([1.0, -1.0, -1.0, 1.0, 1.0, 1.0, 1.0, 1.0])  # of a mirrored force on the -x half
 
 
+def land_harmonics(Z):
+    """Harmonics p = n, n - Z, n + Z of the waves n = 0...Z//2 that a film on the land has [waves, 3], below 3 Z/2.
+
+    The second or third of a wave may repeat the first one: its amplitudes are 0.
+
+    >>> land_harmonics(9)[[0, 1, 4]].tolist()
+    [[0, -9, 9], [1, -8, 10], [4, -5, 13]]
+    >>> land_harmonics(8)[4].tolist()
+    [4, -4, 4]
+    """
+    n = np.arange(Z // 2 + 1)[:, None]
+    p = n + Z * np.array([0, -1, 1])
+    return np.where(2 * np.abs(p) < 3 * Z, p, n)
+
+
+def waves_of(Z):
+    """cos and sin of n theta_k at the rivets [waves, Z]."""
+    angle = 2.0 * np.pi * np.outer(np.arange(Z // 2 + 1), np.arange(Z) + 0.5) / Z
+    return np.cos(angle), np.sin(angle)
+
+
+def by_waves(table, x, load):
+    """Loads of the waves by the harmonics load (Re G_p, Im G_p [..., p]) at the land x: what even kinds have by cos n theta
+    and by sin n theta, [..., waves, kinds] each.  table [waves, harmonic, 1 and x, kinds].
+    """
+    Z = 2 * load[0].shape[-1] // 3
+    p = land_harmonics(Z)
+    at = table[:, :, 0] + x * table[:, :, 1]
+    cosine, sine = load[0][..., np.abs(p)], load[1][..., np.abs(p)] * np.sign(p)
+    return tuple(np.einsum("...ni,nik->...nk", part, at) for part in (cosine, sine))
+
+
+def at_rivets(Z, even, by_cos, by_sin):
+    """Kinds [..., Z, kinds] at the rivets: even ones a cos + b sin, odd ones b cos - a sin of n theta."""
+    c, s = waves_of(Z)
+    a, b = np.where(even, by_cos, by_sin), np.where(even, by_sin, -by_cos)
+    return np.einsum("...nk,nz->...zk", a, c) + np.einsum("...nk,nz->...zk", b, s)
+
+
+def land_path_rows(half, x, side, load):
+    """Rows [..., Z, 8] of all joints by the radial load (Re G_p, Im G_p [..., p]) on the rim of the half at `side`, at the
+    distance x of the land from the split.
+    """
+    rows = at_rivets(half.path.shape[1], PATH_MIRROR > 0.0, *by_waves(half.land, x, load))
+    return rows * (PATH_SIDE if side < 0 else 1.0)
+
+
 def path_slopes(chi, matrix):
     """Slopes of the C1 cubic through the matrix [nodes, Z, 8, 3] over the angle chi: those of the parabolas through
     three neighbours.

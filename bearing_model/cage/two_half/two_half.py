@@ -39,7 +39,7 @@ from bearing_model.cage.common.cage_joint import (
     cage_joint_loads,
 )
 from bearing_model.cage.common.films import HALF, N_HALVES
-from bearing_model.cage.two_half.half_path import half_path_rows
+from bearing_model.cage.two_half.half_path import half_path_rows, land_path_rows
 from bearing_model.cage.two_half.joint_open import joints_open, joints_slip
 from bearing_model.generated.variables import (
     CAGE_BETA,
@@ -83,11 +83,14 @@ def springs(d, u_x):
 
 
 def bonded_rows(model, w, omega_2):
-    """Rows [..., Z, 8] of bonded joints by pocket forces and the centrifugal load; omega_2: square of the halves' speed in
+    """Rows [..., Z, 8] of bonded joints by pocket forces, films of the lands and the centrifugal load; omega_2: square of the halves' speed in
     space [..., 1].
     """
     half = model.d.table.half
     rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F) for h, on in enumerate(w.pocket))
+    for h in range(2):
+        load = tuple(part[..., h, :] for part in w.land)
+        rows = rows + land_path_rows(half, model.p.cage.land_x, 2 * h - 1, load)
     return rows + omega_2[..., None] * model.d.centrifugal
 
 

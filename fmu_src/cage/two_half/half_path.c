@@ -85,3 +85,31 @@ bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows
     }
     return true;
 }
+
+void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2], PathRows *rows)
+{
+    octet joint[Z];
+    memset(joint, 0, sizeof joint);
+    for (int n = 0; n < LAND_WAVES; n++) {
+        // what goes with cos and with sin n theta
+        octet with_cos = {{0.0}}, with_sin = {{0.0}};
+        for (int each = 0; each < LAND_EACH; each++) {
+            const int p = land_harmonic(n, each), h = p < 0 ? -p : p;
+            const double sign = p < 0 ? -1.0 : 1.0, (*row)[ROWS] = path->row[n][each];
+            const scalar by_re[2] = {re[1][h] + re[0][h], re[1][h] - re[0][h]};
+            const scalar by_im[2] = {sign * (im[1][h] + im[0][h]), sign * (im[1][h] - im[0][h])};
+            for (int apart = 0; apart < 2; apart++) {
+                octet_add_from(by_re[apart], row[apart], &with_cos);
+                octet_add_from(by_im[apart], row[2 + apart], &with_cos);
+                octet_add_from(by_im[apart], row[apart], &with_sin);
+                octet_add_from(-by_re[apart], row[2 + apart], &with_sin);
+            }
+        }
+        for (int k = 0; k < Z; k++) {
+            octet_add(path->wave[n][0][k], &with_cos, &joint[k]);
+            octet_add(path->wave[n][1][k], &with_sin, &joint[k]);
+        }
+    }
+    for (int i = 0; i < ROWS; i++)
+        for (int k = 0; k < Z; k++) rows->row[i][k] += joint[k].x[i];
+}

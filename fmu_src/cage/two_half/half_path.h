@@ -20,11 +20,35 @@
 // pocket j depend on (k - j) mod Z only.  push_t < 0 acts as the mirror image about the pocket does (rivet
 // -1 - i for i; V_t, M_r and dm_r change sign), a force on the -x half as its mirror image on the +x half does
 // (V changes sign).
+//
+// A film on the guiding land loads the outer rim by a radial line load P(theta), outward, in its harmonics
+// G_p = int P exp(i p theta) dtheta.  Those of wave n = 0...Z/2 are p = n, n - Z, n + Z, below 3 Z/2, and each gives
+// rows r_p, which go straight over the place x of the land (rivet_model/half_lands.py):
+//
+//     a_n = sum over p r_p Re G_p,  b_n = sum over p r_p Im G_p
+//     rows of rivet k: sum over n of a_n cos n theta_k + b_n sin n theta_k   even: N, V_r, M_t, dP, dm_t
+//                                    b_n cos n theta_k - a_n sin n theta_k   odd: V_t, M_r, dm_r
 #pragma once
 
 #include "numbers/isa.h"
 
 enum { ROW_N, ROW_V_R, ROW_V_T, ROW_M_R, ROW_M_T, ROW_DP, ROW_DM_R, ROW_DM_T, ROWS };
+
+enum { LAND_HARMONICS = (3 * Z - 1) / 2 + 1, LAND_WAVES = Z / 2 + 1, LAND_EACH = 3 };  // of a wave
+
+// Those of the table at one place of the land; of a repeated harmonic 0.
+typedef struct {
+    // even rows by loads on both halves, by loads that oppose each other; odd ones likewise
+    double row[LAND_WAVES][LAND_EACH][4][ROWS];
+    double wave[LAND_WAVES][2][Z];  // cos and sin of n theta_k
+} LandPath;
+
+// The harmonic p of wave n, number `each` of LAND_EACH, with its sign.
+static inline int land_harmonic(int n, int each)
+{
+    const int p = each == 0 ? n : each == 1 ? n - Z : n + Z;
+    return 2 * (p < 0 ? -p : p) < 3 * Z ? p : n;
+}
 
 typedef struct {
     int nodes;
@@ -41,6 +65,10 @@ typedef struct {
 typedef struct {
     const scalar *F_x, *F_r, *F_t, *push_x, *push_t;
 } PathForces;
+
+// Adds to the rows of all joints those by the loads on the rims of the halves 0 and 1, Re and Im G_p.
+#define half_path_add_lands FOR_ISA(half_path_add_lands)
+void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2], PathRows *rows);
 
 // Sets the rows of all joints by the forces on the halves 0 (-x) and 1 (+x).  Returns false and sets nothing if no
 // pocket is touched.

@@ -39,8 +39,8 @@ INLINE void springs(const Derived *d, wide u_x, int k, wide *pull, wide *push)
     *push = wide_max(P - d->k_plate * u_x, zero);
 }
 
-// Rows of what bonded joints would carry by pocket forces and centrifugal load; returns whether a pocket is touched.
-static bool bonded_rows(const Model *model, const Work *w, scalar omega_2, PathRows *rows)
+// Rows of what bonded joints would carry by pocket forces, films of the lands and centrifugal load.
+static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathRows *rows)
 {
     PathForces forces[2];
     for (int h = 0; h < 2; h++) {
@@ -48,12 +48,14 @@ static bool bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
         forces[h] = (PathForces){on->F_x, on->F_r, on->F_t, on->push_x, on->push_t};
     }
     const bool touched = half_path_rows(&rivet_table.half.path, forces, rows);
+    if (!touched) memset(rows, 0, sizeof *rows);
+    const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
+    half_path_add_lands(&model->d->land_path, re, im, rows);
     for (int i = 0; i < ROWS; i++) {
         const wide spin = wide_set(omega_2 * model->d->centrifugal[i]);
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-            wide_store(&rows->row[i][k], touched ? wide_load(&rows->row[i][k]) + spin : spin);
+            wide_store(&rows->row[i][k], wide_load(&rows->row[i][k]) + spin);
     }
-    return touched;
 }
 
 // Loads of the joints by their springs' forces and the load path.
@@ -65,7 +67,7 @@ static void open_joints(const Model *model, Work *w)
     ball_array bonded[3], P;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
     const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1);
-    t->touched = bonded_rows(model, w, omega_2, &rows);
+    bonded_rows(model, w, omega_2, &rows);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide rigid = wide_load(&t->pull[k]) - wide_load(&t->push[k]);
         wide_store(&bonded[0][k], rigid + wide_load(&rows.row[ROW_N][k]));
@@ -141,12 +143,10 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
     const TwoHalfWork *t = &w->two_half;
     JointShear shear;
     cage_joint_carried(model, w, &shear);
-    if (scalar_value(t->touched) != 0.0) {  // under the centrifugal load alone no joint slips
-        SlipLimits left;
-        find_limits(model, w, &left);
-        joints_slip(&rivet_table.half.law, t->bonded_V[0], t->bonded_V[1], &left, shear.plates, shear.heads,
-                    shear.shank);
-    }
+    SlipLimits left;
+    find_limits(model, w, &left);
+    joints_slip(&rivet_table.half.law, t->bonded_V[0], t->bonded_V[1], &left, shear.plates, shear.heads,
+                shear.shank);
     cage_joint_loads(model, t->load, t->rivet, &shear, load);
 }
 
