@@ -37,7 +37,7 @@ LIMITS = {  # words of a page
     "docs/sweeps.md": 550,
     "docs/validation.md": 2400,
 }
-NOTE, ALL_PAGES = 400, 25_000
+NOTE, ALL_PAGES = 400, 25_200
 SENTENCE, LINE, LONG_LINES = 35, 160, 0.01
 
 ABBREVIATIONS = "Fig Figs Eq Eqs eq eqs Ref Refs Sec Tab Nos Vol vol p pp e.g i.e cf vs al approx resp Dr".split()
