@@ -47,8 +47,8 @@ The cage's default material is bronze. Other materials change the stress, in %:
 CLOSE = """
 
 Rules without a range are those of balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half,
-number of modes, the ring's seats (bore and outside diameter), its support (`ring.k_tilt`, as `ring.m`), the land's contact
-(`cage.K_land`, as E* of cage and ring), settling (15 revolutions), temperatures of the parts and the S–N curve.
+number of modes, temperatures of the parts and the S–N curve. The ring's seats are bore and outside diameter, its support
+`ring.k_tilt` scales as `ring.m`, the land's contact `cage.K_land` as E* of cage and ring. `start.settle` is 15 revolutions.
 Damage grows with the 15th power of the stress.
 """
 
