@@ -19,6 +19,7 @@ from . import (
     run,
     sensitivity,
     study,
+    summary,
     sweep,
     variables,
 )
