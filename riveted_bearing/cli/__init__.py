@@ -10,6 +10,7 @@ from . import (
     build,
     cascade,
     compare,
+    compare_designs,
     info,
     life,
     matrices,
