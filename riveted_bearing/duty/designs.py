@@ -16,6 +16,7 @@ from pathlib import Path
 
 import jinja2
 import numpy as np
+from matplotlib.ticker import NullFormatter
 from scipy.stats import t as student
 
 from ..errors import UserError, refusal, unknown
@@ -372,7 +373,12 @@ def life_chart(fig, found):
         if math.isfinite(e.life):
             ax.plot([e.low, e.high], [k, k], color=COLOURS[k % len(COLOURS)], lw=3, solid_capstyle="butt")
             ax.plot(e.life, k, "o", color=COLOURS[k % len(COLOURS)], ms=7)
+    ends = [x for o in found.outcomes for x in (o.estimate.low, o.estimate.high) if math.isfinite(x) and x > 0.0]
     ax.set_xscale("log")
+    if ends and max(ends) < 10.0 * min(ends):
+        ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])
+        ax.set_xticks(ticks, [f"{x:,.0f}" if 1e2 <= x < 1e7 else f"{x:.3g}" for x in ticks])
+        ax.xaxis.set_minor_formatter(NullFormatter())
     ax.set_yticks(range(len(found.outcomes)), [short(outcome.design.name) for outcome in found.outcomes])
     ax.set(xlabel="life [h]", ylim=(len(found.outcomes) - 0.5, -0.5))
     ax.grid(axis="y", visible=False)
