@@ -52,7 +52,7 @@ class Bearing:
         )
         self.fmu.instantiate()
         # ring.motion = prescribed; scene.stress = off or peak
-        self.fmu.setInteger([self.vr["ring.motion"], self.vr["scene.stress"]], [2, 2 if stress else 1])
+        self.fmu.setInteger([self.vr["ring.motion"], self.vr["scene.stress"]], [2, 3 if stress else 1])
         self.fmu.setReal([self.vr["shaft.omega"], self.vr["shaft.x"]], [omega, x])
         self.inputs = [self.vr[f"shaft.{name}"] for name in ("y", "z", "v_y", "v_z")]
         self.fmu.setReal(self.inputs, [*y, *v])
