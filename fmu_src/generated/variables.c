@@ -181,6 +181,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"solver.method", "1", 1902, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.method), 1.0, 1.0, 3.0, false},
     {"solver.max_steps", "1", 1903, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.max_steps), 10000000.0, 10.0, 2000000000.0, false},
     {"solver.step", "s", 1904, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.step), 0.0, 0.0, 0.001, false},
+    {"solver.clock", "1", 1905, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, solver.clock), 1.0, 1.0, 2.0, false},
     {"start.seed", "1", 1951, 1, TYPE_INTEGER, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, start.seed), 1.0, 0.0, 2147483647.0, false},
     {"start.spacing", "1", 1952, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, start.spacing), 0.1, 0.0, 0.5, false},
     {"start.settle", "s", 1953, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, start.settle), 0.05, 0.0, 1000000.0, false},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2046afd8-5875-6928-3b38-233070a80f7d}"  // digest of the table
+#define MODEL_GUID "{69788112-ce70-7b74-e20f-284d2f67eb2b}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -239,6 +239,7 @@ typedef struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
+        int clock;  // Switch: Measure solver.cpu_time
         int max_steps;  // Largest number of internal steps in one communication step
     } solver;
     struct {
@@ -479,7 +480,7 @@ typedef struct {
         scalar error_tests_failed;  // [1] Internal steps rejected by the error test
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
@@ -583,4 +584,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 340 };  // time is the first
+enum { N_VARIABLES = 341 };  // time is the first
