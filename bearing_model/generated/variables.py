@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{69788112-ce70-7b74-e20f-284d2f67eb2b}"
+MODEL_GUID = "{b66e2bf3-6fb4-9552-63f5-04705491f9b8}"
 Z = 9
 
 
@@ -497,7 +497,7 @@ OUTPUTS = {
         Variable("solver.steps", 6001, "Real", "1", None, None, None, None, 1, "solver", "Accepted internal steps", None),
         Variable("solver.rhs_evals", 6002, "Real", "1", None, None, None, None, 1, "solver", "Evaluations of the right-hand side", None),
         Variable("solver.step_size", 6003, "Real", "s", None, None, None, None, 1, "solver", "Internal step size that the next step starts with", None),
-        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps rejected by the error test", None),
+        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless", None),
         Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None),
         Variable("event.land_contact", 7001, "Real", "1", None, None, None, None, 1, "event", "Cage halves whose land touches the outer ring", None),
         Variable("event.pocket_exit", 7002, "Real", "1", None, None, None, None, 1, "event", "Balls whose centre has left the section of the cage: a real pocket ends there", None),
@@ -506,12 +506,14 @@ OUTPUTS = {
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None),
+        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong", None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None),
         Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None),
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
+        Variable("event.step_too_long_onsets", 7019, "Real", "1", None, None, None, None, 1, "event", "Onsets of steps that are too long since the start", None),
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None),
     )

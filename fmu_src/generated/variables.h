@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{69788112-ce70-7b74-e20f-284d2f67eb2b}"  // digest of the table
+#define MODEL_GUID "{b66e2bf3-6fb4-9552-63f5-04705491f9b8}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -477,7 +477,7 @@ typedef struct {
         scalar steps;  // [1] Accepted internal steps
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
-        scalar error_tests_failed;  // [1] Internal steps rejected by the error test
+        scalar error_tests_failed;  // [1] Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
         scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)
@@ -490,12 +490,14 @@ typedef struct {
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
+        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
     } event;
 } Outputs;
@@ -584,4 +586,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 341 };  // time is the first
+enum { N_VARIABLES = 343 };  // time is the first

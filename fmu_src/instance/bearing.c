@@ -89,26 +89,32 @@ static void solver_message(void *context, const char *message)
     bearing_log(context, LOG_SOLVER, "%s", message);
 }
 
+static bool is_fixed(const Bearing *b)
+{
+    return b->s.p.solver.method == METHOD_FIXED;
+}
+
+double fixed_length(const Bearing *b)
+{
+    return is_fixed(b) ? b->s.integrator.h : 0.0;
+}
+
 // Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, s->head_peak, s->mid_peak, now);
+    events_now(&b->model, &b->w, fixed_length(b), s->head_peak, s->mid_peak, now);
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind])) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
-        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE;
+        const bool warned =
+            kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE || kind == EVENT_STEP_TOO_LONG;
         const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
     }
-}
-
-static bool is_fixed(const Bearing *b)
-{
-    return b->s.p.solver.method == METHOD_FIXED;
 }
 
 // ---- life cycle -------------------------------------------------------------------------------------------

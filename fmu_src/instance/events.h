@@ -24,6 +24,7 @@ typedef enum {
     EVENT_JOINT_OPEN,
     EVENT_RIVET_YIELD,
     EVENT_NO_CLEARANCE,
+    EVENT_STEP_TOO_LONG,
     EVENT_COUNT
 } EventKind;
 
@@ -45,8 +46,8 @@ double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 
 // All kinds of events at the state whose results are w.  head_peak, mid_peak: peak stresses of each rivet
 // [Pa].
-void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z],
-                Event now[EVENT_COUNT]);
+void events_now(const Model *model, const Work *w, double step, const double head_peak[Z],
+                const double mid_peak[Z], Event now[EVENT_COUNT]);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.
 bool event_onset(EventState *state, EventKind kind, const Event *now);
