@@ -29,6 +29,7 @@ LIMITS = {  # words of a page
     "docs/own_bearing.md": 1100,
     "docs/performance.md": 1800,
     "docs/physics.md": 1300,
+    "docs/real_time.md": 900,
     "docs/releasing.md": 300,
     "docs/rivet.md": 2000,
     "docs/rules.md": 700,
