@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{2046afd8-5875-6928-3b38-233070a80f7d}"
+MODEL_GUID = "{2f3f4d85-3a31-926f-d738-4bb7e1c03087}"
 Z = 9
 
 
@@ -297,7 +297,7 @@ PARAMETERS = {
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: mean, RMS and 99.9 % quantile of force and stress within 1 % or their scatter of the limit; 99.9 % pocket force in scene R 5 %, in F 1.3 %, with rigid halves 99.9 % head stress in F 1.2 %"),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5"),
         Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, a tenth of a pocket's pulse for rigid ones"),
-        Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host"),
+        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0", "work limit instead of a hung host: some 0.15 s of processor time for 0.1 ms"),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default"),
         Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed"),
         Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point"),
@@ -505,6 +505,7 @@ OUTPUTS = {
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None),
+        Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None),
@@ -512,6 +513,7 @@ OUTPUTS = {
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None),
+        Variable("event.motion_lag_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Onsets of catching up with a given motion since the start", None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None),
     )
 }

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2046afd8-5875-6928-3b38-233070a80f7d}"  // digest of the table
+#define MODEL_GUID "{2f3f4d85-3a31-926f-d738-4bb7e1c03087}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -239,7 +239,7 @@ typedef struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
-        int max_steps;  // Largest number of internal steps in one communication step
+        int max_steps;  // Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0
     } solver;
     struct {
         int seed;  // Seed of the balls' initial spacing (splitmix64)
@@ -489,6 +489,7 @@ typedef struct {
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
+        scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
@@ -496,6 +497,7 @@ typedef struct {
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
+        scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
     } event;
 } Outputs;
 
@@ -583,4 +585,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 340 };  // time is the first
+enum { N_VARIABLES = 342 };  // time is the first
