@@ -141,6 +141,8 @@ def search(search, seconds, out):
         candidate = search.mutant(best[search.random.integers(len(best))][3]) if good else search.new()
         cost, steps, ended = search.cost(candidate)
         count += 1
+        if any(candidate == row[3] for row in best):
+            continue
         if len(best) < KEPT or cost > best[-1][0]:
             best = sorted([*best, (cost, steps, ended, candidate)], key=lambda row: -row[0])[:KEPT]
             write(out, best, count)

@@ -89,7 +89,7 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     add_kernel(avx2 4 -mavx2 -mfma -DFUSED)  # what dispatch.c asks the processor for, no more
     if(NOT CMAKE_CROSSCOMPILING)
         # AVX-512's packets of eight, computed by AVX2: for the tests (cmake/fmu.cmake), where no processor has AVX-512.
-        set(by_fours -mavx2 -mfma -DFUSED -DEIGHT_BY_FOURS -Wno-psabi)
+        set(by_fours -mavx2 -mfma -DFUSED -DEIGHT_BY_FOURS -Wno-psabi -O1)  # -O3 takes minutes
         compile_for(kernel_by_fours avx512 8 "${kernel_files}" ${by_fours})
         compile_for(dispatch_by_fours generic 2 ${fmu_src}/solver/dispatch.c -DKERNELS_X86 -DEIGHT_BY_FOURS)
     endif()

@@ -13,7 +13,7 @@ import fmpy
 import numpy as np
 import pytest
 from library import ROOT
-from slave import DISCARD, ERROR, Slave
+from slave import DISCARD, ERROR, OK, Slave
 
 from bearing_model.generated import variables
 
@@ -191,3 +191,19 @@ def test_kernels_without_fused_multiply_add_differ_in_the_last_bits_only(folder)
     assert a[1].tobytes() != b[1].tobytes()
     y = a[0].index("ring.y")
     assert a[1][:, y] == pytest.approx(b[1][:, y], rel=1e-3)
+
+
+@X86
+@pytest.mark.parametrize("cage", [1, 3])
+def test_a_saved_state_goes_on_with_other_kernels(folder, eight, cage):
+    """As on another machine: saved by packets of four, continued by packets of eight, and back."""
+    with wanted("avx2"):
+        four = Slave(folder).initialize(scene__cage=cage, scene__stress=4, start__settle=0.0).step(H, 5)
+    with wanted("avx512"):
+        other = Slave(eight)
+    for giver, taker in ((four, other), (other, four)):
+        status, state = taker.try_load(giver.bytes(giver.save()))
+        assert status == OK, taker.messages
+        taker.restore(state, giver.time)
+        ends = [slave.step(H, 5).bytes(slave.save()) for slave in (giver, taker)]
+        assert ends[0] == ends[1]

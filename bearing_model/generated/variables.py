@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{2f3f4d85-3a31-926f-d738-4bb7e1c03087}"
+MODEL_GUID = "{6d4c4e02-89b2-d3d6-0306-ed905c80d0f5}"
 Z = 9
 
 
@@ -389,7 +389,7 @@ OUTPUTS = {
         Variable("ball[j].Q_e", 2240, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the outer race", None),
         Variable("ball[j].alpha_i", 2280, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the inner race (0 without contact)", None),
         Variable("ball[j].alpha_e", 2320, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the outer race (0 without contact)", None),
-        Variable("ball[j].Q_c", 2360, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the cage pocket, both halves together", None),
+        Variable("ball[j].Q_c", 2360, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the cage pocket, both halves together; at an instant of a chaotic motion: compare stat.*", None),
         Variable("ball[j].omega_m", 2400, "Real", "rad/s", "rev/min", None, None, None, Z, "ball", "Orbital speed", None),
         Variable("ball[j].p_i", 2440, "Real", "Pa", "MPa", None, None, None, Z, "ball", "Largest contact pressure on the inner race", None),
         Variable("ball[j].p_e", 2480, "Real", "Pa", "MPa", None, None, None, Z, "ball", "Largest contact pressure on the outer race", None),
@@ -412,16 +412,16 @@ OUTPUTS = {
         Variable("half_1.tilt_y", 2744, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the +X side about Y", None),
         Variable("half_1.tilt_z", 2745, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the +X side about Z", None),
         Variable("half_1.psi", 2746, "Real", "rad", "deg", None, None, None, 1, "pose", "Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y", None),
-        Variable("cage.dislocation", 2701, "Real", "m", "um", None, None, None, 1, "rivet", "Largest slip of one cage half against the other over the joints, in the plane", None),
+        Variable("cage.dislocation", 2701, "Real", "m", "um", None, None, None, 1, "rivet", "Largest slip of one cage half against the other over the joints, in the plane; at an instant of a chaotic motion: compare stat.*", None),
         Variable("cage.omega", 2702, "Real", "rad/s", "rev/min", None, None, None, 1, "cage", "Speed of the cage (mean of the halves)", None),
         Variable("cage.slip_ratio", 2703, "Real", "1", None, None, None, None, 1, "cage", "1 - cage speed / epicyclic speed (0 at standstill)", None),
         Variable("cage.y", 2704, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Y (mean of the halves)", None),
         Variable("cage.z", 2705, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Z (mean of the halves)", None),
         Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre against the outer ring / radial guide clearance", None),
-        Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls", None),
+        Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*", None),
         Variable("cage.F_pocket_peak", 2708, "Real", "N", None, None, None, None, 1, "peak", "Largest pocket contact load since the last communication point", None),
-        Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet", None),
-        Variable("rivet[k].sigma_mid", 3040, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress of the shank at the split (|z| <= 0.1 mm)", None),
+        Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet; at an instant of a chaotic motion: compare stat.*", None),
+        Variable("rivet[k].sigma_mid", 3040, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress of the shank at the split (|z| <= 0.1 mm); at an instant of a chaotic motion: compare stat.*", None),
         Variable("rivet[k].sigma_head_vm", 3080, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress in the head fillet", None),
         Variable("rivet[k].sigma_mid_p1", 3120, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress of the shank at the split", None),
         Variable("rivet[k].sigma_head_peak", 3160, "Real", "Pa", "MPa", None, None, None, Z, "peak", "Largest sigma_head since the last communication point", None),
@@ -431,12 +431,12 @@ OUTPUTS = {
         Variable("rivet.table_kind", 3242, "Real", "1", None, None, None, None, 1, "rivet", "What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms", None),
         Variable("rivet[k].damage_head", 3250, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_head since start.settle", None),
         Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None),
-        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint", None),
-        Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint", None),
-        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying", None),
-        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits", None),
+        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint; at an instant of a chaotic motion: compare stat.*", None),
+        Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint; at an instant of a chaotic motion: compare stat.*", None),
+        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying; at an instant of a chaotic motion: compare stat.*", None),
+        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits; at an instant of a chaotic motion: compare stat.*", None),
         Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None),
-        Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None),
+        Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane; at an instant of a chaotic motion: compare stat.*", None),
         Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table", None),
         Variable("rivet[k].V_y", 3610, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along y of the cage's frame", None),
         Variable("rivet[k].V_z", 3650, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along z of the cage's frame", None),
