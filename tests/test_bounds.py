@@ -276,14 +276,12 @@ def test_work_limit_scales_with_the_communication_step(host):
 
 
 def test_default_work_limit_is_in_force(host):
-    """The smallest tolerance and the explicit method, which need more than 10,000 steps for 0.1 ms of a cage on dry
-    lands at once; the message has the number.
-    """
-    one = host({"solver.method": 2, "cage.lambda": 10.0, "cage.v_c": 1e-4}, tolerance=1e-10).start()
-    with pytest.raises(FMICallException):
-        for k in range(200):
-            one.doStep(k * STEP, STEP)
-    assert "work limit is reached, 10000 steps" in one.messages[-1][2]
+    """30,000 times gravity at the smallest tolerance: refused after 0.2 s of processor time, with the number of steps."""
+    one = host({"frame.a_y": -3e5}, tolerance=1e-10).start()
+    with pytest.raises(FMICallException) as refused:
+        one.doStep(0.0, STEP)
+    assert refused.value.status == fmi2.fmi2Discard
+    assert "work limit is reached, 10000 steps since 0 s (solver.max_steps = 0)" in one.messages[-1][2]
 
 
 def test_smallest_tolerance_stays_within_the_work_limit(host):
