@@ -196,7 +196,9 @@ def test_kernels_without_fused_multiply_add_differ_in_the_last_bits_only(folder)
 @X86
 @pytest.mark.parametrize("cage", [1, 3])
 def test_a_saved_state_goes_on_with_other_kernels(folder, eight, cage):
-    """As on another machine: saved by packets of four, continued by packets of eight, and back."""
+    """As on another machine: saved by packets of four, continued by packets of eight, and back.  All outputs are compared:
+    the states differ in the places of a packet that have no ball.
+    """
     with wanted("avx2"):
         four = Slave(folder).initialize(scene__cage=cage, scene__stress=4, start__settle=0.0).step(H, 5)
     with wanted("avx512"):
@@ -205,5 +207,5 @@ def test_a_saved_state_goes_on_with_other_kernels(folder, eight, cage):
         status, state = taker.try_load(giver.bytes(giver.save()))
         assert status == OK, taker.messages
         taker.restore(state, giver.time)
-        ends = [slave.step(H, 5).bytes(slave.save()) for slave in (giver, taker)]
-        assert ends[0] == ends[1]
+        for _ in range(5):
+            assert np.array_equal(*(slave.step(H).outputs() for slave in (giver, taker)))
