@@ -21,7 +21,7 @@ LOCK    = --generate-hashes --strip-extras --no-header --no-annotate --no-emit-i
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build browser site dist fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build browser site dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
 	$(BIN)/riveted-bearing run demo
@@ -65,6 +65,14 @@ dist: $(VENV)/installed  ## in dist/: a wheel for every platform with the ready 
 	cp build/dist/RivetedBearing.fmu dist/
 	$(PYTHON) -m piptools compile --quiet $(LOCK) --output-file dist/requirements.txt pyproject.toml
 	cd dist && sha256sum * >SHA256SUMS
+
+# One resolution for every Python and system that pyproject.toml allows, by uv.
+UV      = $(BIN)/uv --quiet pip compile --upgrade --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
+IMPORTERS = import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["importers"], sep="\n")
+lock: $(VENV)/installed  ## newest versions and hashes of the packages that `make demo` and `make test` install, in .ci/*.txt
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[lock]"
+	$(UV) --extra test --extra dev --output-file .ci/requirements.txt pyproject.toml
+	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
 	$(BIN)/ruff check .
@@ -113,7 +121,7 @@ clean:  ## remove what was built; the Python environment and the cached SUNDIALS
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
 
-$(VENV)/installed: pyproject.toml .ci/environment
+$(VENV)/installed: pyproject.toml .ci/environment .ci/requirements.txt .ci/importers.txt
 	.ci/environment $(VENV)
 	touch $@
 

@@ -61,6 +61,8 @@ def another(model, v, name):
         return next(item for item in codes(variable) if item != SETTINGS.get(name, start))
     if v.name == "bearing.p_limit":
         return 1e9  # below the pressures of the working point
+    if v.name in NO_EFFECT:
+        return v.limits[1]
     if v.type == "Integer":
         return start + 1 if start < v.limits[1] else start - 1
     if start:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,23 @@ def test_any_thread(folder):
         thread.join()
     for slave, load in zip(slaves, loads, strict=True):
         assert same_bits(slave.outputs(), Slave(folder).initialize(shaft__F_y=float(load)).step(H, 10).outputs())
+
+
+def test_a_pool_of_threads_that_create_and_free(folder):
+    """32 threads, 128 instances of four loads and both cages, each created, stepped and freed in its thread: the bits of
+    instances one after the other.
+    """
+    cases = [(1000.0 + 500.0 * (n % 4), 1 if n % 8 < 4 else 3) for n in range(128)]
+
+    def outputs(case):
+        slave = Slave(folder).initialize(shaft__F_y=case[0], scene__cage=case[1]).step(H, 3)
+        found = slave.outputs().tobytes()
+        slave.free()
+        return found
+
+    expected = {case: outputs(case) for case in set(cases)}
+    with ThreadPoolExecutor(32) as pool:
+        assert list(pool.map(outputs, cases)) == [expected[case] for case in cases]
 
 
 @pytest.mark.skipif(not LINUX, reason="other systems' clocks tick too rarely")

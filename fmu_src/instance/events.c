@@ -126,8 +126,8 @@ static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *e
     for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
-void events_now(const Model *model, const Work *w, double step, const double head_peak[Z],
-                const double mid_peak[Z], Event now[EVENT_COUNT])
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double step,
+                const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
 {
     memset(now, 0, EVENT_COUNT * sizeof *now);
     lands(model, w, &now[EVENT_LAND_CONTACT]);
@@ -137,6 +137,7 @@ void events_now(const Model *model, const Work *w, double step, const double hea
     rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
     clearance(model, &now[EVENT_NO_CLEARANCE]);
     steps(model, w, step, &now[EVENT_STEP_TOO_LONG]);
+    now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
 }
 
 bool event_onset(EventState *state, EventKind kind, const Event *now)
@@ -158,6 +159,24 @@ bool event_state_is_valid(const EventState *state)
                 (active == 0 || (active == 1 && state->onsets[kind] > 0.0));
     }
     return fine;
+}
+
+// The input at a place in Inputs.
+static const Variable *input_at(int place)
+{
+    const size_t offset = (size_t)place * sizeof(double);
+    const Variable *v = VARIABLES;
+    while (v->causality != CAUSALITY_INPUT || v->offset != offset) v++;
+    return v;
+}
+
+static void motion_text(const Event *now, char *text, size_t size)
+{
+    const Variable *x = input_at(MOTION[now->element].position), *v = input_at(MOTION[now->element].velocity);
+    snprintf(text, size,
+             "%s and %s jumped or contradict each other: they are %.4g %s and %.4g %s off the motion before, "
+             "which catches up over %g s or more",
+             x->name, v->name, now->value, x->unit, now->limit, v->unit, CATCH_UP_TIME);
 }
 
 void event_text(EventKind kind, const Event *now, char *text, size_t size)
@@ -212,6 +231,7 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "%.4g s: the results are wrong; set solver.step to that or less",
                  now->value, now->limit);
         return;
+    case EVENT_MOTION_LAG: motion_text(now, text, size); return;
     case EVENT_COUNT: break;
     }
 }
