@@ -23,7 +23,7 @@ LOCK    = --generate-hashes --strip-extras --no-header --no-annotate --no-emit-i
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build browser site dist fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build browser site dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: $(VENV)/full  ## build the FMU, then run the paper's working point: stress, cage and run-time figures
 	@echo "make demo: compiles about 120 files (1 to 3 minutes on two cores, once), then simulates 0.4 s"
@@ -78,6 +78,15 @@ dist: $(VENV)/installed  ## in dist/: a wheel for every platform with the ready 
 	cd dist && sha256sum * >SHA256SUMS
 	@ls -l dist
 
+# One resolution for every Python and system that pyproject.toml allows, by uv.
+UV      = $(BIN)/uv --quiet pip compile --upgrade --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
+IMPORTERS = import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["importers"], sep="\n")
+lock: $(VENV)/installed  ## newest versions and hashes of the packages that `make demo` and `make test` install, in .ci/*.txt
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[lock]"
+	$(UV) --extra test --extra dev --output-file .ci/requirements.txt pyproject.toml
+	$(UV) --extra demo --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml
+	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
+
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -125,12 +134,12 @@ clean:  ## remove what was built; the Python environment and the cached SUNDIALS
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
 
-$(VENV)/installed: pyproject.toml .ci/environment
+$(VENV)/installed: pyproject.toml .ci/environment .ci/requirements.txt .ci/importers.txt
 	.ci/environment $(VENV)
 	touch $@
 
 # What `make demo` needs, a part of the line above.
-$(VENV)/full: pyproject.toml .ci/environment
+$(VENV)/full: pyproject.toml .ci/environment .ci/demo.txt
 	@test -f $(VENV)/installed || .ci/environment $(VENV) demo
 	@touch $@
 
