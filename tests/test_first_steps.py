@@ -148,3 +148,14 @@ def test_the_libraries_of_a_run_are_the_few(fmu):
     assert names == ["fmpy", "numpy", "typer", "rich"]
     full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["full"]}
     assert {{"skfem": "scikit-fem", "distributed": "dask"}.get(name, name) for name in FULL} <= full
+
+
+def test_the_cookbook_comes_with_the_program():
+    """The pages of docs/, as files for a pipe; the wheel has them in _source/docs (cmake/fmu.cmake)."""
+    run_it = lambda *words: CliRunner().invoke(program, ["cookbook", *words])
+    assert run_it().stdout == (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
+    listed = run_it("list").stdout.splitlines()
+    assert {line.split()[0] for line in listed} == {path.stem for path in (ROOT / "docs").glob("*.md")}
+    refused = run_it("recipe")
+    assert refused.exit_code == 2 and 'did you mean "recipes"' in refused.output
+    assert "fmu_src fmus docs DESTINATION" in (ROOT / "cmake" / "fmu.cmake").read_text()

@@ -131,6 +131,9 @@ def test_a_mission_at_its_own_life_has_utilisation_one(tmp_path):
 
 
 def test_the_command_reads_a_result(tmp_path, fmu):
+    """From a folder whose name has spaces and a letter beyond ASCII."""
+    tmp_path = tmp_path / "Meine Lager für Ärger"
+    tmp_path.mkdir()
     done = command(
         "run", "demo", "--fmu", fmu, "--t-end", "0.02", "--set", "start.settle=0.005", "--no-plot", folder=tmp_path
     )

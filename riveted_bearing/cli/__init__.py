@@ -11,6 +11,7 @@ from . import (
     cascade,
     compare,
     compare_designs,
+    cookbook,
     info,
     life,
     matrices,
