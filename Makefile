@@ -84,7 +84,7 @@ IMPORTERS = import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["p
 lock: $(VENV)/installed  ## newest versions and hashes of the packages that `make demo` and `make test` install, in .ci/*.txt
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[lock]"
 	$(UV) --extra test --extra dev --output-file .ci/requirements.txt pyproject.toml
-	$(UV) --extra demo --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml
+	echo "scikit-build-core>=0.11" | $(UV) --extra full --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml -
 	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
@@ -139,7 +139,7 @@ $(VENV)/installed: pyproject.toml .ci/environment .ci/requirements.txt .ci/impor
 	touch $@
 
 # What `make demo` needs, a part of the line above.
-$(VENV)/full: pyproject.toml .ci/environment .ci/demo.txt
+$(VENV)/full: pyproject.toml .ci/environment
 	@test -f $(VENV)/installed || .ci/environment $(VENV) demo
 	@touch $@
 
