@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2046afd8-5875-6928-3b38-233070a80f7d}"  // digest of the table
+#define MODEL_GUID "{c7fda23b-6e08-a2e6-01dc-724f996b1a10}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -222,6 +222,7 @@ typedef struct {
         double k_2;  // [1] Slope below the knee
         double sigma_m;  // [Pa] Tensile strength (Goodman)
         double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        double fretting;  // [1] Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
@@ -583,4 +584,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 340 };  // time is the first
+enum { N_VARIABLES = 341 };  // time is the first
