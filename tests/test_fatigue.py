@@ -188,11 +188,18 @@ def test_fretting_weakens_the_middle_of_pressed_rivets(fit, factor):
     """
     few = {"scene.stress": "fatigue", "scene.cage": "two_half", "start.settle": 1e-3, "joint.fit": fit}
     plain, fretted = (
-        run("demo", t_end=4e-3, parameters=few | {"fatigue.fretting": factor}, outputs=["rivet[*].damage_head", "rivet[*].damage_mid"])
+        run(
+            "demo",
+            t_end=4e-3,
+            parameters=few | {"fatigue.fretting": factor},
+            outputs=["rivet[*].damage_head", "rivet[*].damage_mid"],
+        )
         for factor in (1.0, 2.0)
     )
     for k in range(1, 10):
-        heads, mids = ([r.data[f"rivet[{k}].damage_{place}"][-1] for r in (fretted, plain)] for place in ("head", "mid"))
+        heads, mids = (
+            [r.data[f"rivet[{k}].damage_{place}"][-1] for r in (fretted, plain)] for place in ("head", "mid")
+        )
         assert heads[0] == heads[1] > 0.0 and mids[1] > 0.0
         assert mids[0] == pytest.approx(factor * mids[1], rel=1e-9)
 
