@@ -419,15 +419,14 @@ def tilt_picture(columns):
     return figure
 
 
-CLEARANCES = {"constant sum 0.3 mm": HEAD, "guide 0.2 mm": MIDDLE, "pocket 0.1 mm": RING}
+CLEARANCES = {"constant sum 0.3 mm": HEAD, "guide 0.2 mm": MIDDLE}
 
 
 def clearance_series(runs, label):
-    """Runs along one of the three ways to change the ratio; all share the scene's own clearances."""
+    """Runs along one of the two ways to change the ratio; both share the scene's own clearances."""
     holds = {
         "constant sum 0.3 mm": np.isclose(runs["pocket"] + runs["guide"], 300.0, atol=0.01),
         "guide 0.2 mm": runs["guide"] == 200.0,
-        "pocket 0.1 mm": runs["pocket"] == 100.0,
     }
     return replace(runs, columns={name: values[holds[label]] for name, values in runs.columns.items()})
 
