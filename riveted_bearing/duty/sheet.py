@@ -25,7 +25,7 @@ from bearing_model.instance.fatigue import fully_reversed
 from .. import charts
 from ..design.bench import display_of
 from ..errors import UserError, shortlist
-from ..life import cycle_damages, fatigue_law
+from ..life import CHANNELS, cycle_damages, fatigue_law_at
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
 from ..report import PARTS, curve, figure
 from ..results import write_atomically
@@ -76,7 +76,7 @@ class Evidence:
 
     life, low, high [h], None where nothing is known, with place and interval in words; scaled(x): shortest lives [h] of
     heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
-    [Pa]; knee: of the S-N curve [Pa], None for a table; results: runs by the name of point or event; worst: name of the
+    [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
     one that decides; rivet: number of the one that fails first.
     """
 
@@ -87,7 +87,7 @@ class Evidence:
     interval: str
     scaled: object = field(repr=False)
     amplitudes: tuple
-    knee: float | None
+    knees: tuple
     results: dict = field(repr=False)
     worst: str
     rivet: int
@@ -140,7 +140,7 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         worst = max((i for i, _ in chosen), key=lambda i: share[i])
     matrices = [runs.matrices[key] for key in runs.damages]
     strength = next(iter(runs.strengths.values()), None)
-    law = matrices[0][1]
+    laws = matrices[0][1]
     found = life.estimate
     return Evidence(
         found.life,
@@ -149,8 +149,8 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         life.place,
         f"{100 * mission.settings['confidence']:g} %: {interval_text(life)}",
         functools.cache(lambda x: scaled_lives(life, runs, used, x)),
-        largest_amplitudes((matrix, law) for matrix, law, _ in matrices),
-        knee_of(strength, law),
+        largest_amplitudes((matrix, laws) for matrix, laws, _ in matrices),
+        knees_of(strength, laws),
         results,
         mission.parts[worst].name,
         rivet,
@@ -186,41 +186,49 @@ def scaled_lives(life, runs, used, x):
 
 def scaled_damage(runs, key, x):
     """Damage of a run's rivets [Z, 2] at x times its stress."""
-    matrix, law, own = runs.matrices[key]
-    strength = runs.strengths.get(law)
-    plain, scaled = (damage_by(strength, law, matrix, own.size, scale) for scale in (1.0, x))
+    matrix, laws, own = runs.matrices[key]
+    strength = runs.strengths.get(laws[0])
+    plain, scaled = (damage_by(strength, laws, matrix, scale) for scale in (1.0, x))
     counted = runs.damages[key].reshape(-1)
     whole = counted.sum() / plain.sum() if plain.sum() > 0.0 else 0.0
     factor = np.where(plain > 0.0, counted / np.where(plain > 0.0, plain, 1.0), whole)
     return (scaled * factor).reshape(own.shape)
 
 
-def damage_by(strength, law, matrix, channels, scale):
-    """Miner's sum of each channel of a matrix at a scale of its stresses; strength: of [sn], None for the FMU's law."""
+def damage_by(strength, laws, matrix, scale):
+    """Miner's sum of each channel of a matrix at a scale of its stresses; strength: of [sn], None for the FMU's laws of
+    the channels.
+    """
     channel, span, mean, count = matrix
     span, mean = scale * span, scale * mean
     if strength is not None:
-        return damage_of_matrix(strength, (channel, span, mean, count), channels)
-    damage = count * cycle_damages(law, span, mean)
-    return np.bincount(channel, damage, minlength=channels) if len(channel) else np.zeros(channels)
+        return damage_of_matrix(strength, (channel, span, mean, count), len(laws))
+    damage = np.zeros(len(laws))
+    for law in dict.fromkeys(laws):
+        mine = np.isin(channel, [c for c, own in enumerate(laws) if own == law])
+        of_cycles = count[mine] * cycle_damages(law, span[mine], mean[mine])
+        damage += np.bincount(channel[mine], of_cycles, minlength=len(laws))
+    return damage
 
 
 def largest_amplitudes(pairs):
-    """Largest fully reversed amplitudes of heads and middles [Pa] in pairs (matrix, law)."""
+    """Largest fully reversed amplitudes of heads and middles [Pa] in pairs (matrix, laws of the channels)."""
     largest = [0.0, 0.0]
-    for (channel, span, mean, _), law in pairs:
+    for (channel, span, mean, _), laws in pairs:
         for place in (0, 1):
             mine = channel % 2 == place
-            found = (fully_reversed(law, 0.5 * s, m) for s, m in zip(span[mine].tolist(), mean[mine].tolist()))
-            largest[place] = max(largest[place], max(found, default=0.0))
+            cycles = zip(span[mine].tolist(), mean[mine].tolist())
+            largest[place] = max(
+                largest[place], max((fully_reversed(laws[place], 0.5 * s, m) for s, m in cycles), default=0.0)
+            )
     return tuple(largest)
 
 
-def knee_of(strength, law):
-    """Amplitude at the knee of the S-N curve [Pa], None for a table."""
+def knees_of(strength, laws):
+    """Lowest amplitudes at the knees of the S-N curves of heads and middles [Pa], None for a table."""
     if strength is None:
-        return law.sigma_D
-    return None if strength.table is not None else strength.factor * strength.law.sigma_D
+        return tuple(min(law.sigma_D for law in laws[place::2]) for place in (0, 1))
+    return (None if strength.table is not None else strength.factor * strength.law.sigma_D,) * 2
 
 
 def of_result(result, name):
@@ -231,19 +239,20 @@ def of_result(result, name):
         raise UserError(
             f'{name}: rivet[1].sigma_head was not recorded: a summary needs it of each rivet (outputs = ["*"])'
         )
-    law, rows = fatigue_law(result.parameters), rainflow_columns(result)
+    rows = rainflow_columns(result)
     matrix = stored_cycles({key: [column] for key, column in rows.items()}, 0)
     Z = len(columns(result, "rivet[", "].sigma_head"))
+    laws = [fatigue_law_at(result.parameters, k, place) for k in range(1, Z + 1) for place in CHANNELS]
     t = result.data["time"][settled(result)]
     hours = (t[-1] - t[0]) / 3600.0
 
     def scaled(x):
-        damage = damage_by(None, law, matrix, 2 * Z, x)
+        damage = damage_by(None, laws, matrix, x)
         with np.errstate(divide="ignore"):
             life = hours / damage
         return float(life[0::2].min()), float(life[1::2].min())
 
-    damage = damage_by(None, law, matrix, 2 * Z, 1.0)
+    damage = damage_by(None, laws, matrix, 1.0)
     k, place = divmod(int(damage.argmax()), 2)
     life = min(scaled(1.0)) if life_is_known(result) else None
     scene = result.about.get("scene") or "run"
@@ -254,8 +263,8 @@ def of_result(result, name):
         f"rivet {k + 1}, {('head', 'middle')[place]}",
         "of one run: more seeds or a mission give its interval",
         scaled,
-        largest_amplitudes([(matrix, law)]),
-        law.sigma_D,
+        largest_amplitudes([(matrix, laws)]),
+        knees_of(None, laws),
         {scene: result},
         scene,
         k + 1,
@@ -323,13 +332,13 @@ def fatigue_check(evidence, place, title, target):
             f"{x:.3g} times the stress" if SCALES[0] * 1.01 < x < SCALES[1] / 1.01 else f"over {x:.2g} times the stress"
         )
         return Check(title, amplitude, f"{text} at the target", 1.0 / x, "good" if x >= 1.0 else "bad")
-    if evidence.knee is None:
+    if evidence.knees[place] is None:
         return Check(title, amplitude)
     return Check(
         title,
         amplitude,
-        f"S–N curve's knee {1e-6 * evidence.knee:.3g} MPa",
-        evidence.amplitudes[place] / evidence.knee,
+        f"S–N curve's knee {1e-6 * evidence.knees[place]:.3g} MPa",
+        evidence.amplitudes[place] / evidence.knees[place],
     )
 
 
