@@ -201,9 +201,10 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
         return rivet_table.DEFAULT_TABLE
     kind = kind or ("full" if shipped else "coarse")
     name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
-    target = cache_folder("tables") / f"{name}.json"
-    if is_table(target):
+    target = cache_path("tables") / f"{name}.json"
+    if is_table(target):  # perhaps of another user, in whose cache nothing can be written
         return target
+    cache_folder("tables")
 
     def progress(stage, done, total):
         say(f"rivet: {stage}", done / total)
@@ -223,10 +224,18 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
     return target
 
 
+def cache_path(name):
+    """Path of a folder of the user's cache."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
+
+
 def cache_folder(name):
     """A folder of the user's cache, made if it is not there."""
-    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
-    make_folder(folder)
+    folder = cache_path(name)
+    try:
+        make_folder(folder)
+    except UserError as problem:
+        raise UserError(f"{problem}; the environment variable XDG_CACHE_HOME names another cache") from None
     return folder
 
 
