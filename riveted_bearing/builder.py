@@ -33,8 +33,8 @@ from .bearings import CAGE_MEANT, RIVET, bearing_case
 from .errors import UserError, extra, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .materials import PARTS
-from .results import make_folder, to_toml, write_atomically
-from .rivet import TABLES, cache_folder, geometry_of, read_table, rivet_case, table_of, table_text
+from .results import cache_folder, make_folder, to_toml, write_atomically
+from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package

@@ -3,7 +3,6 @@ finite elements.
 """
 
 import math
-import os
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
 from pathlib import Path
@@ -24,7 +23,7 @@ from rivet_model.load_cases import Joint
 
 from .bearings import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, in_cage, is_number, unit_scales
 from .errors import UserError
-from .results import make_folder, write_atomically
+from .results import cache_folder, cache_path, write_atomically
 from .scene import positive, read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
@@ -222,21 +221,6 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
         raise UserError(f"{where}: {problem}") from None
     write_atomically(target, lambda temporary: table.write(made, temporary))
     return target
-
-
-def cache_path(name):
-    """Path of a folder of the user's cache."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
-
-
-def cache_folder(name):
-    """A folder of the user's cache, made if it is not there."""
-    folder = cache_path(name)
-    try:
-        make_folder(folder)
-    except UserError as problem:
-        raise UserError(f"{problem}; the environment variable XDG_CACHE_HOME names another cache") from None
-    return folder
 
 
 def table_text(t):

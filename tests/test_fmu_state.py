@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from slave import DISCARD, ERROR, OK, Slave
 
-from bearing_model.generated.variables import Method
+from bearing_model.generated.variables import Method, Switch
 
 H = 1e-4  # communication step [s]
 LINUX = sys.platform.startswith("linux")
@@ -85,7 +85,7 @@ def test_processor_time_is_of_the_stepping_thread(folder):
     """Two threads at a time: what both count is no more than what the process spent, which a clock of the process would
     count twice.
     """
-    slaves = [Slave(folder).initialize() for _ in range(2)]
+    slaves = [Slave(folder).initialize(solver__clock=Switch.ON) for _ in range(2)]
     threads = [threading.Thread(target=slave.step, args=(1e-2, 20)) for slave in slaves]
     before = time.process_time()
     for thread in threads:

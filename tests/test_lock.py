@@ -8,7 +8,7 @@ from library import ROOT
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-LOCKS = {"requirements.txt": ("test", "dev"), "importers.txt": ("importers",)}
+LOCKS = {"requirements.txt": ("test", "dev"), "demo.txt": ("full",), "importers.txt": ("importers",)}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
 
@@ -29,7 +29,7 @@ def locked(name):
 def wanted(extras):
     """Requirements of the project with these extras, those of its own extras in their place."""
     optional = PROJECT["optional-dependencies"]
-    texts = list(PROJECT["dependencies"]) if "test" in extras else []
+    texts = list(PROJECT["dependencies"]) if {"test", "full"} & set(extras) else []
     for extra in extras:
         texts += optional[extra]
     for text in texts:
@@ -61,5 +61,6 @@ def test_every_package_has_hashes(name):
 
 
 def test_both_locks_agree():
-    ours, theirs = (locked(name)[0] for name in LOCKS)
-    assert {name: version for name, version in theirs.items() if name in ours and ours[name] != version} == {}
+    ours, *others = (locked(name)[0] for name in LOCKS)
+    for theirs in others:
+        assert {name: version for name, version in theirs.items() if name in ours and ours[name] != version} == {}

@@ -329,7 +329,11 @@ def compiled(folder, tmp_path, compile_):
 
 @pytest.mark.slow  # 20 s of compilation
 @pytest.mark.skipif(not LINUX, reason="options of a Linux compiler")
-@pytest.mark.parametrize("options", [["-O0"], ["-O3", "-march=native", "-ffp-contract=off"]], ids=" ".join)
+@pytest.mark.parametrize(
+    "options",
+    [["-O0"], ["-O3", "-march=native", "-ffp-contract=off"], ["-O2", "-std=c17", "-pedantic-errors", "-mno-avx"]],
+    ids=" ".join,
+)
 def test_sources_compile_with_plain_cc(folder, tmp_path, options):
     """Options of the compiler change no bit of the sources' results (observed), so what differs from the binary is what
     its kernels fuse.
@@ -346,6 +350,36 @@ def test_sources_compile_with_plain_cc(folder, tmp_path, options):
         )
 
     assert difference(trajectory(compiled(folder, tmp_path, cc)), folder) <= SAME  # observed 1.1e-10
+
+
+def test_arithmetic_that_is_not_ieee_754s_is_refused(folder, tmp_path):
+    """-ffast-math would take tests for numbers out."""
+    command = [
+        "cc",
+        "-ffast-math",
+        "-c",
+        f"-I{FMI_HEADERS}",
+        str(folder / "sources" / "rhs.c"),
+        "-o",
+        str(tmp_path / "rhs.o"),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode != 0 and "-ffast-math" in done.stderr
+
+
+@pytest.mark.slow  # a minute of compilation
+@pytest.mark.parametrize("target", ["x86_64-linux-musl", "aarch64-linux-musl"])
+def test_sources_compile_for_other_systems(folder, tmp_path, target):
+    """By clang, with another C library, for another processor: what the guide for targets promises."""
+    pytest.importorskip("ziglang", reason='pip install ".[cross]"')
+    library, sources = tmp_path / "RivetedBearing.so", sorted(map(str, (folder / "sources").glob("*.c")))
+    options = ["-target", target, "-std=c17", "-O1", "-ffp-contract=off", "-shared", "-fPIC"]
+    subprocess.run(
+        [sys.executable, "-m", "ziglang", "cc", *options, f"-I{FMI_HEADERS}", *sources, "-lm", "-o", str(library)],
+        check=True,
+    )
+    exported = {symbol.name for symbol in lief.parse(str(library)).exported_functions}
+    assert {"fmi2Instantiate", "fmi2DoStep"} <= {name.removeprefix("RivetedBearing_") for name in exported}
 
 
 @pytest.mark.slow  # 20 s of compilation
@@ -532,7 +566,7 @@ def test_dist_holds_wheel_sources_versions_and_checksums(dist):
         )
     text = (dist / "requirements.txt").read_text()
     locked = re.findall(r"^([\w.-]+)==\S+ \\\n(?:    --hash=sha256:[0-9a-f]{64}(?: \\)?\n)+", text, re.MULTILINE)
-    assert len(wanted) > 15 and {*wanted, "ziglang", "scikit-build-core"} <= set(locked)
+    assert len(wanted) >= 4 and {*wanted, "scipy", "pyarrow", "ziglang", "scikit-build-core"} <= set(locked)
     assert len(locked) == len(re.findall(r"^[\w.-]+==", text, re.MULTILINE))
     assert (
         "://" not in text

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6d4c4e02-89b2-d3d6-0306-ed905c80d0f5}"
+MODEL_GUID = "{f74c40a5-5171-1be5-eda9-98f45579ef04}"
 Z = 9
 
 
@@ -297,6 +297,7 @@ PARAMETERS = {
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: mean, RMS and 99.9 % quantile of force and stress within 1 % or their scatter of the limit; 99.9 % pocket force in scene R 5 %, in F 1.3 %, with rigid halves 99.9 % head stress in F 1.2 %"),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5"),
         Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, a tenth of a pocket's pulse for rigid ones"),
+        Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms"),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0", "work limit instead of a hung host: some 0.15 s of processor time for 0.1 ms"),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default"),
         Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed"),
@@ -496,7 +497,7 @@ OUTPUTS = {
         Variable("solver.steps", 6001, "Real", "1", None, None, None, None, 1, "solver", "Accepted internal steps", None),
         Variable("solver.rhs_evals", 6002, "Real", "1", None, None, None, None, 1, "solver", "Evaluations of the right-hand side", None),
         Variable("solver.step_size", 6003, "Real", "s", None, None, None, None, 1, "solver", "Internal step size that the next step starts with", None),
-        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps rejected by the error test", None),
+        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless", None),
         Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None),
         Variable("event.land_contact", 7001, "Real", "1", None, None, None, None, 1, "event", "Cage halves whose land touches the outer ring", None),
         Variable("event.pocket_exit", 7002, "Real", "1", None, None, None, None, 1, "event", "Balls whose centre has left the section of the cage: a real pocket ends there", None),
@@ -505,6 +506,7 @@ OUTPUTS = {
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None),
+        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong", None),
         Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None),
@@ -512,6 +514,7 @@ OUTPUTS = {
         Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None),
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None),
+        Variable("event.step_too_long_onsets", 7019, "Real", "1", None, None, None, None, 1, "event", "Onsets of steps that are too long since the start", None),
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None),
         Variable("event.motion_lag_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Onsets of catching up with a given motion since the start", None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None),
@@ -521,7 +524,7 @@ OUTPUTS = {
 LOCALS = {
     v.name: v
     for v in (
-        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)", None),
+        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)", None),
     )
 }
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{6d4c4e02-89b2-d3d6-0306-ed905c80d0f5}"  // digest of the table
+#define MODEL_GUID "{f74c40a5-5171-1be5-eda9-98f45579ef04}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -239,6 +239,7 @@ typedef struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
+        int clock;  // Switch: Measure solver.cpu_time
         int max_steps;  // Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0
     } solver;
     struct {
@@ -476,10 +477,10 @@ typedef struct {
         scalar steps;  // [1] Accepted internal steps
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
-        scalar error_tests_failed;  // [1] Internal steps rejected by the error test
+        scalar error_tests_failed;  // [1] Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
@@ -489,6 +490,7 @@ typedef struct {
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
+        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
@@ -496,6 +498,7 @@ typedef struct {
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
         scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
     } event;
@@ -585,4 +588,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 342 };  // time is the first
+enum { N_VARIABLES = 345 };  // time is the first

@@ -89,27 +89,32 @@ static void solver_message(void *context, const char *message)
     bearing_log(context, LOG_SOLVER, "%s", message);
 }
 
+static bool is_fixed(const Bearing *b)
+{
+    return b->s.p.solver.method == METHOD_FIXED;
+}
+
+double fixed_length(const Bearing *b)
+{
+    return is_fixed(b) ? b->s.integrator.h : 0.0;
+}
+
 // Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, &s->lag, s->head_peak, s->mid_peak, now);
+    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->head_peak, s->mid_peak, now);
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind])) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
-        const bool warned =
-            kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE || kind == EVENT_MOTION_LAG;
+        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE ||
+                            kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG;
         const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
     }
-}
-
-static bool is_fixed(const Bearing *b)
-{
-    return b->s.p.solver.method == METHOD_FIXED;
 }
 
 // ---- life cycle -------------------------------------------------------------------------------------------
@@ -361,7 +366,8 @@ PartStatus part_step(Bearing *b, double t_end)
     if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
     motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u, &s->lag);
     report_without_effect(b);
-    const double before = cpu_clock();
+    const bool clocked = s->p.solver.clock == SWITCH_ON;
+    const double before = clocked ? cpu_clock() : 0.0;
     change_temperature(b, &s->u_now, &s->u[0]);
     const double frame_omega = s->u_now.frame.omega;  // which does not jump
     s->energy_start += energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega + frame_omega,
@@ -390,7 +396,7 @@ PartStatus part_step(Bearing *b, double t_end)
     change_temperature(b, &s->u[0], &s->u_now);
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
-    b->cpu_time += cpu_clock() - before;
+    if (clocked) b->cpu_time += cpu_clock() - before;
     if (status == 0) {
         report_events(b);
         return PART_OK;

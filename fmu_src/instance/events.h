@@ -26,6 +26,7 @@ typedef enum {
     EVENT_JOINT_OPEN,
     EVENT_RIVET_YIELD,
     EVENT_NO_CLEARANCE,
+    EVENT_STEP_TOO_LONG,
     EVENT_MOTION_LAG,
     EVENT_COUNT
 } EventKind;
@@ -47,10 +48,10 @@ typedef struct {
 // Angle from a groove's bottom to which the contact ellipse of ball j reaches [rad], 0 without contact.
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 
-// All kinds of events at the state whose results are w.  lag: motions of the last step; head_peak, mid_peak: peak
-// stresses of each rivet [Pa].
-void events_now(const Model *model, const Work *w, const MotionLag *lag, const double head_peak[Z],
-                const double mid_peak[Z], Event now[EVENT_COUNT]);
+// All kinds of events at the state whose results are w.  lag: motions of the last step; step: length of equal steps [s],
+// else 0; head_peak, mid_peak: peak stresses of each rivet [Pa].
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double step,
+                const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.
 bool event_onset(EventState *state, EventKind kind, const Event *now);

@@ -21,6 +21,10 @@
 #include <stdint.h>
 #include <string.h>
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes results and takes tests for numbers out: compile without it"
+#endif
+
 #ifndef LANE_WIDTH
 #define LANE_WIDTH 2
 #endif
