@@ -2,7 +2,7 @@
 
 import copy
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from bearing_model.generated.variables import MeanStress
 
@@ -19,6 +19,7 @@ class FatigueLaw:
     k_2: float = 15.0
     sigma_m: float = 785e6
     sigma_f: float = 1180e6
+    fretting: float = 1.0
     mean_stress: int = MeanStress.GOODMAN
 
 
@@ -35,6 +36,13 @@ def fully_reversed(law, sigma_a, sigma_mean):
     else:
         room = 1.0
     return sigma_a / room if room > 0.0 else math.inf
+
+
+def fatigue_law_in_hole(law, fit_eff):
+    """Law of the shank's middle in a hole with an effective fit [m]: sigma_D/fretting under the pressure of an
+    interference.  DIN 743-2 for shafts in press fits.
+    """
+    return replace(law, sigma_D=law.sigma_D / law.fretting) if fit_eff > 0.0 else law
 
 
 def fatigue_cycle(law, range_, mean):

@@ -16,7 +16,7 @@ from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 from bearing_model.cage.cage import cage_loads, cage_slip
 from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 from bearing_model.instance.energy import energy_total
-from bearing_model.instance.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.instance.fatigue import FatigueChannel, FatigueLaw, fatigue_law_in_hole
 from bearing_model.instance.ledger import Ledger
 from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
@@ -89,10 +89,12 @@ class Record:
     omega_time: float = 0.0
     eccentricity_time: float = 0.0
     dislocation_max: float = 0.0
+    fit_eff: np.ndarray = field(default_factory=lambda: np.zeros(Z))  # of each rivet [m], by the model
 
-    @property
-    def law(self):
-        return FatigueLaw(**vars(self.p.fatigue))
+    def laws(self, place):
+        """FatigueLaw of each rivet at "head" or "mid"."""
+        law = FatigueLaw(**vars(self.p.fatigue))
+        return [fatigue_law_in_hole(law, fit) if place == "mid" else law for fit in self.fit_eff]
 
     def add(self, model, t, h, w):
         """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns
@@ -113,6 +115,7 @@ class Record:
         return peaks
 
     def add_stress(self, model, t, h, counts, w):
+        self.fit_eff = model.d.fit_eff[:Z]
         sigma, _ = rivet_rom_stress(model.d.table, cage_loads(model, w).rivet, model.d.fit_eff)
         peaks = {}
         channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
@@ -122,9 +125,10 @@ class Record:
                 statistics[k].add(h[counts], stress[counts, k])
             statistics[Z].add(h[counts], np.max(stress, axis=1)[counts])
             if self.p.scene.stress == Stress.FATIGUE:
+                laws = self.laws(name)
                 for values in stress[t >= self.p.start.settle]:
                     for k in range(Z):
-                        fatigue[k].push(self.law, values[k])
+                        fatigue[k].push(laws[k], values[k])
             peak = np.max(stress, axis=0)
             peaks |= {f"rivet[k].sigma_{name}_peak": peak, f"rivet.sigma_{name}_max": np.max(peak)}
         return peaks
@@ -150,7 +154,9 @@ class Record:
                 f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]])
                 for name in ("mean", "rms", "p999", "max")
             }
-            values[f"rivet[k].damage_{part}"] = np.array([channel.damage(self.law) for channel in fatigue])
+            values[f"rivet[k].damage_{part}"] = np.array(
+                [channel.damage(law) for channel, law in zip(fatigue, self.laws(part), strict=True)]
+            )
         return values
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{f74c40a5-5171-1be5-eda9-98f45579ef04}"  // digest of the table
+#define MODEL_GUID "{e57d160d-0a50-1d3c-d937-77a4dfb4a037}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -222,6 +222,7 @@ typedef struct {
         double k_2;  // [1] Slope below the knee
         double sigma_m;  // [Pa] Tensile strength (Goodman)
         double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        double fretting;  // [1] Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
@@ -588,4 +589,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 345 };  // time is the first
+enum { N_VARIABLES = 346 };  // time is the first

@@ -50,8 +50,9 @@ static void add_stress(Bearing *b, bool counts, double h)
             statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
         }
         if (fatigue) {
+            const FatigueLaw in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
             fatigue_push(&s->fatigue_head[k], &law, head[k]);
-            fatigue_push(&s->fatigue_mid[k], &law, mid[k]);
+            fatigue_push(&s->fatigue_mid[k], &in_hole, mid[k]);
         }
     }
     if (counts) {

@@ -20,7 +20,8 @@ static void fill_fatigue(Bearing *b)
     memcpy(&law, &b->s.p.fatigue, sizeof law);
     for (int k = 0; k < Z; k++) {
         b->out.rivet.damage_head[k] = fatigue_damage(&b->s.fatigue_head[k], &law);
-        b->out.rivet.damage_mid[k] = fatigue_damage(&b->s.fatigue_mid[k], &law);
+        const FatigueLaw in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
+        b->out.rivet.damage_mid[k] = fatigue_damage(&b->s.fatigue_mid[k], &in_hole);
     }
 }
 
