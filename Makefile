@@ -36,6 +36,7 @@ test: build lint  ## the fast tests, the ten slowest of them listed
 	$(PYTEST) -n 2 --dist worksteal --durations=10
 
 test-slow: build  ## the tests that take minutes
+	@case $$(uname -m) in x86_64) $(BIN)/cmake --build build --target RivetedBearing_by_fours ;; esac
 	$(PYTHON) -c "import gmsh" 2>/dev/null || .ci/environment $(VENV) mesher
 	$(PYTEST) -n 2 --dist worksteal -m slow
 

@@ -5,8 +5,9 @@
 A candidate is a few parameters, a few inputs, and what changes before each of its steps.  Half of the candidates are
 new; the others change, add or drop one value of one of the costliest so far.  The cost of a candidate is the processor
 time of its costliest step, `solver.cpu_time`, per 0.1 ms of simulated time; a step shorter than 0.1 ms counts as one of
-0.1 ms.  Candidates that the start refuses cost nothing.  The file lists the costliest candidates, so that each can be
-run again: `python -m benchmarks.costliest --again costliest.json`.
+0.1 ms.  Candidates that the start refuses cost nothing.  Those that the FMU stops, at its work limit or for another
+reason, are listed apart: the search goes on from those that run to their end.  The file has both lists, so that each
+candidate can be run again: `python -m benchmarks.costliest --again costliest.json`.
 """
 
 import argparse
@@ -135,7 +136,7 @@ class Search:
 
 
 def search(search, seconds, out):
-    best, end, count, report = [], time.monotonic() + seconds, 0, time.monotonic()
+    best, stopped, end, count, report = [], [], time.monotonic() + seconds, 0, time.monotonic()
     while time.monotonic() < end:
         good = best and search.random.random() < 0.5
         candidate = search.mutant(best[search.random.integers(len(best))][3]) if good else search.new()
@@ -143,13 +144,17 @@ def search(search, seconds, out):
         count += 1
         if any(candidate == row[3] for row in best):
             continue
-        if len(best) < KEPT or cost > best[-1][0]:
-            best = sorted([*best, (cost, steps, ended, candidate)], key=lambda row: -row[0])[:KEPT]
-            write(out, best, count)
+        rows = best if ended == "ran" else stopped
+        if len(rows) < KEPT or cost > rows[-1][0]:
+            rows.append((cost, steps, ended, candidate))
+            rows.sort(key=lambda row: -row[0])
+            del rows[KEPT:]
+            write(out, best + stopped, count)
         if time.monotonic() > report + 60.0:
             report = time.monotonic()
-            print(f"{count} candidates, costliest {', '.join(f'{row[0]:.3f}' for row in best[:6])} s", flush=True)
-    return best, count
+            for text, rows in (("costliest", best), ("costliest that the FMU stopped", stopped)):
+                print(f"{count} candidates, {text} {', '.join(f'{row[0]:.3f}' for row in rows[:6])} s", flush=True)
+    return best + stopped, count
 
 
 def write(out, best, count):
@@ -171,10 +176,11 @@ def main():
         best, count = [(*one.cost(row["candidate"]), row["candidate"]) for row in rows], len(rows)
     else:
         best, count = search(one, arguments.seconds, arguments.out)
+    best = sorted(best, key=lambda row: (row[2] != "ran", -row[0]))
     for cost, steps, ended, candidate in best[:10]:
         print(f"{cost:.4f} s, {steps} steps, {ended}: {json.dumps({k: v for k, v in candidate.items() if v})}")
     print(f"{count} candidates, bound {BOUND} s")
-    return int(best[0][0] > BOUND)
+    return int(max(row[0] for row in best) > BOUND)
 
 
 if __name__ == "__main__":

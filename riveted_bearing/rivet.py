@@ -23,7 +23,7 @@ from rivet_model.load_cases import Joint
 
 from .bearings import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, in_cage, is_number, unit_scales
 from .errors import UserError
-from .results import cache_folder, write_atomically
+from .results import cache_folder, cache_path, write_atomically
 from .scene import positive, read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
@@ -200,9 +200,10 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
         return rivet_table.DEFAULT_TABLE
     kind = kind or ("full" if shipped else "coarse")
     name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
-    target = cache_folder("tables") / f"{name}.json"
-    if is_table(target):
+    target = cache_path("tables") / f"{name}.json"
+    if is_table(target):  # perhaps of another user, in whose cache nothing can be written
         return target
+    cache_folder("tables")
 
     def progress(stage, done, total):
         say(f"rivet: {stage}", done / total)

@@ -110,8 +110,11 @@ def test_neighbours_of_a_broken_rivet_carry_its_share(fmu, tmp_path, record_prop
     """
     document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "60 ms"}}
     document["parameters"] = {"scene.cage": "two_half", "start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
+    refused = {"seeds": 1, "breaks": 1, "case": [{"name": "heavy", "parameters": {"cage.J_t": 1e-3}}]}
     with cluster(None, 1) as client:
         found = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
+        with pytest.raises(UserError, match=r"c\.toml: heavy: the run failed: .* refuses to start: cage\.J_t = 0\.001"):
+            run_cascades(tmp_path / "c.toml", refused, Model(fmu), tmp_path / "bad", lambda: client)
     again = run_cascades(
         tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: pytest.fail("no run is missing")
     )

@@ -118,6 +118,7 @@ def run_cascades(path, document, model, folder, client, progress=None):
         section = section_of(path, document, "parameters") | parameters
         bench = Bench(path, common | {"parameters": section}, model, folder, client, progress)
         bench.counts_damage = True
+        bench.label = name
         rivets = sum(each.startswith("rivet[") and each.endswith("].intact") for each in model.parameters)
         if breaks >= rivets:
             raise refusal(path, "breaks", breaks, f"less than the number of rivets, {rivets}, is allowed")
