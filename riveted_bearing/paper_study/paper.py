@@ -102,14 +102,15 @@ def counted(columns):
 def verdict_sentence(judged):
     """The counts of all columns in mean stress."""
     words = {
-        "paper": "by the paper's equations as they read (scene `paper`)",
-        "physical": "with the physics that they leave out (scene `physical`)",
+        "paper": "by the paper's equations (scene `paper`)",
+        "physical": "with the physics that they leave out (`physical`)",
         "yours": "with your parameters",
     }
     counts = {column: count(claim.verdict for claim in every(claims["mean"])) for column, claims in judged.items()}
-    parts = [f"{r} are reproduced, {p} partly, {n} not {words[column]}" for column, (r, p, n) in counts.items()]
-    total = sum(next(iter(counts.values())))
-    return f"Of {total} claims " + "; ".join(parts) + "."
+    (column, (r, p, n)), *others = counts.items()
+    parts = [f"{r} are reproduced, {p} partly, {n} not {words[column]}"]
+    parts += [f"{words[column]} {r}, {p} and {n}" for column, (r, p, n) in others]
+    return f"Of {r + p + n} claims " + "; ".join(parts) + "."
 
 
 def summary_text(judged):
