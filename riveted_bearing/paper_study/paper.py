@@ -246,7 +246,7 @@ def conflicts_text(data):
         "## Conflicts",
         "",
         "**Fig. 13 among itself, and with Figs. 10 and 11.** The loads' curves come together at high speed only if a load acts that they do not change: the "
-        "cage's centrifugal load. With it the stress does not fall first, and neither dislocation nor stress depend on preload as in Figs. 10 and 11. "
+        "cage's centrifugal load. With it the stress falls first under the heavy load at most, and neither dislocation nor stress depend on preload as in Figs. 10 and 11. "
         "Difference of the mean head stress between 2994 and 1994 N over the lesser one:",
         "",
         "| scene `paper` with | "
