@@ -246,8 +246,8 @@ def conflicts_text(data):
         "## Conflicts",
         "",
         "**Fig. 13 among itself, and with Figs. 10 and 11.** The loads' curves come together at high speed only if a load acts that they do not change: the "
-        "cage's centrifugal load. With it the stress falls first under the heavy load at most, and neither dislocation nor stress depend on preload as in Figs. 10 and 11. "
-        "Difference of the mean head stress between 2994 and 1994 N over the lesser one:",
+        "cage's centrifugal load. With it the stress falls first under the heavy load at most, and neither dislocation nor stress depend "
+        "on preload as in Figs. 10 and 11. Difference of the mean head stress between 2994 and 1994 N over the lesser one:",
         "",
         "| scene `paper` with | "
         + " | ".join(f"{speed:,.0f} r/min" for speed in speeds)
