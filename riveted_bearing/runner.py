@@ -11,9 +11,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
 from .basis import basis
-from .bearings import not_given
 from .fmu import Instance
 from .interrupts import held_interrupts
+from .origin import not_given
 from .record import Record
 from .results import Result
 from .summary import given_names, ruled_names
