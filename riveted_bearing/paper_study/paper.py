@@ -102,14 +102,15 @@ def counted(columns):
 def verdict_sentence(judged):
     """The counts of all columns in mean stress."""
     words = {
-        "paper": "by the paper's equations as they read (scene `paper`)",
-        "physical": "with the physics that they leave out (scene `physical`)",
+        "paper": "by the paper's equations (scene `paper`)",
+        "physical": "with the physics that they leave out (`physical`)",
         "yours": "with your parameters",
     }
     counts = {column: count(claim.verdict for claim in every(claims["mean"])) for column, claims in judged.items()}
-    parts = [f"{r} are reproduced, {p} partly, {n} not {words[column]}" for column, (r, p, n) in counts.items()]
-    total = sum(next(iter(counts.values())))
-    return f"Of {total} claims " + "; ".join(parts) + "."
+    (column, (r, p, n)), *others = counts.items()
+    parts = [f"{r} are reproduced, {p} partly, {n} not {words[column]}"]
+    parts += [f"{words[column]} {r}, {p} and {n}" for column, (r, p, n) in others]
+    return f"Of {r + p + n} claims " + "; ".join(parts) + "."
 
 
 def summary_text(judged):
@@ -245,8 +246,8 @@ def conflicts_text(data):
         "## Conflicts",
         "",
         "**Fig. 13 among itself, and with Figs. 10 and 11.** The loads' curves come together at high speed only if a load acts that they do not change: the "
-        "cage's centrifugal load. With it the stress does not fall first, and neither dislocation nor stress depend on preload as in Figs. 10 and 11. "
-        "Difference of the mean head stress between 2994 and 1994 N over the lesser one:",
+        "cage's centrifugal load. With it the stress falls first under the heavy load at most, and neither dislocation nor stress depend "
+        "on preload as in Figs. 10 and 11. Difference of the mean head stress between 2994 and 1994 N over the lesser one:",
         "",
         "| scene `paper` with | "
         + " | ".join(f"{speed:,.0f} r/min" for speed in speeds)
