@@ -2,7 +2,7 @@
 
 import copy
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from bearing_model.generated.variables import MeanStress
 
@@ -19,7 +19,15 @@ class FatigueLaw:
     k_2: float = 15.0
     sigma_m: float = 785e6
     sigma_f: float = 1180e6
+    acceleration: float = 1.0  # factor on the damage of each cycle that is counted
     mean_stress: int = MeanStress.GOODMAN
+
+
+def fatigue_law(p, k):
+    """The law of rivet k (from 0), whose strength_factor scales all strengths."""
+    law, factor = FatigueLaw(**vars(p.fatigue)), p.rivet.strength_factor[k]
+    strengths = {name: factor * getattr(law, name) for name in ("sigma_D", "sigma_m", "sigma_f")}
+    return replace(law, **strengths)
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
@@ -86,7 +94,7 @@ class FatigueChannel:
         return rest.closed
 
     def _count(self, law, cycles, start, end):
-        self.closed += cycles * fatigue_cycle(law, abs(start - end), 0.5 * (start + end))
+        self.closed += law.acceleration * cycles * fatigue_cycle(law, abs(start - end), 0.5 * (start + end))
 
     def _drop_first(self, law):
         self._count(law, 0.5, self.stack[0], self.stack[1])

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2046afd8-5875-6928-3b38-233070a80f7d}"  // digest of the table
+#define MODEL_GUID "{730970cd-b4b1-7d5f-3b95-df40c8ab5094}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -137,10 +137,11 @@ typedef struct {
         double preload_factor[Z];  // [1] Preload of this rivet / joint.preload
         double dfit[Z];  // [m] Fit of this rivet less joint.fit
         int intact[Z];  // 0: the rivet is broken and carries nothing; the plates still meet under pressure
+        double strength_factor[Z];  // [1] Strength of this rivet: factor on fatigue.sigma_D, sigma_m and sigma_f
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
-        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)
+        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force (oil.nu_1, oil.nu_2)
         double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
         double B;  // [1] Traction law: linear term
@@ -157,7 +158,7 @@ typedef struct {
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
-        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force
         double T_0;  // [K] Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given
         double nu_1;  // [m2/s] Kinematic viscosity of the oil at the lower temperature oil.T_1
         double T_1;  // [K] Lower temperature of the viscosity's two points
@@ -222,6 +223,7 @@ typedef struct {
         double k_2;  // [1] Slope below the knee
         double sigma_m;  // [Pa] Tensile strength (Goodman)
         double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        double acceleration;  // [1] Factor on the damage of every cycle that is counted, by which a life passes in seconds; 1 for results
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
@@ -234,6 +236,7 @@ typedef struct {
         int churning;  // Switch: Drag moment of the mixture on the spinning balls
         int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
         int growth;  // Switch: Growth of the inner ring by its rotation, which takes clearance
+        int breakage;  // Switch: Whether a rivet breaks at the end of the communication step in which its damage reaches 1
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -246,6 +249,10 @@ typedef struct {
         double spacing;  // [1] Initial spacing error: uniform within +- this part of the pocket clearance
         double settle;  // [s] Time before which stat.* and damage do not count
     } start;
+    struct {  // whether the host has given a value to a parameter whose start value stands for one that follows from others
+        int oil_eta;
+        int oil_beta;
+    } given;
 } Parameters;
 
 typedef struct {
@@ -312,7 +319,8 @@ typedef struct {
         scalar energy;  // [J] Kinetic energy of balls and cage in the frame, and elastic energy of all contacts
         scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
         scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
-        scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar energy_residual;  // [J] Energy now - energy at start - bearing.energy_change - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar energy_change;  // [J] Energy that changes of parameters have added to the bearing since the start; negative: released, as by a rivet that breaks
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
         scalar clearance;  // [m] Diametral clearance at the present speed, temperatures and fits
@@ -411,6 +419,8 @@ typedef struct {
         scalar table_kind;  // [1] What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms
         scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
         scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
+        scalar broken[Z];  // [1] 0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0
+        scalar break_time[Z];  // [s] Time at which the rivet broke by its damage; -1 if it did not
         scalar N[Z];  // [N] External tension of the joint
         scalar V[Z];  // [N] Transverse load of the joint
         scalar T[Z];  // [N] Tension of the rivet, with preload and prying
@@ -489,6 +499,7 @@ typedef struct {
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
+        scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
@@ -496,6 +507,7 @@ typedef struct {
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
+        scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
     } event;
 } Outputs;
 
@@ -583,4 +595,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 340 };  // time is the first
+enum { N_VARIABLES = 348 };  // time is the first

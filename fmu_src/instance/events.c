@@ -191,6 +191,7 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "temperatures and fits",
                  -now->value);
         return;
+    case EVENT_RIVET_BREAK:  // reported one by one, with its place (bearing.c)
     case EVENT_COUNT: break;
     }
 }
