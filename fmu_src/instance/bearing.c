@@ -180,6 +180,8 @@ double part_time(const Bearing *b)
     return b->s.integrator.t;
 }
 
+static const double FIRST_STEP = 1e-6;  // [s]
+
 // The present inputs u_now and their rates, as a trajectory that begins at the present time.
 static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
 {
@@ -279,8 +281,13 @@ static void change_parameters(Bearing *b, const Inputs *u)
     if (memcmp(&s->p, &s->p_now, sizeof s->p) == 0) return;
     const double before = present_energy(b);
     if (s->p.solver.tol != s->p_now.solver.tol) s->tolerance = s->p.solver.tol;
+    const bool other_laws = memcmp(&s->p.scene, &s->p_now.scene, sizeof s->p.scene) != 0;
     memcpy(&s->p_now, &s->p, sizeof s->p);
     rederive(b, u, before);
+    if (!other_laws || is_fixed(b)) return;
+    // spins jump from one balance to another, as at the start
+    s->integrator.h = fmin(s->integrator.h, FIRST_STEP);
+    s->integrator.now.h = s->integrator.now.ratio = 0.0;
 }
 
 // Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
@@ -319,7 +326,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->frame_angle = 0.0;
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
-    s->integrator.h = 1e-6;
+    s->integrator.h = FIRST_STEP;
     derive(b);
 
     // quasi-static start
