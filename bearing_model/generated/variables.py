@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{730970cd-b4b1-7d5f-3b95-df40c8ab5094}"
+MODEL_GUID = "{af4aa2b8-0193-294a-c6e0-24b49bc27d8c}"
 Z = 9
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{730970cd-b4b1-7d5f-3b95-df40c8ab5094}"  // digest of the table
+#define MODEL_GUID "{af4aa2b8-0193-294a-c6e0-24b49bc27d8c}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
