@@ -20,8 +20,10 @@ from .life import fatigue_law, rivet_life
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
+    accelerated,
     assumed_as_bronze,
     assumed_rows,
+    breaks,
     columns,
     early_rows,
     flag_note,
@@ -127,6 +129,8 @@ def render(result, decides=None):
         decides=decides,
         display_of=display_of,
         life_is_known=life_is_known(result),
+        breaks=breaks(result),
+        accelerated=accelerated(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS if elastic or name not in OF_ELASTIC},
         figure=figure,

@@ -113,14 +113,16 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what
-    the rivets' stress rests on.
+    """Variables that say how it went over the whole run: statistics, damage, broken rivets, solver counters, processor
+    time, and what the rivets' stress rests on.
     """
     names = [*model.outputs, *model.locals]
     return [
         name
         for name in names
-        if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"
+        if name.startswith(("stat.", "solver."))
+        or name.endswith(("].damage_head", "].damage_mid", "].broken", "].break_time", "].preload_loss"))
+        or name == "rivet.table_kind"
     ]
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{af4aa2b8-0193-294a-c6e0-24b49bc27d8c}"
+MODEL_GUID = "{5d1db983-5662-bb6b-8d36-03cc814871fc}"
 Z = 9
 
 
@@ -214,6 +214,7 @@ PARAMETERS = {
         Variable("joint.mu", 1204, "Real", "1", None, 0.15, 0.0, 1.0, 1, None, "Friction coefficient of plates and rivet heads", "assumed (steel and bronze, little oil)", False, None),
         Variable("joint.zeta", 1205, "Real", "1", None, 0.02, 0.0, 1.0, 1, None, "Damping ratio of the closed joints in the axial direction", "assumed (structural damping)", False, None),
         Variable("joint.F_floor", 1206, "Real", "N", None, 0.5, 0.001, 10.0, 1, None, "Friction capacity that remains in an open joint", "regularization of the friction state as the clamp force vanishes", False, None),
+        Variable("joint.wear", 1209, "Real", "1/Pa", None, 0.0, 0.0, 1e-06, 1, None, "Wear coefficient of plates and heads, volume / (normal force x slip): preload that the rivets lose", "0: no loosening; leaded brass on tool steel, dry: 6e-13 (Archard and Hirst, 1956: k = 6e-4, H = 950 MPa); well lubricated metals: k = 1e-7...1e-6, 1e-16...1e-15", False, None),
         Variable("rivet[k].preload_factor", 8520, "Real", "1", None, 1.0, 0.0, 5.0, Z, None, "Preload of this rivet / joint.preload", "rivets all alike", False, None),
         Variable("rivet[k].dfit", 8560, "Real", "m", "um", 0.0, -0.0002, 5e-05, Z, None, "Fit of this rivet less joint.fit", "rivets all alike", False, "it is part of the geometry"),
         Variable("rivet[k].intact", 8600, "Integer", "1", None, 1, 0, 1, Z, None, "0: the rivet is broken and carries nothing; the plates still meet under pressure", "whole rivets", False, None),
@@ -438,6 +439,7 @@ OUTPUTS = {
         Variable("rivet[k].damage_mid", 3290, "Real", "1", None, None, None, None, Z, "fatigue", "Miner's sum of sigma_mid since start.settle", None, False, None),
         Variable("rivet[k].broken", 8940, "Real", "1", None, None, None, None, Z, "fatigue", "0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0", None, False, None),
         Variable("rivet[k].break_time", 8980, "Real", "s", None, None, None, None, Z, "fatigue", "Time at which the rivet broke by its damage; -1 if it did not", None, False, None),
+        Variable("rivet[k].preload_loss", 9020, "Real", "N", None, None, None, None, Z, "fatigue", "Preload lost by wear of plates and heads since the start (joint.wear)", None, False, None),
         Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint", None, False, None),
         Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint", None, False, None),
         Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying", None, False, None),

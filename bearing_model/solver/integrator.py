@@ -13,12 +13,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
-from bearing_model.cage.cage import cage_loads, cage_slip
+from bearing_model.cage.cage import cage_loads, cage_rubbing, cage_slip
 from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 from bearing_model.instance.breakage import Breakage
 from bearing_model.instance.energy import energy_terms, energy_total
 from bearing_model.instance.fatigue import FatigueChannel, fatigue_law
 from bearing_model.instance.ledger import Ledger
+from bearing_model.instance.loosening import Loosening
 from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
 from bearing_model.physics.hertz import hertz_energy
@@ -91,6 +92,7 @@ class Record:
     eccentricity_time: float = 0.0
     dislocation_max: float = 0.0
     breakage: Breakage = field(default_factory=Breakage)
+    loosening: Loosening = field(default_factory=Loosening)
 
     @property
     def laws(self):
@@ -107,6 +109,8 @@ class Record:
         self.duty_time += np.sum((weight * (Q_c > 0.0))[counts])
         peaks = {"cage.F_pocket_peak": np.max(Q_c)}
         peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
+        if p.joint.wear > 0.0:
+            self.loosening.add(p, model.d.table, h, cage_rubbing(model, w))
         h0, h1 = w.half
         centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
@@ -159,6 +163,14 @@ class Record:
     def damage(self, fatigue):
         """Damage of the heads or the middles [Z]."""
         return np.array([channel.damage(law) for channel, law in zip(fatigue, self.laws, strict=True)])
+
+    @property
+    def standing(self):
+        """The parameters in force, with the preloads that wear has left and without broken rivets."""
+        return self.breakage.apply(self.loosening.apply(self.p))
+
+    def rivet_outputs(self):
+        return self.breakage.outputs(self.p) | {"rivet[k].preload_loss": self.loosening.loss}
 
     def break_rivets(self, t):
         """Break the rivets whose damage has reached 1 at time t [s]; returns whether there are any."""
@@ -262,7 +274,7 @@ def simulate(
     ledger.add(model, np.array([t_start]), y[None])
     first = (
         observe(model, t_start, y, energy_start)
-        | record.breakage.outputs(p)
+        | record.rivet_outputs()
         | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
     )
     states, ledgers, rows = [y], [ledger.copy()], [first]
@@ -273,7 +285,7 @@ def simulate(
             motion_trajectory(p, given, reached, point - t_0, history),
             motion_remember(given[0], point - t_0, history),
         )
-        model, expansion = at_temperature(record.breakage.apply(p), model, reached, given[0], run, table)
+        model, expansion = at_temperature(record.standing, model, reached, given[0], run, table)
         set_now = changes(t_0) if changes else None
         if set_now:
             p = record.p = run.p = p.changed(set_now)
@@ -293,8 +305,11 @@ def simulate(
         model = replace(model, ring_load=ring_load_at(here, run.t), trajectory=None)
         if p.ring.motion == RingMotion.PRESCRIBED:
             run.y = ring_follow(model.ring_load, run.y)
-        model, further = at_temperature(record.breakage.apply(p), model, given[0], here.u[0], run, table)
+        model, further = at_temperature(record.standing, model, given[0], here.u[0], run, table)
         energy_start += expansion + further
+        if record.loosening.update(p):
+            model, jump = rederive(record, model, here.u[0], run, table, ledger)
+            energy_change += jump
         if record.break_rivets(run.t):
             model, jump = rederive(record, model, here.u[0], run, table, ledger)
             energy_change += jump
@@ -302,7 +317,7 @@ def simulate(
         ledgers.append(ledger.copy())
         rows.append(
             observe(model, run.t, run.y, energy_start, energy_change)
-            | record.breakage.outputs(p)
+            | record.rivet_outputs()
             | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]}
         )
         if p.scene.breakage == Switch.ON and not np.any(record.breakage.holds(p)):
@@ -332,7 +347,7 @@ def rederive(record, model, u, run, table, ledger):
     """The Model with the parameters in force and the rivets that hold, at the temperatures in the Inputs u, and what that
     adds to its energy [J].
     """
-    new, terms = Model.under(record.breakage.apply(record.p), u, model.ring_load, table=table), []
+    new, terms = Model.under(record.standing, u, model.ring_load, table=table), []
     for each in (model, new):
         w = Work()
         rhs(each, run.t, run.y, w)

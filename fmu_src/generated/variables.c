@@ -131,6 +131,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"joint.zeta", "1", 1205, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.zeta), 0.02, 0.0, 1.0, false, NULL, 0},
     {"joint.F_floor", "N", 1206, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.F_floor), 0.5, 0.001, 10.0, false, NULL, 0},
     {"rivet.fit_model", "1", 1208, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, rivet.fit_model), 2.0, 1.0, 2.0, false, "it is part of the geometry", 0},
+    {"joint.wear", "1/Pa", 1209, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.wear), 0.0, 0.0, 1e-06, false, NULL, 0},
     {"oil.eta", "Pa.s", 1301, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.eta), 0.006, 1e-05, 10.0, false, NULL, offsetof(Parameters, given.oil_eta)},
     {"oil.alpha", "1/Pa", 1302, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.alpha), 1.3e-08, 1e-10, 1e-07, false, NULL, 0},
     {"oil.A", "1", 1303, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, oil.A), -0.04, -1.0, 0.0, false, NULL, 0},
@@ -397,4 +398,5 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"rivet[k].flex_1_t", "m", 8900, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_POSE, -1, offsetof(Outputs, rivet.flex_1_t), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"rivet[k].broken", "1", 8940, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_FATIGUE, -1, offsetof(Outputs, rivet.broken), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"rivet[k].break_time", "s", 8980, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_FATIGUE, -1, offsetof(Outputs, rivet.break_time), 0.0, -INFINITY, INFINITY, false, NULL, 0},
+    {"rivet[k].preload_loss", "N", 9020, Z, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_FATIGUE, -1, offsetof(Outputs, rivet.preload_loss), 0.0, -INFINITY, INFINITY, false, NULL, 0},
 };

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{af4aa2b8-0193-294a-c6e0-24b49bc27d8c}"  // digest of the table
+#define MODEL_GUID "{5d1db983-5662-bb6b-8d36-03cc814871fc}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -132,6 +132,7 @@ typedef struct {
         double mu;  // [1] Friction coefficient of plates and rivet heads
         double zeta;  // [1] Damping ratio of the closed joints in the axial direction
         double F_floor;  // [N] Friction capacity that remains in an open joint
+        double wear;  // [1/Pa] Wear coefficient of plates and heads, volume / (normal force x slip): preload that the rivets lose
     } joint;
     struct {
         double preload_factor[Z];  // [1] Preload of this rivet / joint.preload
@@ -421,6 +422,7 @@ typedef struct {
         scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
         scalar broken[Z];  // [1] 0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0
         scalar break_time[Z];  // [s] Time at which the rivet broke by its damage; -1 if it did not
+        scalar preload_loss[Z];  // [N] Preload lost by wear of plates and heads since the start (joint.wear)
         scalar N[Z];  // [N] External tension of the joint
         scalar V[Z];  // [N] Transverse load of the joint
         scalar T[Z];  // [N] Tension of the rivet, with preload and prying
@@ -595,4 +597,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 348 };  // time is the first
+enum { N_VARIABLES = 350 };  // time is the first

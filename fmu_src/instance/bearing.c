@@ -72,6 +72,13 @@ static void add_cage(Bearing *b, double h)
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }
 
+static void add_wear(Bearing *b, double h)
+{
+    double rubbing[Z];
+    cage_rubbing(&b->model, &b->w, rubbing);
+    loosening_add(&b->s.p, h, rubbing, &b->s.loosening);
+}
+
 // Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
 static void accepted_step(void *context, double h, const Work *w)
 {
@@ -81,6 +88,7 @@ static void accepted_step(void *context, double h, const Work *w)
     add_force(s, w, counts, h);
     if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
     if (counts) add_cage(b, h);
+    if (s->p.joint.wear > 0.0) add_wear(b, h);
 }
 
 static void solver_message(void *context, const char *message)
@@ -204,6 +212,7 @@ static void hold_ring_load(Bearing *b)
 static void parameters_at(const Bearing *b, const Inputs *u, Parameters *hot)
 {
     temperature_apply(present_parameters(b), u, hot);
+    loosening_apply(&b->s.loosening, hot);
     breakage_apply(&b->s.breakage, hot);
 }
 
@@ -288,6 +297,13 @@ static void change_parameters(Bearing *b, const Inputs *u)
     // spins jump from one balance to another, as at the start
     s->integrator.h = fmin(s->integrator.h, FIRST_STEP);
     s->integrator.now.h = s->integrator.now.ratio = 0.0;
+}
+
+// The preloads follow the wear.
+static void loosen(Bearing *b)
+{
+    InstanceState *s = &b->s;
+    if (loosening_update(&s->p, &s->loosening)) rederive(b, &s->u_now, present_energy(b));
 }
 
 // Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
@@ -440,6 +456,7 @@ PartStatus part_step(Bearing *b, double t_end)
     change_temperature(b, &s->u[0], &s->u_now);
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
+    if (status == 0) loosen(b);
     const bool holds = status != 0 || break_rivets(b);
     b->cpu_time += cpu_clock() - before;
     if (status == 0) {

@@ -540,7 +540,8 @@ static bool check_recorded(Bearing *b, double time)
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
     fine = saved_is(b, fine, "peaks and sums") &&
            saved_is(b, event_state_is_valid(&s->event), "counts of events") &&
-           saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets");
+           saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets") &&
+           saved_is(b, loosening_is_valid(&s->loosening), "lost preloads");
     fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
     for (int k = 0; fine && k < STRESS_CHANNELS; k++)
         fine = saved_is(b, statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time),

@@ -5,6 +5,7 @@
 #include "instance/breakage.h"
 #include "instance/events.h"
 #include "instance/fatigue.h"
+#include "instance/loosening.h"
 #include "instance/part.h"
 #include "instance/statistics.h"
 #include "physics/ring_load.h"
@@ -38,6 +39,7 @@ typedef struct {
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     Breakage breakage;
+    Loosening loosening;
     EventState event;
     int initialized;
 } InstanceState;

@@ -20,6 +20,7 @@ static void fill_fatigue(Bearing *b)
     for (int k = 0; k < Z; k++) {
         const FatigueLaw law = fatigue_law(&s->p_now, k);
         const bool worn_out = s->breakage.place[k] != HOLDS;
+        b->out.rivet.preload_loss[k] = s->loosening.loss[k];
         b->out.rivet.broken[k] = rivet_broken(&s->p_now, &s->breakage, k);
         b->out.rivet.break_time[k] = worn_out ? s->breakage.time[k] : -1.0;
         b->out.rivet.damage_head[k] = fatigue_damage(&b->s.fatigue_head[k], &law);
