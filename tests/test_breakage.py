@@ -17,7 +17,7 @@ from bearing_model.rivet.rivet_table import RivetTable
 H = 1e-4
 ON, OFF = int(Switch.ON), int(Switch.OFF)
 FATIGUE = {"scene.stress": int(Stress.FATIGUE), "start.settle": 0.0}
-WEAK = FATIGUE | {"fatigue.sigma_D": 30e6, "fatigue.k_1": 5.0, "fatigue.k_2": 5.0, "fatigue.acceleration": 1e6}
+WEAK = FATIGUE | {"fatigue.sigma_D": 30e6, "fatigue.k_1": 5.0, "fatigue.k_2": 5.0, "fatigue.acceleration": 3e4}
 HEAD, MIDDLE = ([f"rivet[{k}].damage_{place}" for k in range(1, Z + 1)] for place in ("head", "mid"))
 BROKEN = [f"rivet[{k}].broken" for k in range(1, Z + 1)]
 TIMES = [f"rivet[{k}].break_time" for k in range(1, Z + 1)]
@@ -62,7 +62,7 @@ def test_the_first_break_is_where_and_when_its_damage_reaches_one(folder, cage):
     new = np.flatnonzero(damage.max(axis=0) >= 1.0)
     assert len(new) > 0
     np.testing.assert_array_equal(np.flatnonzero(breaking.get(*BROKEN)), new)
-    np.testing.assert_array_equal(breaking.get(*BROKEN)[new], 1.0 + (damage[1] > damage[0])[new])
+    np.testing.assert_array_equal(breaking.get(*BROKEN)[new], np.where(damage[1] > damage[0], 2.0, 1.0)[new])
     np.testing.assert_allclose(breaking.get(*TIMES)[new], plain.time, rtol=1e-12)
     assert breaking.get("event.rivet_break", "event.rivet_break_onsets").tolist() == [len(new), 1.0]
     assert np.all(breaking.get(*TENSION)[new] == 0.0) and breaking.get("bearing.energy_change")[0] < 0.0
@@ -76,13 +76,13 @@ def test_the_instant_is_that_of_post_processed_damage(folder):
     h, n = 2e-6, 4000
     slave = started(folder, TWO_HALF, WEAK, {"scene.breakage": ON})
     names = [f"rivet[{k}].sigma_{place}" for place in ("head", "mid") for k in range(1, Z + 1)]
-    law = FatigueLaw(sigma_D=30e6, k_1=5.0, k_2=5.0, acceleration=1e6)
+    law = FatigueLaw(sigma_D=30e6, k_1=5.0, k_2=5.0, acceleration=3e4)
     channels, found = [FatigueChannel() for _ in names], None
-    for channel, sigma in zip(channels, slave.get(*names), strict=True):
+    for channel, sigma in zip(channels, slave.get(*names).tolist(), strict=True):
         channel.push(law, sigma)
     for i in range(n):
         slave.step(h)
-        for channel, sigma in zip(channels, slave.get(*names), strict=True):
+        for channel, sigma in zip(channels, slave.get(*names).tolist(), strict=True):
             channel.push(law, sigma)
         if slave.get("event.rivet_break")[0] > 0.0:
             break
@@ -125,7 +125,7 @@ def test_nine_breaks_end_the_run(folder, cage):
     """Rivet after rivet; after the last one the step ends with fmi2Discard, fmi2Terminated and a message, and all outputs are
     numbers.
     """
-    slave = started(folder, WEAK, {"scene.breakage": ON, "scene.cage": cage, "fatigue.acceleration": 1e8}, logging=True)
+    slave = started(folder, WEAK, {"scene.breakage": ON, "scene.cage": cage}, logging=True)
     status, steps = OK, 0
     while status == OK and steps < 3000:
         status = slave.call("DoStep", slave.time, H, 1)
@@ -150,11 +150,11 @@ def test_breaks_go_with_the_saved_state(folder):
     while not slave.step(H).get("event.rivet_break")[0]:
         pass
     data, time = slave.bytes(slave.save()), slave.time
-    expected = slave.step(H, 10).outputs()
+    expected = slave.step(H, 3).outputs()
     other = Slave(folder)
     status, state = other.try_load(data)
-    assert status == OK and other.restore(state, time).step(H, 10).outputs().tobytes() == expected.tobytes()
-    again = slave.restore(before, t_before).step(H, round((time - t_before) / H) + 10)
+    assert status == OK and other.restore(state, time).step(H, 3).outputs().tobytes() == expected.tobytes()
+    again = slave.restore(before, t_before).step(H, round((time - t_before) / H) + 3)
     assert again.outputs().tobytes() == expected.tobytes()
 
 
@@ -169,20 +169,18 @@ def test_strength_and_acceleration_scale_the_damage(folder):
 
 
 def test_the_twin_breaks_the_same_rivets(folder):
-    """FMU and reference, 0.1 ms of the start, in which the stress of all rivets changes: damage to 1 %, the same rivets at
-    the same communication point.
+    """FMU and reference, 0.1 ms of the start, in which the stress of all rivets rises alike, rivets of different strength:
+    the same ones break at the same communication points.
     """
-    scene = TWO_HALF | FATIGUE | {"scene.breakage": ON, "fatigue.k_2": 8.0}
-    step, n = 2.5e-5, 4
-    slave = started(folder, scene, {"solver.tol": 1e-7})
-    for _ in range(n):
-        slave.step(step)
-    damage = np.maximum(slave.get(*HEAD), slave.get(*MIDDLE))
-    limit = np.sqrt(np.prod(np.sort(damage)[-5:-3]))  # between the fourth and the fifth
-    scene["fatigue.acceleration"] = 1.0 / limit
+    law = {"fatigue.sigma_D": 1e5, "fatigue.k_1": 1.0, "fatigue.k_2": 1.0}
+    strength = {f"rivet[{k}].strength_factor": 1.0 + 0.1 * k for k in range(1, Z + 1)}
+    scene, step, n = TWO_HALF | FATIGUE | law | strength, 2.5e-5, 4
+    slave = started(folder, scene, {"solver.tol": 1e-7}).step(step, n)
+    damage = np.sort(np.maximum(slave.get(*HEAD), slave.get(*MIDDLE)))
+    scene |= {"scene.breakage": ON, "fatigue.acceleration": float(1.0 / np.sqrt(damage[-5] * damage[-4]))}
     slave = started(folder, scene, {"solver.tol": 1e-7}).step(step, n)
     twin = simulate(scene, t_end=n * step, step=step, tolerance=1e-7)
-    assert 0 < np.count_nonzero(slave.get(*BROKEN)) < Z
+    assert np.count_nonzero(slave.get(*BROKEN)) == 4
     np.testing.assert_array_equal(twin["rivet[k].broken"][-1], slave.get(*BROKEN))
     np.testing.assert_allclose(twin["rivet[k].break_time"][-1], slave.get(*TIMES), rtol=1e-9)
 
@@ -221,9 +219,9 @@ def test_wear_is_what_friction_dissipates(folder, core):
 def test_worn_rivets_lose_their_preload(folder, cage):
     """The preload in force is that of the start less the loss, to 0.1 %, never below 0; no wear, no loss."""
     P, loss = ([f"rivet[{k}].{name}" for k in range(1, Z + 1)] for name in ("P", "preload_loss"))
-    slave = started(folder, {"scene.cage": cage, "joint.wear": 1e-9, "scene.stress": 1}).step(H, 100)
+    slave = started(folder, {"scene.cage": cage, "joint.wear": 1e-8, "scene.stress": 1}).step(H, 100)
     left, lost = slave.get(*P), slave.get(*loss)
-    assert lost.max() > 1.0
+    assert lost.max() > 1.5
     np.testing.assert_allclose(left, np.maximum(20.0 - lost, 0.0), atol=0.1)
     data = slave.bytes(slave.save())
     status, _ = Slave(folder).try_load(data)
