@@ -90,10 +90,9 @@ def mark_settling(ax, result):
 
 
 def mark_breaks(ax, result):
-    """A line at the time at which each rivet broke, with its number."""
-    for k, place, t in breaks(result):
+    """A line at the time at which each rivet broke, in the colour of its place."""
+    for _, place, t in breaks(result):
         ax.axvline(1e3 * t, color=HEAD if place == "head" else MIDDLE, lw=0.9, ls="--", label="_break")
-        ax.annotate(f"{k}", (1e3 * t, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="top", color=MUTED)
 
 
 def show_settled(ax, result):

@@ -297,11 +297,12 @@ def test_every_method_takes_a_change(folder, method):
 
 def random_changes(folder, changes, seed, h, cage, every=50):
     """Random values of random parameters at random points, one in `every` points rolled back and repeated: returns the
-    largest residual of the balance against the energy that was lost [1].
+    largest residual of the balance against the energy that was lost [1].  At the default tolerance a run without changes has
+    8e-4 by itself.
     """
     rng = np.random.default_rng(seed)
     names = [name for name in TUNABLE if name not in ("solver.max_steps", "solver.tol", "scene.breakage")]
-    slave = Slave(folder).initialize(scene__cage=cage, **named(FATIGUE)).step(h, 10)
+    slave = Slave(folder).initialize(tolerance=3e-4, scene__cage=cage, **named(FATIGUE)).step(h, 10)
     lost, worst, residual_0 = 0.0, 0.0, slave.get("bearing.energy_residual")[0]
     state, time, log = None, 0.0, []
     for i in range(changes):

@@ -74,7 +74,7 @@ class FatigueChannel:
 
     def push(self, law, sigma):
         """Next sample of the history [Pa]."""
-        direction = (sigma > self.last) - (sigma < self.last)
+        direction = int(sigma > self.last) - int(sigma < self.last)
         if self.samples == 0:
             self.samples = 1
             self._turning_point(law, sigma)

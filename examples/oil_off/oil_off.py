@@ -8,6 +8,8 @@ which the last two are assumed.
 """
 
 import argparse
+import contextlib
+import io
 from pathlib import Path
 
 import numpy as np
@@ -29,15 +31,16 @@ def signals(begin, length):
 
 def run(begin=0.1, length=0.05, after=0.1, fmu=FMU, **settings):
     """Outputs over time, from the start to `after` [s] behind the failure."""
-    return simulate_fmu(
-        str(fmu),
-        stop_time=begin + length + after,
-        step_size=STEP,
-        output_interval=STEP,
-        input=signals(begin, length),
-        output=OUTPUTS,
-        start_values={"scene.statistics": 1} | settings,
-    )
+    with contextlib.redirect_stdout(io.StringIO()):  # fmpy names every input that has no column
+        return simulate_fmu(
+            str(fmu),
+            stop_time=begin + length + after,
+            step_size=STEP,
+            output_interval=STEP,
+            input=signals(begin, length),
+            output=OUTPUTS,
+            start_values={"scene.statistics": 1} | settings,
+        )
 
 
 def means(result, begin, length):

@@ -179,6 +179,7 @@ def state_of(bench, rivets, gone):
         raise UserError(f"{bench.path}: with the rivets {', '.join(map(str, gone))} gone the FMU stops every run")
     values = values[~np.isnan(values).any(axis=1)]
     hours = np.maximum(values[:, -4] - values[:, -3], 1e-9) / 3600.0
+    hours *= float(bench.scene.parameters.get("fatigue.acceleration", 1.0))
     rates = values[:, : 2 * rivets].reshape(-1, rivets, 2) / hours[:, None, None]
     stress = values[:, 2 * rivets : 3 * rivets].mean(axis=0)
     opens = bool(np.max(values[:, -1]) >= rivets - len(gone))
