@@ -32,6 +32,22 @@ def fatigue_law(parameters):
     return FatigueLaw(**values | {"mean_stress": int(MeanStress[values["mean_stress"].upper()])})
 
 
+def cycle_damages(law, span, mean):
+    """fatigue_cycle() of many cycles: arrays of ranges and means [Pa]."""
+    half, mean = 0.5 * np.asarray(span, float), np.asarray(mean, float)
+    with np.errstate(over="ignore"):
+        if law.mean_stress == MeanStress.SWT:
+            amplitude = np.sqrt(np.maximum(mean + half, 0.0) * half)
+        else:
+            room = {
+                MeanStress.GOODMAN: 1.0 - np.maximum(mean, 0.0) / law.sigma_m,
+                MeanStress.MORROW: 1.0 - mean / law.sigma_f,
+            }.get(law.mean_stress, np.ones_like(half))
+            amplitude = np.where(room > 0.0, half / np.where(room > 0.0, room, 1.0), np.inf)
+        slope = np.where(amplitude > law.sigma_D, law.k_1, law.k_2)
+        return np.minimum((amplitude / law.sigma_D) ** slope / law.N_D, 1.0)
+
+
 def stress_history(result, k, place):
     """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None
     if not recorded.

@@ -242,6 +242,13 @@ def make_folder(folder):
         raise UserError(f"{folder}: no permission to write to this folder")
 
 
+def cache_folder(name):
+    """A folder of the user's cache, made if it is not there."""
+    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
+    make_folder(folder)
+    return folder
+
+
 def write_atomically(path, write):
     """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if
     folder or disk refuse.

@@ -11,9 +11,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
 from .basis import basis
-from .bearings import not_given
 from .fmu import Instance
 from .interrupts import held_interrupts
+from .origin import not_given
 from .record import Record
 from .results import Result
 from .summary import given_names, ruled_names
@@ -69,7 +69,7 @@ def march(instance, scene, progress, interrupts):
     record, row_times = Record(count, len(scene.outputs)), np.zeros(count)
     read = instance.reader(scene.outputs)
     record.write(0, read())
-    row, due, stopped = 0, 0.0, ""
+    row, due, stopped, changes = 0, 0.0, "", list(scene.changes)
     for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
         if interrupts.pending:
             stopped = f"interrupted after t = {now:.9g} s"
@@ -77,6 +77,9 @@ def march(instance, scene, progress, interrupts):
         try:
             if changed[i]:
                 instance.fmu.setReal(references, inputs[i].tolist())
+            while changes and changes[0][0] <= now * (1.0 + 1e-12):
+                for name, value in changes.pop(0)[1].items():
+                    instance.set_parameter(instance.model.parameters[name], value)
             instance.fmu.doStep(now, then - now)
         except FMICallException as failure:
             stopped = f"the FMU gave up in the step from t = {now:.9g} s: {instance.complaints()}"
@@ -171,6 +174,7 @@ def provenance(model, scene):
         ),
         "basis": dict(basis(model, [scene])),
         "replaced": list(scene.replaced),
+        "changes": [{"at": at} | values for at, values in scene.changes],
         "units": scene.units,
         "guid": model.description.guid,
         "model": model.description.description or model.description.modelName,

@@ -265,7 +265,7 @@ static void set_integer(Fuzz *f, Host *host)
     const fmi2ValueReference reference = settable_reference(&f->bytes);
     const double wanted = value_for(reference, &f->bytes);
     fmi2Integer value = fabs(wanted) < 1e9 ? (fmi2Integer)wanted : (fmi2Integer)take(&f->bytes, 4);
-    if (reference == work_limit() && value > MOST_STEPS &&
+    if (reference == work_limit() && (value > MOST_STEPS || value == 0) &&
         value <= (fmi2Integer)variable_named("solver.max_steps")->max)
         value = MOST_STEPS;
     CALL(host, SetInteger, host->component, &reference, 1, chance(&f->bytes, 4) ? NULL : &value);

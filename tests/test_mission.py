@@ -452,6 +452,25 @@ def finished(process):
     return out, err, process.returncode
 
 
+def test_a_killed_mission_goes_on(tmp_path):
+    """kill -9 of all its processes after the first run; folder and file have spaces and letters of other scripts."""
+    folder = tmp_path / "Übung 轴承"
+    folder.mkdir()
+    (folder / "trial.toml").write_text(MISSION)
+    results = folder / "results" / "trial"
+    process = start(folder, "--workers", "1")
+    patience = time.monotonic() + 300
+    while not list(results.glob("run-*.parquet")) and time.monotonic() < patience:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGKILL)
+    finished(process)
+    kept = {path.name: path.stat().st_mtime_ns for path in results.glob("run-*.parquet")}
+    assert kept and not (results / "life.json").exists()
+    _, err, code = finished(start(folder, "--workers", "1"))
+    assert code == 0, err
+    assert {path.name for path in results.iterdir()} >= {"life.json", "life.html", "life.png", "runs.parquet"}
+
+
 def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
     """Ctrl-C after the first run: what is done is kept and one line says so; afterwards life.json is that of a run
     without a stop.  Then an S-N curve is given: the same runs, another life.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{5d1db983-5662-bb6b-8d36-03cc814871fc}"
+MODEL_GUID = "{2a5b6127-b7b3-6013-7823-192bbf7b9853}"
 Z = 9
 
 
@@ -303,7 +303,8 @@ PARAMETERS = {
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: mean, RMS and 99.9 % quantile of force and stress within 1 % or their scatter of the limit; 99.9 % pocket force in scene R 5 %, in F 1.3 %, with rigid halves 99.9 % head stress in F 1.2 %", False, None),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5", False, "it decides on the states and their meaning"),
         Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, a tenth of a pocket's pulse for rigid ones", False, "it decides on the states and their meaning"),
-        Variable("solver.max_steps", 1903, "Integer", "1", None, 10000000, 10, 2000000000, 1, None, "Largest number of internal steps in one communication step", "work limit instead of a hung host", False, None),
+        Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms", False, None),
+        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0", "work limit instead of a hung host: some 0.15 s of processor time for 0.1 ms", False, None),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default", False, "it belongs to the start"),
         Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed", False, "it belongs to the start"),
         Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point", False, "it belongs to the start"),
@@ -395,7 +396,7 @@ OUTPUTS = {
         Variable("ball[j].Q_e", 2240, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the outer race", None, False, None),
         Variable("ball[j].alpha_i", 2280, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the inner race (0 without contact)", None, False, None),
         Variable("ball[j].alpha_e", 2320, "Real", "rad", "deg", None, None, None, Z, "ball", "Contact angle at the outer race (0 without contact)", None, False, None),
-        Variable("ball[j].Q_c", 2360, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the cage pocket, both halves together", None, False, None),
+        Variable("ball[j].Q_c", 2360, "Real", "N", None, None, None, None, Z, "ball", "Contact load on the cage pocket, both halves together; at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("ball[j].omega_m", 2400, "Real", "rad/s", "rev/min", None, None, None, Z, "ball", "Orbital speed", None, False, None),
         Variable("ball[j].p_i", 2440, "Real", "Pa", "MPa", None, None, None, Z, "ball", "Largest contact pressure on the inner race", None, False, None),
         Variable("ball[j].p_e", 2480, "Real", "Pa", "MPa", None, None, None, Z, "ball", "Largest contact pressure on the outer race", None, False, None),
@@ -418,16 +419,16 @@ OUTPUTS = {
         Variable("half_1.tilt_y", 2744, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the +X side about Y", None, False, None),
         Variable("half_1.tilt_z", 2745, "Real", "rad", "deg", None, None, None, 1, "pose", "Tilt of the cage half on the +X side about Z", None, False, None),
         Variable("half_1.psi", 2746, "Real", "rad", "deg", None, None, None, 1, "pose", "Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y", None, False, None),
-        Variable("cage.dislocation", 2701, "Real", "m", "um", None, None, None, 1, "rivet", "Largest slip of one cage half against the other over the joints, in the plane", None, False, None),
+        Variable("cage.dislocation", 2701, "Real", "m", "um", None, None, None, 1, "rivet", "Largest slip of one cage half against the other over the joints, in the plane; at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("cage.omega", 2702, "Real", "rad/s", "rev/min", None, None, None, 1, "cage", "Speed of the cage (mean of the halves)", None, False, None),
         Variable("cage.slip_ratio", 2703, "Real", "1", None, None, None, None, 1, "cage", "1 - cage speed / epicyclic speed (0 at standstill)", None, False, None),
         Variable("cage.y", 2704, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Y (mean of the halves)", None, False, None),
         Variable("cage.z", 2705, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Z (mean of the halves)", None, False, None),
         Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre against the outer ring / radial guide clearance", None, False, None),
-        Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls", None, False, None),
+        Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("cage.F_pocket_peak", 2708, "Real", "N", None, None, None, None, 1, "peak", "Largest pocket contact load since the last communication point", None, False, None),
-        Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet", None, False, None),
-        Variable("rivet[k].sigma_mid", 3040, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress of the shank at the split (|z| <= 0.1 mm)", None, False, None),
+        Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet; at an instant of a chaotic motion: compare stat.*", None, False, None),
+        Variable("rivet[k].sigma_mid", 3040, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress of the shank at the split (|z| <= 0.1 mm); at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("rivet[k].sigma_head_vm", 3080, "Real", "Pa", "MPa", None, None, None, Z, "stress", "von Mises stress in the head fillet", None, False, None),
         Variable("rivet[k].sigma_mid_p1", 3120, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress of the shank at the split", None, False, None),
         Variable("rivet[k].sigma_head_peak", 3160, "Real", "Pa", "MPa", None, None, None, Z, "peak", "Largest sigma_head since the last communication point", None, False, None),
@@ -440,12 +441,12 @@ OUTPUTS = {
         Variable("rivet[k].broken", 8940, "Real", "1", None, None, None, None, Z, "fatigue", "0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0", None, False, None),
         Variable("rivet[k].break_time", 8980, "Real", "s", None, None, None, None, Z, "fatigue", "Time at which the rivet broke by its damage; -1 if it did not", None, False, None),
         Variable("rivet[k].preload_loss", 9020, "Real", "N", None, None, None, None, Z, "fatigue", "Preload lost by wear of plates and heads since the start (joint.wear)", None, False, None),
-        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint", None, False, None),
-        Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint", None, False, None),
-        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying", None, False, None),
-        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits", None, False, None),
+        Variable("rivet[k].N", 3330, "Real", "N", None, None, None, None, Z, "rivet", "External tension of the joint; at an instant of a chaotic motion: compare stat.*", None, False, None),
+        Variable("rivet[k].V", 3370, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load of the joint; at an instant of a chaotic motion: compare stat.*", None, False, None),
+        Variable("rivet[k].T", 3410, "Real", "N", None, None, None, None, Z, "rivet", "Tension of the rivet, with preload and prying; at an instant of a chaotic motion: compare stat.*", None, False, None),
+        Variable("rivet[k].M", 3450, "Real", "N.m", None, None, None, None, Z, "rivet", "Moment that the joint transmits; at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("rivet[k].P", 3490, "Real", "N", None, None, None, None, Z, "rivet", "Preload at the present temperature", None, False, None),
-        Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane", None, False, None),
+        Variable("rivet[k].slip", 3530, "Real", "m", "um", None, None, None, Z, "rivet", "Slip of one half against the other at the joint, in the plane; at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("rivet[k].flag", 3570, "Real", "1", None, None, None, None, Z, "stress", "Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table", None, False, None),
         Variable("rivet[k].V_y", 3610, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along y of the cage's frame", None, False, None),
         Variable("rivet[k].V_z", 3650, "Real", "N", None, None, None, None, Z, "rivet", "Transverse load that the shank carries, on the +X half, along z of the cage's frame", None, False, None),
@@ -506,7 +507,7 @@ OUTPUTS = {
         Variable("solver.steps", 6001, "Real", "1", None, None, None, None, 1, "solver", "Accepted internal steps", None, False, None),
         Variable("solver.rhs_evals", 6002, "Real", "1", None, None, None, None, 1, "solver", "Evaluations of the right-hand side", None, False, None),
         Variable("solver.step_size", 6003, "Real", "s", None, None, None, None, 1, "solver", "Internal step size that the next step starts with", None, False, None),
-        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps rejected by the error test", None, False, None),
+        Variable("solver.error_tests_failed", 6004, "Real", "1", None, None, None, None, 1, "solver", "Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless", None, False, None),
         Variable("solver.tolerance", 6006, "Real", "1", None, None, None, None, 1, "solver", "Tolerance in force", None, False, None),
         Variable("event.land_contact", 7001, "Real", "1", None, None, None, None, 1, "event", "Cage halves whose land touches the outer ring", None, False, None),
         Variable("event.pocket_exit", 7002, "Real", "1", None, None, None, None, 1, "event", "Balls whose centre has left the section of the cage: a real pocket ends there", None, False, None),
@@ -515,15 +516,19 @@ OUTPUTS = {
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None, False, None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None, False, None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None, False, None),
-        Variable("event.rivet_break", 7008, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
+        Variable("event.rivet_break", 7010, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
+        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong", None, False, None),
+        Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None, False, None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None, False, None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None, False, None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None, False, None),
         Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None, False, None),
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None, False, None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None, False, None),
+        Variable("event.step_too_long_onsets", 7019, "Real", "1", None, None, None, None, 1, "event", "Onsets of steps that are too long since the start", None, False, None),
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None, False, None),
-        Variable("event.rivet_break_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Communication steps since the start in which a rivet broke by its damage", None, False, None),
+        Variable("event.rivet_break_onsets", 7020, "Real", "1", None, None, None, None, 1, "event", "Communication steps since the start in which a rivet broke by its damage", None, False, None),
+        Variable("event.motion_lag_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Onsets of catching up with a given motion since the start", None, False, None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None, False, None),
     )
 }
@@ -531,7 +536,7 @@ OUTPUTS = {
 LOCALS = {
     v.name: v
     for v in (
-        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)", None, False, None),
+        Variable("solver.cpu_time", 6005, "Real", "s", None, None, None, None, 1, "solver", "Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)", None, False, None),
     )
 }
 

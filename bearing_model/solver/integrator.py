@@ -208,7 +208,7 @@ class Integration:
             times.append(solver.t)
             states.append(solver.y.copy())
             self.steps += 1
-            if self.steps > self.p.solver.max_steps:
+            if 0 < self.p.solver.max_steps < self.steps:
                 raise RuntimeError(
                     f"t = {solver.t:.9g} s: more than solver.max_steps = {self.p.solver.max_steps} steps"
                 )

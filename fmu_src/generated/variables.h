@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{5d1db983-5662-bb6b-8d36-03cc814871fc}"  // digest of the table
+#define MODEL_GUID "{2a5b6127-b7b3-6013-7823-192bbf7b9853}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -243,7 +243,8 @@ typedef struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
-        int max_steps;  // Largest number of internal steps in one communication step
+        int clock;  // Switch: Measure solver.cpu_time
+        int max_steps;  // Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0
     } solver;
     struct {
         int seed;  // Seed of the balls' initial spacing (splitmix64)
@@ -370,7 +371,7 @@ typedef struct {
         scalar Q_e[Z];  // [N] Contact load on the outer race
         scalar alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
         scalar alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
-        scalar Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
+        scalar Q_c[Z];  // [N] Contact load on the cage pocket, both halves together; at an instant of a chaotic motion: compare stat.*
         scalar omega_m[Z];  // [rad/s] Orbital speed
         scalar p_i[Z];  // [Pa] Largest contact pressure on the inner race
         scalar p_e[Z];  // [Pa] Largest contact pressure on the outer race
@@ -399,18 +400,18 @@ typedef struct {
         scalar psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
     } half_1;
     struct {
-        scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
+        scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane; at an instant of a chaotic motion: compare stat.*
         scalar omega;  // [rad/s] Speed of the cage (mean of the halves)
         scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
         scalar y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
         scalar z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
         scalar eccentricity;  // [1] Displacement of the cage's centre against the outer ring / radial guide clearance
-        scalar F_pocket_max;  // [N] Largest pocket contact load of all balls
+        scalar F_pocket_max;  // [N] Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*
         scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;
     struct {
-        scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
-        scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
+        scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet; at an instant of a chaotic motion: compare stat.*
+        scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm); at an instant of a chaotic motion: compare stat.*
         scalar sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
         scalar sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
         scalar sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
@@ -423,12 +424,12 @@ typedef struct {
         scalar broken[Z];  // [1] 0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0
         scalar break_time[Z];  // [s] Time at which the rivet broke by its damage; -1 if it did not
         scalar preload_loss[Z];  // [N] Preload lost by wear of plates and heads since the start (joint.wear)
-        scalar N[Z];  // [N] External tension of the joint
-        scalar V[Z];  // [N] Transverse load of the joint
-        scalar T[Z];  // [N] Tension of the rivet, with preload and prying
-        scalar M[Z];  // [N.m] Moment that the joint transmits
+        scalar N[Z];  // [N] External tension of the joint; at an instant of a chaotic motion: compare stat.*
+        scalar V[Z];  // [N] Transverse load of the joint; at an instant of a chaotic motion: compare stat.*
+        scalar T[Z];  // [N] Tension of the rivet, with preload and prying; at an instant of a chaotic motion: compare stat.*
+        scalar M[Z];  // [N.m] Moment that the joint transmits; at an instant of a chaotic motion: compare stat.*
         scalar P[Z];  // [N] Preload at the present temperature
-        scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
+        scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane; at an instant of a chaotic motion: compare stat.*
         scalar flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table
         scalar V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
         scalar V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
@@ -488,10 +489,10 @@ typedef struct {
         scalar steps;  // [1] Accepted internal steps
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
-        scalar error_tests_failed;  // [1] Internal steps rejected by the error test
+        scalar error_tests_failed;  // [1] Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
@@ -502,14 +503,18 @@ typedef struct {
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
+        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
+        scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
         scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
+        scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
     } event;
 } Outputs;
 
@@ -597,4 +602,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 350 };  // time is the first
+enum { N_VARIABLES = 355 };  // time is the first

@@ -25,6 +25,7 @@ typedef struct {
     Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
     Parameters p_now;            // under which the present state was reached
     MotionHistory history;       // of the motions that the host gave
+    MotionLag lag;               // of the motions in the last step
     double frame_angle;          // by which the frame has turned since the start [rad]
     IntegratorState integrator;
     double t_start, tolerance;
@@ -64,12 +65,14 @@ struct Part {
     double y_dot[N_ALL_STATES];  // dy/dt at the present state
     bool evaluated;              // w and y_dot belong to the present state and inputs
     bool reported;               // inputs and parameters without effect have been logged
-    bool catch_up_reported;      // that a motion catches up with the given one has been logged
     double cpu_time;             // processor time of all steps [s]
 };
 
 // Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
+
+// Largest length of the steps of solver.method = fixed [s], 0 for the other methods.
+double fixed_length(const Bearing *b);
 
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);
@@ -79,9 +82,6 @@ void report_without_effect(Bearing *b);
 
 // Logs the same before the start, and settings that do less than their names promise.
 void report_start(Bearing *b);
-
-// Logs once that a motion (its index in MOTION) is far behind the given one and catches up with it.
-void report_catch_up(Bearing *b, int motion);
 
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);

@@ -10,6 +10,7 @@ from . import (
     build,
     cascade,
     compare,
+    compare_designs,
     info,
     life,
     matrices,
@@ -19,6 +20,7 @@ from . import (
     run,
     sensitivity,
     study,
+    summary,
     sweep,
     variables,
 )

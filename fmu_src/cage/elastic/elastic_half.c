@@ -8,7 +8,7 @@
 
 // Angle by which the fastest vibration of closed joints turns in a substep: velocity Verlet is stable up to
 // 2, and the law's rounding may make a joint stiffer by 30 %.
-static const double SUBSTEP_TURN = 1.6;
+static const double SUBSTEP_TURN = 1.64;
 
 enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
