@@ -153,6 +153,14 @@ def settle_turns(model, scene):
     return float(np.mean(np.abs(inner - outer)) * t[-1] / (2.0 * np.pi))
 
 
+def changes_in_words(scene):
+    """Parameters that change in the run, by the time."""
+    found = {}
+    for at, values in scene.changes:
+        found.setdefault(f"{at:.9g} s", {}).update(values)
+    return found
+
+
 def provenance(model, scene):
     """Origin of a result: scene, inputs, FMU, versions, machine, date."""
     return {
@@ -174,7 +182,7 @@ def provenance(model, scene):
         ),
         "basis": dict(basis(model, [scene])),
         "replaced": list(scene.replaced),
-        "changes": [{"at": at} | values for at, values in scene.changes],
+        "changes": changes_in_words(scene),
         "units": scene.units,
         "guid": model.description.guid,
         "model": model.description.description or model.description.modelName,

@@ -45,6 +45,8 @@ def another(name):
         return 2 if v.start == 1 else 1
     if name == "scene.stress":
         return int(Stress.FATIGUE)
+    if name == "solver.max_steps":
+        return 5000
     if v.type == "Integer":
         return v.start + 1 if v.start < v.max else v.start - 1
     if name in amounts:

@@ -255,7 +255,7 @@ def test_a_scene_changes_parameters_in_the_run(tmp_path, kind):
     t, first, second = (result.data[name] for name in ("time", "rivet[1].P", "rivet[2].P"))
     np.testing.assert_array_equal(first, np.where(t < 1.15e-3, 20.0, 35.0))
     np.testing.assert_array_equal(second, np.where(t < 0.55e-3, 20.0, 0.0))
-    expected = [{"at": 5e-4, "rivet[2].intact": 0}, {"at": 1.05e-3, "joint.preload": 35.0}]
+    expected = {"0.0005 s": {"rivet[2].intact": 0}, "0.00105 s": {"joint.preload": 35.0}}
     assert read_result(write_result(result, tmp_path / f"r.{kind}")).about["changes"] == expected
 
 

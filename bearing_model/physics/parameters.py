@@ -73,9 +73,13 @@ class Parameters(Values):
 
     def __init__(self, values=None):
         super().__init__(PARAMETERS, values)
-        own = {n.replace(".", "_"): self.value(n) != v.start for n, v in PARAMETERS.items() if v.derives}
-        self.given = SimpleNamespace(**own)  # whether the user has given what otherwise follows from others
+        self.mark_given()
         check_geometry(self)
+
+    def mark_given(self):
+        """Mark the parameters whose start value stands for one that follows from others, where they differ from it."""
+        own = {n.replace(".", "_"): self.value(n) != v.start for n, v in PARAMETERS.items() if v.derives}
+        self.given = SimpleNamespace(**own)
 
     def value(self, name):
         """Value of a parameter by its name in the table."""
