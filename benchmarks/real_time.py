@@ -63,7 +63,7 @@ def statistics(run, seeds, **solver):
         more = {"start.seed": seed} | {name.replace("_", ".", 1): value for name, value in solver.items()}
         result = rb.run(
             shipped,
-            FMU,
+            fmu=FMU,
             **changes | {"parameters": changes.get("parameters", {}) | more},
             t_end=T_END,
             outputs=["shaft.F_y"],

@@ -86,6 +86,11 @@ def test_scenes_mean_what_the_design_says(model):
     assert scenes["R"].parameters["ring.k_tilt"] == 2e4 and scenes["F"].parameters["ring.k_tilt"] == 1000.0
     assert scenes["R"].inputs["shaft.tilt_z"](0.0) == pytest.approx(math.radians(0.15), rel=1e-12)
     assert scenes["jam"].parameters["start.settle"] == 0.2 and scenes["jam"].parameters["ring.k_tilt"] == 500.0
+    free, physical = scenes["paper"].parameters, scenes["physical"].parameters
+    assert free["ring.tilt_mode"] == physical["ring.tilt_mode"] == "free" and free["scene.lubrication"] == "mixed"
+    differ = {name: (free[name], physical[name]) for name in free if free[name] != physical[name]}
+    assert differ == {"cage.centrifugal": ("off", "on"), "scene.cage": ("two_half", "elastic")}
+    assert (free["cage.pocket_clearance"], free["cage.guide_clearance"]) == pytest.approx((1e-4, 2e-4), rel=1e-15)
     for name in ("R", "F", "jam"):
         assert (
             scenes[name].parameters["ring.tilt_mode"] == "supported"

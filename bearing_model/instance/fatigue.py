@@ -20,14 +20,18 @@ class FatigueLaw:
     sigma_m: float = 785e6
     sigma_f: float = 1180e6
     acceleration: float = 1.0  # factor on the damage of each cycle that is counted
+    fretting: float = 1.0
     mean_stress: int = MeanStress.GOODMAN
 
 
 def fatigue_law(p, k):
     """The law of rivet k (from 0), whose strength_factor scales all strengths."""
-    law, factor = FatigueLaw(**vars(p.fatigue)), p.rivet.strength_factor[k]
-    strengths = {name: factor * getattr(law, name) for name in ("sigma_D", "sigma_m", "sigma_f")}
-    return replace(law, **strengths)
+    return strengthened(FatigueLaw(**vars(p.fatigue)), p.rivet.strength_factor[k])
+
+
+def strengthened(law, factor):
+    """The law with all strengths times a factor."""
+    return replace(law, **{name: factor * getattr(law, name) for name in ("sigma_D", "sigma_m", "sigma_f")})
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
@@ -43,6 +47,13 @@ def fully_reversed(law, sigma_a, sigma_mean):
     else:
         room = 1.0
     return sigma_a / room if room > 0.0 else math.inf
+
+
+def fatigue_law_in_hole(law, fit_eff):
+    """Law of the shank's middle in a hole with an effective fit [m]: sigma_D/fretting under the pressure of an
+    interference.  DIN 743-2 for shafts in press fits.
+    """
+    return replace(law, sigma_D=law.sigma_D / law.fretting) if fit_eff > 0.0 else law
 
 
 def fatigue_cycle(law, range_, mean):

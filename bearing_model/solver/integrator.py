@@ -17,7 +17,7 @@ from bearing_model.cage.cage import cage_loads, cage_rubbing, cage_slip
 from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
 from bearing_model.instance.breakage import Breakage
 from bearing_model.instance.energy import energy_terms, energy_total
-from bearing_model.instance.fatigue import FatigueChannel, fatigue_law
+from bearing_model.instance.fatigue import FatigueChannel, fatigue_law, fatigue_law_in_hole
 from bearing_model.instance.ledger import Ledger
 from bearing_model.instance.loosening import Loosening
 from bearing_model.instance.outputs import outputs, pocket_loads
@@ -93,10 +93,14 @@ class Record:
     dislocation_max: float = 0.0
     breakage: Breakage = field(default_factory=Breakage)
     loosening: Loosening = field(default_factory=Loosening)
+    fit_eff: np.ndarray = field(default_factory=lambda: np.zeros(Z))  # of each rivet [m], by the model
 
-    @property
-    def laws(self):
-        return [fatigue_law(self.p, k) for k in range(Z)]
+    def laws(self, place):
+        """FatigueLaw of each rivet at "head" or "mid"."""
+        laws = [fatigue_law(self.p, k) for k in range(Z)]
+        if place == "head":
+            return laws
+        return [fatigue_law_in_hole(law, fit) for law, fit in zip(laws, self.fit_eff, strict=True)]
 
     def add(self, model, t, h, w):
         """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns
@@ -119,16 +123,18 @@ class Record:
         return peaks
 
     def add_stress(self, model, t, h, counts, w):
+        self.fit_eff = model.d.fit_eff[:Z]
         sigma, _ = rivet_rom_stress(model.d.table, cage_loads(model, w).rivet, model.d.fit_eff)
         peaks = {}
         channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
-        laws, standing = self.laws, np.flatnonzero(self.breakage.holds(self.p))
+        standing = np.flatnonzero(self.breakage.holds(self.p))
         for name, channel, statistics, fatigue in channels:
             stress = sigma[..., channel]
             for k in range(Z):
                 statistics[k].add(h[counts], stress[counts, k])
             statistics[Z].add(h[counts], np.max(stress, axis=1)[counts])
             if self.p.scene.stress == Stress.FATIGUE:
+                laws = self.laws(name)
                 for values in stress[t >= self.p.start.settle]:
                     for k in standing:
                         fatigue[k].push(laws[k], values[k])
@@ -157,12 +163,12 @@ class Record:
                 f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]])
                 for name in ("mean", "rms", "p999", "max")
             }
-            values[f"rivet[k].damage_{part}"] = self.damage(fatigue)
+            values[f"rivet[k].damage_{part}"] = self.damage(fatigue, part)
         return values
 
-    def damage(self, fatigue):
+    def damage(self, fatigue, place):
         """Damage of the heads or the middles [Z]."""
-        return np.array([channel.damage(law) for channel, law in zip(fatigue, self.laws, strict=True)])
+        return np.array([channel.damage(law) for channel, law in zip(fatigue, self.laws(place), strict=True)])
 
     @property
     def standing(self):
@@ -176,7 +182,9 @@ class Record:
         """Break the rivets whose damage has reached 1 at time t [s]; returns whether there are any."""
         if self.p.scene.breakage != Switch.ON:
             return False
-        return self.breakage.update(self.p, t, self.damage(self.fatigue_head), self.damage(self.fatigue_mid))
+        return self.breakage.update(
+            self.p, t, self.damage(self.fatigue_head, "head"), self.damage(self.fatigue_mid, "mid")
+        )
 
 
 def no_stress():

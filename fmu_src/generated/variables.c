@@ -174,6 +174,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"fatigue.sigma_f", "Pa", 1706, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.sigma_f), 1180000000.0, 1000000.0, 10000000000.0, false, NULL, 0},
     {"fatigue.mean_stress", "1", 1707, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.mean_stress), 2.0, 1.0, 4.0, false, NULL, 0},
     {"fatigue.acceleration", "1", 1708, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.acceleration), 1.0, 0.001, 1000000000000000.0, false, NULL, 0},
+    {"fatigue.fretting", "1", 1711, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, fatigue.fretting), 1.0, 1.0, 10.0, false, NULL, 0},
     {"scene.cage", "1", 1801, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.cage), 3.0, 1.0, 3.0, false, "it decides on the states and their meaning", 0},
     {"scene.traction", "1", 1802, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.traction), 2.0, 1.0, 2.0, false, NULL, 0},
     {"scene.lubrication", "1", 1803, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, scene.lubrication), 1.0, 1.0, 2.0, false, NULL, 0},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2a5b6127-b7b3-6013-7823-192bbf7b9853}"  // digest of the table
+#define MODEL_GUID "{6489aec2-4c44-1188-036b-d978bfc99723}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -225,6 +225,7 @@ typedef struct {
         double sigma_m;  // [Pa] Tensile strength (Goodman)
         double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
         double acceleration;  // [1] Factor on the damage of every cycle that is counted, by which a life passes in seconds; 1 for results
+        double fretting;  // [1] Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
@@ -602,4 +603,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 355 };  // time is the first
+enum { N_VARIABLES = 356 };  // time is the first

@@ -48,9 +48,10 @@ static void add_stress(Bearing *b, bool counts, double h)
             statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
         }
         if (fatigue && rivet_holds(&s->p, &s->breakage, k)) {
-            const FatigueLaw law = fatigue_law(&s->p, k);
+            const FatigueLaw law = fatigue_law(&s->p, k),
+                             in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
             fatigue_push(&s->fatigue_head[k], &law, head[k]);
-            fatigue_push(&s->fatigue_mid[k], &law, mid[k]);
+            fatigue_push(&s->fatigue_mid[k], &in_hole, mid[k]);
         }
     }
     if (counts) {
@@ -328,7 +329,7 @@ static bool break_rivets(Bearing *b)
         return true;
     }
     const double t = s->integrator.t;
-    if (breakage_update(&s->p, t, s->fatigue_head, s->fatigue_mid, &s->breakage))
+    if (breakage_update(&s->p, t, b->d.fit_eff, s->fatigue_head, s->fatigue_mid, &s->breakage))
         rederive(b, &s->u_now, present_energy(b));
     int left = 0;
     for (int k = 0; k < Z; k++) {

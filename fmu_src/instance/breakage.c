@@ -20,15 +20,15 @@ void breakage_apply(const Breakage *broken, Parameters *p)
         if (broken->place[k] != HOLDS) p->rivet.intact[k] = 0;
 }
 
-bool breakage_update(const Parameters *p, double t, const FatigueChannel head[Z], const FatigueChannel mid[Z],
-                     Breakage *broken)
+bool breakage_update(const Parameters *p, double t, const double fit_eff[Z], const FatigueChannel head[Z],
+                     const FatigueChannel mid[Z], Breakage *broken)
 {
     broken->latest = 0;
     if (p->scene.breakage != SWITCH_ON) return false;
     for (int k = 0; k < Z; k++) {
         if (!rivet_holds(p, broken, k)) continue;
-        const FatigueLaw law = fatigue_law(p, k);
-        const double at_head = fatigue_damage(&head[k], &law), in_middle = fatigue_damage(&mid[k], &law);
+        const FatigueLaw law = fatigue_law(p, k), in_hole = fatigue_law_in_hole(&law, fit_eff[k]);
+        const double at_head = fatigue_damage(&head[k], &law), in_middle = fatigue_damage(&mid[k], &in_hole);
         if (!(at_head >= 1.0 || in_middle >= 1.0)) continue;
         broken->place[k] = at_head >= in_middle ? BROKEN_HEAD : BROKEN_MIDDLE;
         broken->time[k] = t;

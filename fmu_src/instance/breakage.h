@@ -18,9 +18,9 @@ typedef struct {
 // Takes the broken rivets out of the parameters p.
 void breakage_apply(const Breakage *broken, Parameters *p);
 
-// Marks the rivets whose damage has reached 1 at time t; returns whether there are any.
-bool breakage_update(const Parameters *p, double t, const FatigueChannel head[Z], const FatigueChannel mid[Z],
-                     Breakage *broken);
+// Marks the rivets whose damage has reached 1 at time t; returns whether there are any.  fit_eff: of each rivet [m].
+bool breakage_update(const Parameters *p, double t, const double fit_eff[Z], const FatigueChannel head[Z],
+                     const FatigueChannel mid[Z], Breakage *broken);
 
 // Whether rivet k holds; by damage or by the host it may not.
 bool rivet_holds(const Parameters *p, const Breakage *broken, int k);

@@ -36,6 +36,13 @@ static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma
     }
 }
 
+FatigueLaw fatigue_law_in_hole(const FatigueLaw *law, double fit_eff)
+{
+    FatigueLaw in_hole = *law;
+    if (fit_eff > 0.0) in_hole.sigma_D /= law->fretting;
+    return in_hole;
+}
+
 double fatigue_cycle(const FatigueLaw *law, double range, double mean)
 {
     double sigma_ar = fully_reversed(law, 0.5 * range, mean);

@@ -25,7 +25,8 @@
 typedef struct {
     double sigma_D, N_D, k_1, k_2, sigma_m, sigma_f;
     double acceleration;  // factor on the damage of each cycle
-    int mean_stress;      // MEAN_STRESS_* of variables.h
+    double fretting;
+    int mean_stress;  // MEAN_STRESS_* of variables.h
 } FatigueLaw;
 
 // The law of rivet k, whose strength_factor scales all strengths.
@@ -45,6 +46,12 @@ typedef struct {
     int samples;                  // 0 or 1: whether there is a first sample
     int dropped;                  // first points dropped, counted as half cycles, because the stack was full
 } FatigueChannel;
+
+// Law of the shank's middle in a hole with an effective fit [m].  An interference presses the hole on the shank, whose
+// surface then slips at the edges of the contact under any alternating load.  Fretting divides the strength:
+//     sigma_D / fretting,   fit_eff > 0            DIN 743-2 for shafts in press fits
+// There is no pressure in a hole with play, except where a half has slipped through it: that is left out.
+FatigueLaw fatigue_law_in_hole(const FatigueLaw *law, double fit_eff);
 
 // Damage of one cycle.
 double fatigue_cycle(const FatigueLaw *law, double range, double mean);

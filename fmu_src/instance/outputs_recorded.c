@@ -24,7 +24,8 @@ static void fill_fatigue(Bearing *b)
         b->out.rivet.broken[k] = rivet_broken(&s->p_now, &s->breakage, k);
         b->out.rivet.break_time[k] = worn_out ? s->breakage.time[k] : -1.0;
         b->out.rivet.damage_head[k] = fatigue_damage(&b->s.fatigue_head[k], &law);
-        b->out.rivet.damage_mid[k] = fatigue_damage(&b->s.fatigue_mid[k], &law);
+        const FatigueLaw in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
+        b->out.rivet.damage_mid[k] = fatigue_damage(&b->s.fatigue_mid[k], &in_hole);
     }
 }
 
