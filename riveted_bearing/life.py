@@ -8,7 +8,7 @@ import numpy as np
 import rainflow
 
 from bearing_model.generated.variables import MeanStress
-from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle, fatigue_law_in_hole
+from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle, fatigue_law_in_hole, strengthened
 
 from .summary import settled
 
@@ -49,8 +49,10 @@ def cycle_damages(law, span, mean):
 
 
 def fatigue_law_at(parameters, k, place):
-    """FatigueLaw of a result's rivet k at "head" or "mid": fretting weakens a shank on which its hole presses."""
-    law = fatigue_law(parameters)
+    """FatigueLaw of a result's rivet k at "head" or "mid": strength_factor scales its strengths, fretting weakens a shank
+    on which its hole presses.
+    """
+    law = strengthened(fatigue_law(parameters), parameters.get(f"rivet[{k}].strength_factor", 1.0))
     if place == "head" or law.fretting == 1.0:
         return law
     fits = (parameters["joint.fit"], parameters["joint.swell"], parameters[f"rivet[{k}].dfit"])

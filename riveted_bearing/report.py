@@ -21,8 +21,10 @@ from .overlay import read_measured, views
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
+    accelerated,
     assumed_as_bronze,
     assumed_rows,
+    breaks,
     columns,
     early_rows,
     flag_note,
@@ -131,6 +133,8 @@ def render(result, decides=None, measured=()):
         measured=views(measured),
         display_of=display_of,
         life_is_known=life_is_known(result),
+        breaks=breaks(result),
+        accelerated=accelerated(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS if elastic or name not in OF_ELASTIC},
         figure=figure,

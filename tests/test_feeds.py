@@ -42,6 +42,7 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "housing.interference": 1e-5,
     "housing.outside": 0.3,
     "oil.flow": 1e-5,
+    "joint.wear": 1e-7,
     "gravity.y": 9.81,
     "gravity.z": 9.81,
     "frame.radius": 0.1,

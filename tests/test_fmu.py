@@ -225,7 +225,7 @@ def test_nothing_is_set_if_one_value_is_wrong(slave):
         ("SetInteger", 1, "1 belongs to no Integer"),
         ("SetReal", 2101, "ring.x = 1 is not allowed: only inputs and parameters"),
         ("SetReal", 0, "time = 1 is not allowed"),
-        ("SetReal", 1001, "parameters are fixed"),
+        ("SetReal", 1001, "fixed after initialization, for it is part of the geometry"),
         ("SetBoolean", 1, "no Boolean"),
     ],
 )

@@ -294,7 +294,12 @@ def test_reference_results_are_this_binarys(folder):
     assert np.array_equal(trajectory(folder)[:, at], rows)
     (path,) = (folder / "extra" / "org.fmi-standard.fmi-ls-ref").glob("*.csv")
     manifest = etree.parse(path.with_name("fmi-ls-manifest.xml"))
-    assert [related.get("source") for related in manifest.iter("Related")] == [path.name]
+    related = {each.get("role"): each.get("source") for each in manifest.iter("Related")}
+    assert related == {"experiment/smoke-test": "smoke_test.xml", "result": path.name}
+    (experiment,) = etree.parse(path.with_name("smoke_test.xml")).iter("Experiment")
+    assert experiment.find("References").get("source") == path.name and float(experiment.get("tolerance")) == 1e-3
+    settings = {name: float(value) for name, value in experiment.find("TransientSimulation").attrib.items()}
+    assert settings == {"startTime": 0.0, "stopTime": pytest.approx(STEP * STEPS), "stepSize": STEP}
 
 
 @pytest.mark.skipif(SANITIZED, reason="a build with sanitizers has no reference results")

@@ -32,17 +32,18 @@ LIMITS = {  # words of a page
     "docs/releasing.md": 300,
     "docs/rivet.md": 2000,
     "docs/rules.md": 700,
-    "docs/running.md": 1000,
+    "docs/running.md": 1200,
     "docs/stability.md": 900,
     "docs/sweeps.md": 550,
     "docs/validation.md": 2400,
 }
 LATER = {  # pages beside those, which together have a limit
     "docs/real_time.md": 900,
+    "docs/changing.md": 900,
     "docs/recipes.md": 1500,
     "docs/showing.md": 600,
 }
-NOTE, ALL_PAGES = 400, 25_000
+NOTE, ALL_PAGES = 400, 25_200
 SENTENCE, LINE, LONG_LINES = 35, 160, 0.01
 
 ABBREVIATIONS = "Fig Figs Eq Eqs eq eqs Ref Refs Sec Tab Nos Vol vol p pp e.g i.e cf vs al approx resp Dr".split()

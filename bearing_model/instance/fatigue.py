@@ -19,8 +19,19 @@ class FatigueLaw:
     k_2: float = 15.0
     sigma_m: float = 785e6
     sigma_f: float = 1180e6
+    acceleration: float = 1.0  # factor on the damage of each cycle that is counted
     fretting: float = 1.0
     mean_stress: int = MeanStress.GOODMAN
+
+
+def fatigue_law(p, k):
+    """The law of rivet k (from 0), whose strength_factor scales all strengths."""
+    return strengthened(FatigueLaw(**vars(p.fatigue)), p.rivet.strength_factor[k])
+
+
+def strengthened(law, factor):
+    """The law with all strengths times a factor."""
+    return replace(law, **{name: factor * getattr(law, name) for name in ("sigma_D", "sigma_m", "sigma_f")})
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
@@ -74,7 +85,7 @@ class FatigueChannel:
 
     def push(self, law, sigma):
         """Next sample of the history [Pa]."""
-        direction = (sigma > self.last) - (sigma < self.last)
+        direction = int(sigma > self.last) - int(sigma < self.last)
         if self.samples == 0:
             self.samples = 1
             self._turning_point(law, sigma)
@@ -94,7 +105,7 @@ class FatigueChannel:
         return rest.closed
 
     def _count(self, law, cycles, start, end):
-        self.closed += cycles * fatigue_cycle(law, abs(start - end), 0.5 * (start + end))
+        self.closed += law.acceleration * cycles * fatigue_cycle(law, abs(start - end), 0.5 * (start + end))
 
     def _drop_first(self, law):
         self._count(law, 0.5, self.stack[0], self.stack[1])

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{e57d160d-0a50-1d3c-d937-77a4dfb4a037}"  // digest of the table
+#define MODEL_GUID "{6489aec2-4c44-1188-036b-d978bfc99723}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -132,15 +132,17 @@ typedef struct {
         double mu;  // [1] Friction coefficient of plates and rivet heads
         double zeta;  // [1] Damping ratio of the closed joints in the axial direction
         double F_floor;  // [N] Friction capacity that remains in an open joint
+        double wear;  // [1/Pa] Wear coefficient of plates and heads, volume / (normal force x slip): preload that the rivets lose
     } joint;
     struct {
         double preload_factor[Z];  // [1] Preload of this rivet / joint.preload
         double dfit[Z];  // [m] Fit of this rivet less joint.fit
         int intact[Z];  // 0: the rivet is broken and carries nothing; the plates still meet under pressure
+        double strength_factor[Z];  // [1] Strength of this rivet: factor on fatigue.sigma_D, sigma_m and sigma_f
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
-        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)
+        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force (oil.nu_1, oil.nu_2)
         double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
         double B;  // [1] Traction law: linear term
@@ -157,7 +159,7 @@ typedef struct {
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
-        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force
         double T_0;  // [K] Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given
         double nu_1;  // [m2/s] Kinematic viscosity of the oil at the lower temperature oil.T_1
         double T_1;  // [K] Lower temperature of the viscosity's two points
@@ -222,6 +224,7 @@ typedef struct {
         double k_2;  // [1] Slope below the knee
         double sigma_m;  // [Pa] Tensile strength (Goodman)
         double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        double acceleration;  // [1] Factor on the damage of every cycle that is counted, by which a life passes in seconds; 1 for results
         double fretting;  // [1] Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
@@ -235,6 +238,7 @@ typedef struct {
         int churning;  // Switch: Drag moment of the mixture on the spinning balls
         int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
         int growth;  // Switch: Growth of the inner ring by its rotation, which takes clearance
+        int breakage;  // Switch: Whether a rivet breaks at the end of the communication step in which its damage reaches 1
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
@@ -248,6 +252,10 @@ typedef struct {
         double spacing;  // [1] Initial spacing error: uniform within +- this part of the pocket clearance
         double settle;  // [s] Time before which stat.* and damage do not count
     } start;
+    struct {  // whether the host has given a value to a parameter whose start value stands for one that follows from others
+        int oil_eta;
+        int oil_beta;
+    } given;
 } Parameters;
 
 typedef struct {
@@ -314,7 +322,8 @@ typedef struct {
         scalar energy;  // [J] Kinetic energy of balls and cage in the frame, and elastic energy of all contacts
         scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
         scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
-        scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar energy_residual;  // [J] Energy now - energy at start - bearing.energy_change - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar energy_change;  // [J] Energy that changes of parameters have added to the bearing since the start; negative: released, as by a rivet that breaks
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
         scalar clearance;  // [m] Diametral clearance at the present speed, temperatures and fits
@@ -413,6 +422,9 @@ typedef struct {
         scalar table_kind;  // [1] What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms
         scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
         scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
+        scalar broken[Z];  // [1] 0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0
+        scalar break_time[Z];  // [s] Time at which the rivet broke by its damage; -1 if it did not
+        scalar preload_loss[Z];  // [N] Preload lost by wear of plates and heads since the start (joint.wear)
         scalar N[Z];  // [N] External tension of the joint; at an instant of a chaotic motion: compare stat.*
         scalar V[Z];  // [N] Transverse load of the joint; at an instant of a chaotic motion: compare stat.*
         scalar T[Z];  // [N] Tension of the rivet, with preload and prying; at an instant of a chaotic motion: compare stat.*
@@ -491,6 +503,7 @@ typedef struct {
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
+        scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
         scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
@@ -501,6 +514,7 @@ typedef struct {
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
         scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
+        scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
         scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
     } event;
 } Outputs;
@@ -589,4 +603,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 346 };  // time is the first
+enum { N_VARIABLES = 356 };  // time is the first

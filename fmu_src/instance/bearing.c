@@ -28,11 +28,9 @@ static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 static void add_stress(Bearing *b, bool counts, double h)
 {
     InstanceState *s = &b->s;
-    FatigueLaw law;
     JointLoads load;
     double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
-    memcpy(&law, &s->p.fatigue, sizeof law);
 
     // stress of all rivets
     b->kernels.cage_loads(&b->model, &b->w, &load);
@@ -49,8 +47,9 @@ static void add_stress(Bearing *b, bool counts, double h)
             statistics_add(&s->head[k], STRESS_FLOOR, h, head[k]);
             statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
         }
-        if (fatigue) {
-            const FatigueLaw in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
+        if (fatigue && rivet_holds(&s->p, &s->breakage, k)) {
+            const FatigueLaw law = fatigue_law(&s->p, k),
+                             in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
             fatigue_push(&s->fatigue_head[k], &law, head[k]);
             fatigue_push(&s->fatigue_mid[k], &in_hole, mid[k]);
         }
@@ -74,6 +73,13 @@ static void add_cage(Bearing *b, double h)
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }
 
+static void add_wear(Bearing *b, double h)
+{
+    double rubbing[Z];
+    cage_rubbing(&b->model, &b->w, rubbing);
+    loosening_add(&b->s.p, h, rubbing, &b->s.loosening);
+}
+
 // Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
 static void accepted_step(void *context, double h, const Work *w)
 {
@@ -83,6 +89,7 @@ static void accepted_step(void *context, double h, const Work *w)
     add_force(s, w, counts, h);
     if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
     if (counts) add_cage(b, h);
+    if (s->p.joint.wear > 0.0) add_wear(b, h);
 }
 
 static void solver_message(void *context, const char *message)
@@ -106,8 +113,9 @@ static void report_events(Bearing *b)
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
     events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->head_peak, s->mid_peak, now);
+    now[EVENT_RIVET_BREAK].count = s->breakage.latest;
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
-        if (!event_onset(&s->event, kind, &now[kind])) continue;
+        if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
         const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE ||
@@ -182,17 +190,25 @@ double *part_state(Bearing *b)
     return b->s.integrator.now.y;
 }
 
+// The parameters under which the present state was reached; before the start those that have been set.
+static const Parameters *present_parameters(const Bearing *b)
+{
+    return b->s.initialized ? &b->s.p_now : &b->s.p;
+}
+
 double part_time(const Bearing *b)
 {
     return b->s.integrator.t;
 }
+
+static const double FIRST_STEP = 1e-6;  // [s]
 
 // The present inputs u_now and their rates, as a trajectory that begins at the present time.
 static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
 {
     const InstanceState *s = &b->s;
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
-    input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, trajectory);
+    input_trajectory_update(present_parameters(b), u, s->integrator.t, s->integrator.t, trajectory);
     trajectory->frame_angle = s->frame_angle;
 }
 
@@ -205,10 +221,18 @@ static void hold_ring_load(Bearing *b)
     ring_load_at(&present, b->s.integrator.t, &b->ring_load);
 }
 
+// The parameters that the model has at the temperatures in u.
+static void parameters_at(const Bearing *b, const Inputs *u, Parameters *hot)
+{
+    temperature_apply(present_parameters(b), u, hot);
+    loosening_apply(&b->s.loosening, hot);
+    breakage_apply(&b->s.breakage, hot);
+}
+
 // Computes all that follows from the parameters at the temperatures in u.
 static void derive_at(Bearing *b, const Inputs *u)
 {
-    temperature_apply(&b->s.p, u, &b->hot);
+    parameters_at(b, u, &b->hot);
     model_derive(&b->hot, &b->d);
     b->model.modes = cage_derive(&b->hot, &b->d, b->cage);
     integrator_tolerance(b->integrator, b->s.tolerance);
@@ -246,33 +270,92 @@ static void evaluate(Bearing *b)
     b->evaluated = true;
 }
 
+static double present_energy(Bearing *b)
+{
+    evaluate(b);
+    return energy_total(&b->model, b->s.integrator.now.y, &b->w);
+}
+
 // Changes the temperatures of oil and parts from those in `from` to those in u.  The work of the expansion is no part
 // of the energy balance: the energy at the start moves by as much as the elastic energy of the present state.
 static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
 {
     if (temperature_same(from, u)) return;
-    const double *y = b->s.integrator.now.y;
-    evaluate(b);
-    const double before = energy_total(&b->model, y, &b->w);
+    const double before = present_energy(b);
     derive_at(b, u);
-    evaluate(b);
-    b->s.energy_start += energy_total(&b->model, y, &b->w) - before;
+    b->s.energy_start += present_energy(b) - before;
     b->s.integrator.f_is_current = 0;
+}
+
+// Derives all constants again, at the temperatures in u, after the parameters in force or the rivets that hold have
+// changed since the energy was `before`.  What that adds to the energy is a term of its own in the balance.
+static void rederive(Bearing *b, const Inputs *u, double before)
+{
+    derive_at(b, u);
+    b->s.energy_change += present_energy(b) - before;
+    b->s.integrator.f_is_current = 0;
+}
+
+// Puts the parameters in force that the host has set since the last step.
+static void change_parameters(Bearing *b, const Inputs *u)
+{
+    InstanceState *s = &b->s;
+    if (memcmp(&s->p, &s->p_now, sizeof s->p) == 0) return;
+    const double before = present_energy(b);
+    if (s->p.solver.tol != s->p_now.solver.tol) s->tolerance = s->p.solver.tol;
+    const bool other_laws = memcmp(&s->p.scene, &s->p_now.scene, sizeof s->p.scene) != 0;
+    memcpy(&s->p_now, &s->p, sizeof s->p);
+    rederive(b, u, before);
+    if (!other_laws || is_fixed(b)) return;
+    // spins jump from one balance to another, as at the start
+    s->integrator.h = fmin(s->integrator.h, FIRST_STEP);
+    s->integrator.now.h = s->integrator.now.ratio = 0.0;
+}
+
+// The preloads follow the wear.
+static void loosen(Bearing *b)
+{
+    InstanceState *s = &b->s;
+    if (loosening_update(&s->p, &s->loosening)) rederive(b, &s->u_now, present_energy(b));
+}
+
+// Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
+static bool break_rivets(Bearing *b)
+{
+    static const char *const PLACE[] = {[BROKEN_HEAD] = "head", [BROKEN_MIDDLE] = "middle"};
+    InstanceState *s = &b->s;
+    if (s->p.scene.breakage != SWITCH_ON) {
+        s->breakage.latest = 0;
+        return true;
+    }
+    const double t = s->integrator.t;
+    if (breakage_update(&s->p, t, b->d.fit_eff, s->fatigue_head, s->fatigue_mid, &s->breakage))
+        rederive(b, &s->u_now, present_energy(b));
+    int left = 0;
+    for (int k = 0; k < Z; k++) {
+        left += rivet_holds(&s->p, &s->breakage, k);
+        if (s->breakage.latest > 0 && s->breakage.place[k] != HOLDS && s->breakage.time[k] == t)
+            bearing_log(b, LOG_EVENT, "t = %.9g s: rivet[%d] breaks in its %s", t, k + 1,
+                        PLACE[s->breakage.place[k]]);
+    }
+    return left > 0;
 }
 
 PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     InstanceState *s = &b->s;
+    variables_mark_given(&s->p);
     if (!check_all(b) || !room_for_cage(b)) return PART_ERROR;
     report_start(b);
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
+    memcpy(&s->p_now, &s->p, sizeof s->p);
     s->frame_angle = 0.0;
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
-    s->integrator.h = 1e-6;
+    s->integrator.h = FIRST_STEP;
     derive(b);
 
     // quasi-static start
@@ -364,12 +447,13 @@ PartStatus part_step(Bearing *b, double t_end)
     InstanceState *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
     Inputs u[INPUT_ORDERS + 1];
-    if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
+    if (!check_change(b) || !check_inputs(b, t_end - t_begin)) return PART_ERROR;
     motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u, &s->lag);
     report_without_effect(b);
     const bool clocked = s->p.solver.clock == SWITCH_ON;
     const double before = clocked ? cpu_clock() : 0.0;
     change_temperature(b, &s->u_now, &s->u[0]);
+    change_parameters(b, &s->u[0]);
     const double frame_omega = s->u_now.frame.omega;  // which does not jump
     s->energy_start += energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega + frame_omega,
                                        s->u[0].shaft.omega + frame_omega);
@@ -397,10 +481,16 @@ PartStatus part_step(Bearing *b, double t_end)
     change_temperature(b, &s->u[0], &s->u_now);
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
+    if (status == 0) loosen(b);
+    const bool holds = status != 0 || break_rivets(b);
     if (clocked) b->cpu_time += cpu_clock() - before;
     if (status == 0) {
         report_events(b);
-        return PART_OK;
+        if (holds) return PART_OK;
+        bearing_log(b, LOG_ERROR,
+                    "t = %.9g s: all %d rivets are broken, the halves of the cage come apart: the run ends",
+                    s->integrator.t, Z);
+        return PART_DISCARD;
     }
     const double steps = s->integrator.steps - steps_before;
     if (steps >= most)
@@ -434,7 +524,7 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     Derived d;
     Work w;
     double y_dot[N_ALL_STATES];
-    temperature_apply(&s->p, u, &hot);
+    parameters_at(b, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
     const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes};

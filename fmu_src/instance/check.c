@@ -289,7 +289,13 @@ static bool check_geometry(Bearing *b)
             fine = false;
         }
     }
-    return check_cage(b) && fine;
+    const bool counted = p->scene.breakage != SWITCH_ON || p->scene.stress == STRESS_FATIGUE;
+    if (!counted)
+        bearing_log(
+            b, LOG_ERROR,
+            "scene.breakage = on: rivets break by their damage, which scene.stress = fatigue alone counts; "
+            "allowed is off, or on with scene.stress = fatigue");
+    return check_cage(b) && fine && counted;
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
@@ -366,6 +372,23 @@ static bool check_values(Bearing *b)
 bool check_all(Bearing *b)
 {
     return check_values(b) && check_temperatures(b, &b->s.u[0]);
+}
+
+bool check_change(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    if (memcmp(&s->p, &s->p_now, sizeof s->p) == 0) return true;
+    const double t = s->integrator.t;
+    if (memcmp(&s->p.pulse, &s->p_now.pulse, sizeof s->p.pulse) != 0 &&
+        (pulse_in_progress(&s->p, t) || pulse_in_progress(&s->p_now, t))) {
+        bearing_log(
+            b, LOG_ERROR,
+            "pulse.t_start = %g s, pulse.interval = %g s, pulse.duration = %g s: an impact has begun before "
+            "t = %.9g s and not ended; a change between impacts is allowed",
+            s->p.pulse.t_start, s->p.pulse.interval, s->p.pulse.duration, t);
+        return false;
+    }
+    return check_geometry(b) && check_temperatures(b, &s->u[0]);
 }
 
 // Inputs that have no effect on a ring whose motion is free, and on one whose motion is prescribed.
@@ -511,12 +534,14 @@ static bool check_recorded(Bearing *b, double time)
 {
     const InstanceState *s = &b->s;
     const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
-    const double sums[] = {s->energy_start, s->omega_time};
+    const double sums[] = {s->energy_start, s->energy_change, s->omega_time};
     bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
                 values_are_sane(sums, sizeof sums / sizeof sums[0]);
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
     fine = saved_is(b, fine, "peaks and sums") &&
            saved_is(b, event_state_is_valid(&s->event), "counts of events") &&
+           saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets") &&
+           saved_is(b, loosening_is_valid(&s->loosening), "lost preloads") &&
            saved_is(b, lag_is_valid(&s->lag), "a motion that catches up");
     fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
     for (int k = 0; fine && k < STRESS_CHANNELS; k++)

@@ -224,6 +224,7 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "temperatures and fits",
                  -now->value);
         return;
+    case EVENT_RIVET_BREAK:  // reported one by one, with its place (bearing.c)
     case EVENT_STEP_TOO_LONG:
         snprintf(text, size,
                  "solver.method = fixed: steps of %.4g s are too long for the films between cage and ring, "

@@ -133,6 +133,12 @@ static bool has_pulses(const Parameters *p)
     return (p->pulse.F_r != 0.0 || p->pulse.F_a != 0.0) && p->ring.motion == RING_MOTION_FREE;
 }
 
+bool pulse_in_progress(const Parameters *p, double t)
+{
+    const int i = pulse_index(p, t);
+    return has_pulses(p) && i >= 0 && pulse_start(p, i) < t && t < pulse_start(p, i) + p->pulse.duration;
+}
+
 double pulse_next_edge(const Parameters *p, double t)
 {
     if (!has_pulses(p)) return INFINITY;

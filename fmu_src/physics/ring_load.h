@@ -92,6 +92,9 @@ INLINE scalar frame_angle_at(const InputTrajectory *trajectory, scalar t)
 // The load at time t under inputs u that are held.
 void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
 
+// Whether a built-in pulse has begun and not ended at time t.
+bool pulse_in_progress(const Parameters *p, double t);
+
 // Next start or end of a built-in pulse after t, infinity after the last one.
 double pulse_next_edge(const Parameters *p, double t);
 

@@ -60,6 +60,12 @@ def run(
         f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
         soft_wrap=True,
     )
+    from ..summary import accelerated, breaks
+
+    for k, place, t in breaks(result):
+        console.print(f"rivet {k} broke in the {place} at {1e3 * t:.4g} ms")
+    if words := accelerated(result):
+        console.print(f"[yellow]{words}[/]")
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
