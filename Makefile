@@ -15,21 +15,28 @@ C_TESTS = $(filter-out tests/test_importers.py,$(shell grep -lE 'def .*\bcore\b|
 # Leaks are Python's, deletes of another size than was allocated are the importer Ecos'.
 ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 
+CONFIGURE = $(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DFMU=$(CURDIR)/$(FMU)
+
 # Versions with the hashes of their files, no address of where they came from.
 LOCK    = --generate-hashes --strip-extras --no-header --no-annotate --no-emit-index-url --no-emit-trusted-host --no-emit-find-links --extra cross --build-deps-for wheel
 
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build browser site dist fmu-all generate lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build browser site dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
 
-demo: build  ## build, then run the paper's working point: stress, cage and run-time figures
+demo: $(VENV)/full  ## build the FMU, then run the paper's working point: stress, cage and run-time figures
+	@echo "make demo: compiles about 120 files (1 to 3 minutes on two cores, once), then simulates 0.4 s"
+	@test -f build/build.ninja || $(CONFIGURE) >build-configure.log || { cat build-configure.log; exit 1; }
+	@rm -f build-configure.log
+	$(BIN)/cmake --build build --target fmu
 	$(BIN)/riveted-bearing run demo
 
 test: build lint  ## the fast tests, the ten slowest of them listed
 	$(PYTEST) -n 2 --dist worksteal --durations=10
 
 test-slow: build  ## the tests that take minutes
+	@case $$(uname -m) in x86_64) $(BIN)/cmake --build build --target RivetedBearing_by_fours ;; esac
 	$(PYTHON) -c "import gmsh" 2>/dev/null || .ci/environment $(VENV) mesher
 	$(PYTEST) -n 2 --dist worksteal -m slow
 
@@ -56,15 +63,30 @@ fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macO
 	$(BIN)/riveted-bearing build --platforms all
 
 dist: $(VENV)/installed  ## in dist/: a wheel for every platform with the ready FMU, the sources, the versions it was made with, checksums
+	@echo "make dist, 1 of 5: packages of the release, among them a cross-compiler of 80 MB"
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross,release]"
 	rm -rf dist && mkdir -p build/dist dist
+	@echo "make dist, 2 of 5: the core for four platforms, some 500 files: the longest part, 2 to 6 minutes on two cores"
 	$(BIN)/riveted-bearing build --platforms all --out build/dist/RivetedBearing.fmu
-	$(PYTHON) -m build --no-isolation --sdist
-	$(PYTHON) -m build --no-isolation --wheel -Ccmake.define.READY_FMU=$(CURDIR)/build/dist/RivetedBearing.fmu
+	@echo "make dist, 3 of 5: the archive of sources"
+	$(PYTHON) -m build --no-isolation --sdist >build/dist/sdist.log || { cat build/dist/sdist.log; exit 1; }
+	@echo "make dist, 4 of 5: the wheel around the FMU of step 2"
+	$(PYTHON) -m build --no-isolation --wheel -Ccmake.define.READY_FMU=$(CURDIR)/build/dist/RivetedBearing.fmu >build/dist/wheel.log || { cat build/dist/wheel.log; exit 1; }
 	$(PYTHON) -m wheel tags --remove --python-tag py3 --abi-tag none --platform-tag any dist/*.whl
 	cp build/dist/RivetedBearing.fmu dist/
+	@echo "make dist, 5 of 5: hashes of all packages, from the index: a minute"
 	$(PYTHON) -m piptools compile --quiet $(LOCK) --output-file dist/requirements.txt pyproject.toml
 	cd dist && sha256sum * >SHA256SUMS
+	@ls -l dist
+
+# One resolution for every Python and system that pyproject.toml allows, by uv.
+UV      = $(BIN)/uv --quiet pip compile --upgrade --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
+IMPORTERS = import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["importers"], sep="\n")
+lock: $(VENV)/installed  ## newest versions and hashes of the packages that `make demo` and `make test` install, in .ci/*.txt
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[lock]"
+	$(UV) --extra test --extra dev --output-file .ci/requirements.txt pyproject.toml
+	echo "scikit-build-core>=0.11" | $(UV) --extra full --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml -
+	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
 
 lint: $(VENV)/installed  ## formatters and linters, changing nothing
 	$(BIN)/ruff check .
@@ -113,10 +135,15 @@ clean:  ## remove what was built; the Python environment and the cached SUNDIALS
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
 
-$(VENV)/installed: pyproject.toml .ci/environment
+$(VENV)/installed: pyproject.toml .ci/environment .ci/requirements.txt .ci/importers.txt
 	.ci/environment $(VENV)
 	touch $@
 
+# What `make demo` needs, a part of the line above.
+$(VENV)/full: pyproject.toml .ci/environment
+	@test -f $(VENV)/installed || .ci/environment $(VENV) demo
+	@touch $@
+
 build/build.ninja: $(VENV)/installed
-	$(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DFMU=$(CURDIR)/$(FMU)
+	$(CONFIGURE)
 	touch $@

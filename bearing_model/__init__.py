@@ -6,7 +6,7 @@
 
 Dynamics: each element of fmu_src stands here under the same name (race_contact, pocket, land_film, cage_joint, ring
 ...), rhs joins them to dy/dt, start finds the first state and integrator advances it with SciPy.  Without dynamics:
-quasi_static, kinematics, hertz_exact.  After a run: fatigue, critical_plane, statistics.  The rivet table is read by
+quasi_static, kinematics, hertz_exact.  After a run: fatigue, statistics.  The rivet table is read by
 rivet_table and evaluated by rivet_rom.  Units are SI; nothing here loads an FMU.
 """
 
@@ -24,7 +24,6 @@ PUBLIC = {
     "rivet.rivet_table": ("RivetTable",),
     "rivet.rivet_rom": ("RivetLoad", "rivet_rom_stress"),
     "instance.fatigue": ("FatigueLaw",),
-    "critical_plane": ("findley", "worst_point"),
 }
 HOMES = {name: module for module, names in PUBLIC.items() for name in names}
 __all__ = list(HOMES)

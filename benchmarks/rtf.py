@@ -16,7 +16,7 @@ CAGES = "elastic", "two_half"  # the default first
 def measure(name, cage, span):
     """Processor time per simulated time, in all and inside the FMU, and evaluations of the right-hand side."""
     _, shipped, changes = SCENES[name]
-    parameters = changes.get("parameters", {}) | {"scene.cage": cage}
+    parameters = changes.get("parameters", {}) | {"scene.cage": cage, "solver.clock": "on"}
     summary = run(shipped, **changes | {"parameters": parameters}, t_end=span, step=STEP, outputs=OUTPUTS).summary
     span = summary["simulated_time"]
     return {

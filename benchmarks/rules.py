@@ -47,7 +47,9 @@ The cage's default material is bronze. Other materials change the stress, in %:
 CLOSE = """
 
 Rules without a range are those of balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half,
-number of modes, temperatures of the parts and the S–N curve. Damage grows with the 15th power of the stress.
+number of modes, temperatures of the parts and the S–N curve. The ring's seats are bore and outside diameter, its support
+`ring.k_tilt` scales as `ring.m`, the land's contact `cage.K_land` as E* of cage and ring. `start.settle` is 15 revolutions.
+Damage grows with the 15th power of the stress.
 """
 
 

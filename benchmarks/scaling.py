@@ -30,7 +30,7 @@ def simulate(model, scene, length, step, outputs=(), changing=False, begin=0.0):
     """
     started = time.process_time()
     with Instance(model) as instance:
-        instance.initialize(scene)
+        instance.initialize(replace(scene, parameters=scene.parameters | {"solver.clock": "on"}))
         start_time = time.process_time() - started
         if begin > 0.0:
             instance.fmu.doStep(0.0, begin)

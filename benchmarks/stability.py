@@ -107,7 +107,9 @@ def history(points, hold):
 
 def set_all(instance, scene, inputs):
     model, fmu = instance.model, instance.fmu
-    for name, value in ({"solver.max_steps": MOST_STEPS} | scene.parameters).items():
+    for name, value in (
+        {"solver.max_steps": MOST_STEPS, "solver.clock": variables.Switch.ON} | scene.parameters
+    ).items():
         variable = model.parameters[name]
         setter = fmu.setReal if variable.type == "Real" else fmu.setInteger
         setter([variable.valueReference], [value])

@@ -67,7 +67,7 @@ file(GLOB elementary_test CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_ele
 
 # An object library of these files, compiled for one instruction set.
 function(compile_for target isa lane_width files)
-    add_library(${target} OBJECT ${files})
+    add_library(${target} OBJECT EXCLUDE_FROM_ALL ${files})
     target_include_directories(${target} PRIVATE ${core_includes})
     target_compile_definitions(${target} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
     target_compile_options(${target} PRIVATE ${core_flags} ${ARGN})
@@ -87,6 +87,12 @@ set(core_objects $<TARGET_OBJECTS:core> ${sundials_objects})
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     add_kernel(sse2 2)
     add_kernel(avx2 4 -mavx2 -mfma -DFUSED)  # what dispatch.c asks the processor for, no more
+    if(NOT CMAKE_CROSSCOMPILING)
+        # AVX-512's packets of eight, computed by AVX2: for the tests (cmake/fmu.cmake), where no processor has AVX-512.
+        set(by_fours -mavx2 -mfma -DFUSED -DEIGHT_BY_FOURS -Wno-psabi -O1)  # -O3 takes minutes
+        compile_for(kernel_by_fours avx512 8 "${kernel_files}" ${by_fours})
+        compile_for(dispatch_by_fours generic 2 ${fmu_src}/solver/dispatch.c -DKERNELS_X86 -DEIGHT_BY_FOURS)
+    endif()
     add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 -DFUSED)
     target_compile_definitions(core PRIVATE KERNELS_X86)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")

@@ -2,7 +2,7 @@
 
 # A binary of FMI functions from the wrapper and the part behind it.
 function(add_fmu_binary name)
-    add_library(${name} SHARED ${ARGN})
+    add_library(${name} SHARED ${ARGN})  # ARGN may begin with EXCLUDE_FROM_ALL
     set_target_properties(${name} PROPERTIES PREFIX "" NO_SONAME ON)
     target_include_directories(${name} SYSTEM PRIVATE ${fmpy_dir}/c-code)
     target_compile_options(${name} PRIVATE ${core_flags})
@@ -33,6 +33,14 @@ set(build_info ${PROJECT_BINARY_DIR}/build_info.c)
 add_build_info(${build_info} "${source_files}" "${source_folders}")
 add_fmu_binary(RivetedBearing ${core_objects} ${fmu_src}/host/fmi2_wrapper.c ${build_info})
 target_link_libraries(RivetedBearing PRIVATE core)
+if(TARGET kernel_by_fours)
+    # For the tests only: its kernel avx512 is computed by AVX2.
+    set(others ${core_objects} $<TARGET_OBJECTS:core>)
+    add_fmu_binary(RivetedBearing_by_fours EXCLUDE_FROM_ALL $<FILTER:${others},EXCLUDE,solver/dispatch|kernel_avx512> $<TARGET_OBJECTS:kernel_by_fours>
+        $<TARGET_OBJECTS:dispatch_by_fours> ${fmu_src}/host/fmi2_wrapper.c ${build_info})
+    target_include_directories(RivetedBearing_by_fours PRIVATE ${core_includes})
+    target_link_libraries(RivetedBearing_by_fours PRIVATE m)
+endif()
 add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this platform
 
 # The archive: each part made only when what it follows from has changed.

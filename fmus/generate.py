@@ -79,6 +79,8 @@ class Variable:
     built: bool = False  # whether the build fixes the value, for rivet table and run alike
     table: bool = False  # whether the build makes the rivet table from the value, which a run may change
     needs: dict = field(default_factory=dict)  # other values without which a run does not feel this one
+    derives: bool = False  # whether the start value of a parameter stands for one that follows from others
+    fixed: str | None = None  # why a parameter cannot change once a run has begun; None if it can
 
     @property
     def kind(self):
@@ -172,6 +174,8 @@ def load_table(bearing=None, path=None):
             count = {"count": Z} if entry.get("count") == "Z" else {}
             v = Variable(causality=causality, **entry | count)
             v = replace(v, choices={name: item.number for name, item in enumerations.get(v.type, {}).items()})
+            if causality == "parameter":
+                v = replace(v, fixed=why_fixed(raw.get("fixed", {}), v.path))
             variables.append(replace(v, start=Z) if v.group == "constant" else v)
     for section in ("parameters", "inputs"):
         for name, value in flatten(changes.get(section, {})):
@@ -226,6 +230,11 @@ def flatten(nested, prefix=""):
             yield from flatten(value, f"{prefix}{key}.")
         else:
             yield prefix + key, value
+
+
+def why_fixed(reasons, path):
+    """The reason for which the parameter of this path is fixed in a run; None if it is tunable."""
+    return next((why for why, names in reasons.items() if any(fnmatch.fnmatchcase(path, n) for n in names)), None)
 
 
 def set_start(variables, causality, name, value, source):
@@ -302,6 +311,11 @@ def struct_members(variables):
     return list(structs.items())
 
 
+def given_member(v):
+    """Member of Parameters.given: whether the host has given the parameter a value."""
+    return v.path.replace(".", "_")
+
+
 def c_number(value):
     return {math.inf: "INFINITY", -math.inf: "-INFINITY"}.get(value, repr(float(value)))
 
@@ -352,7 +366,9 @@ def render(template, table, source):
     environment = jinja2.Environment(
         trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, undefined=jinja2.StrictUndefined
     )
-    environment.filters |= {f.__name__: f for f in (screaming, struct_members, c_number, quoted, label, named_in)}
+    environment.filters |= {
+        f.__name__: f for f in (given_member, screaming, struct_members, c_number, quoted, label, named_in)
+    }
     scales = list(dict.fromkeys(s.scale for s in (*table.states, *table.elastic_states)))
     words = {"shown": shown, "allowed": allowed, "feeds": feeds}
     return environment.from_string((TEMPLATES / template).read_text()).render(
@@ -473,7 +489,7 @@ def add_variables(root, table):
 
 def variability(v):
     if v.causality == "parameter":
-        return {"variability": "fixed", "initial": "exact"}
+        return {"variability": "fixed" if v.fixed else "tunable", "initial": "exact"}
     if v.group == "constant":
         return {"variability": "constant", "initial": "exact"}
     return {"variability": "continuous"} | ({"initial": "calculated"} if v.causality in CALCULATED else {})

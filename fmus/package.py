@@ -36,15 +36,26 @@ HOSTS = {  # (system, machine) -> platform as FMI 2.0 names its folder; others a
     ("Windows", "AMD64"): "win64",
 }
 REFERENCE = "extra/org.fmi-standard.fmi-ls-ref"
+STEP, STEPS = 1e-4, 10  # of the reference results [s]
 CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # riveted_bearing/fmu.py reads it
 MANIFEST = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiReferences xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest"
     fmi-ls:fmi-ls-name="org.fmi-standard.fmi-ls-ref"
     fmi-ls:fmi-ls-version="1.0.0-alpha.1"
     fmi-ls:fmi-ls-description="Layered Standard providing information on related files included in an FMU.">
+  <Related type="text/xml" source="smoke_test.xml" role="experiment/smoke-test"
+      description="The first millisecond from the start values, in the format of MA-HS-Experiments"/>
   <Related type="text/csv" source="{name}" role="result"
       description="Outputs from the start values at communication points of 1e-4 s; binaries agree to 1e-9 of each column's largest magnitude"/>
 </fmiReferences>
+"""
+EXPERIMENT = """<?xml version="1.0" encoding="UTF-8"?>
+<Experiments name="Smoke tests">
+  <Experiment name="First millisecond" description="From the start values, without inputs" tolerance="{tolerance}">
+    <TransientSimulation startTime="0" stopTime="{stop:g}" stepSize="{step:g}"/>
+    <References source="{name}"/>
+  </Experiment>
+</Experiments>
 """
 
 
@@ -96,8 +107,13 @@ def package(options):
     members |= icons(options.pictures, options.terminals) if options.pictures else {}
     if options.reference:
         name = f"{identifier}_out.csv"
+        tolerance = next(
+            (v[0].get("start") for v in root.iter("ScalarVariable") if v.get("name") == "solver.tol"), "1e-3"
+        )
+        experiment = EXPERIMENT.format(name=name, tolerance=tolerance, step=STEP, stop=STEP * STEPS)
         members |= {
             f"{REFERENCE}/fmi-ls-manifest.xml": MANIFEST.format(name=name).encode(),
+            f"{REFERENCE}/smoke_test.xml": experiment.encode(),
             f"{REFERENCE}/{name}": options.reference.read_bytes(),
         }
     members |= {CAGE_MODES: cage_modes(options.rivet_table)} if options.rivet_table else {}

@@ -12,9 +12,7 @@ from pathlib import Path
 
 from fmpy import read_model_description
 from fmpy.fmi2 import FMU2Slave
-from package import host_platform, platform_and_file
-
-STEP, STEPS = 1e-4, 10  # [s]
+from package import STEP, STEPS, host_platform, platform_and_file
 
 
 def simulate(description, binary):

@@ -7,7 +7,7 @@ import base64
 import numpy as np
 
 from .runner import is_peak
-from .summary import settled
+from .summary import gone_from, settled
 
 BUDGET = 650_000  # characters of all channels in the page
 SCALARS = (
@@ -89,6 +89,7 @@ def frames(result):
             )
         },
         "settle": p.get("start.settle", 0.0),
+        "gone": gone_from(result),
     }, []
 
 

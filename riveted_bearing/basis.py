@@ -43,7 +43,16 @@ def basis(model, scenes, curve=""):
         ("temperatures", temperatures(model, scenes)),
         ("preload", preload(model, scenes)),
         *([("S-N curve", curve)] if curve else []),
+        *([("damage", faster)] if (faster := accelerated(model, scenes)) else []),
     ]
+
+
+def accelerated(model, scenes):
+    """Words on damage that is not counted as it is, "" where it is."""
+    name = "fatigue.acceleration"
+    if name not in model.parameters or np.all(values(model, scenes, name) == 1.0):
+        return ""
+    return f"accelerated {text(model, scenes, name)} times ({name})"
 
 
 def values(model, scenes, name):

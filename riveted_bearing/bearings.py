@@ -35,6 +35,7 @@ from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, oil, rivet_heads, scaling
 from .errors import UserError, unknown
+from .origin import EXAMPLE
 from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
@@ -61,7 +62,6 @@ CAGE_MEANT = (
     "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
     "that many bearings of this designation carry is not modelled"
 )
-EXAMPLE = "6207"
 SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
 # the 6207's in a file that says neither them nor a designation
 OF_EXAMPLE = ("Z", "bearing.D", "bearing.d_m", "shaft.F_x", "shaft.F_y", "shaft.omega")
@@ -160,28 +160,6 @@ class Case:
     def of_origin(self, origin):
         """Names of the values of one origin."""
         return [name for name, found in self.origin.items() if found == origin]
-
-
-def not_given(origin):
-    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all
-    that its bearing needs.
-    """
-    if "shipped" in origin.values():
-        return {}
-    sources = {"catalogue": f"from {catalogue.SOURCE}", "rule": "by rule", EXAMPLE: f"of the {EXAMPLE}"}
-    found = {source: [name for name, of in origin.items() if of == key] for key, source in sources.items()}
-    return {source: grouped(names) for source, names in found.items() if names}
-
-
-def grouped(names):
-    """Dotted names with each prefix once: Z, bearing (D, d_m), cage (m)."""
-    groups = {}
-    for name in names:
-        prefix, _, last = name.rpartition(".")
-        groups.setdefault(prefix, []).append(last)
-    return ", ".join(
-        f"{prefix} ({', '.join(lasts)})" if prefix else ", ".join(lasts) for prefix, lasts in groups.items()
-    )
 
 
 def shipped_bearings():

@@ -8,9 +8,11 @@ works.
 For other platforms zig compiles each binary in a build folder of its own (cmake/zig.cmake), and the last step packs all
 binaries into one FMU.
 
-Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.
+Intermediate files stay in BUILD, so that the next build of the same bearing compiles only what changed.  A second build
+in the same folder waits for the first.
 """
 
+import contextlib
 import importlib.util
 import math
 import os
@@ -22,6 +24,8 @@ import sys
 import sysconfig
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
 
@@ -29,8 +33,8 @@ from .bearings import CAGE_MEANT, RIVET, bearing_case
 from .errors import UserError, extra, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .materials import PARTS
-from .results import make_folder, to_toml, write_atomically
-from .rivet import TABLES, cache_folder, geometry_of, read_table, rivet_case, table_of, table_text
+from .results import cache_folder, make_folder, to_toml, write_atomically
+from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 from .scene import Scene
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
@@ -63,38 +67,42 @@ def build_fmu(
     case, folder = case_with(bearing, rivet), build_folder(sources, bearing)
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
-    table = kept(given_table(rivet, case, kind, say, modes), table_copy(bearing))
-    # said in any case: a build folder remembers what it was told before
-    generated = folder / "generated" if bearing or rivet or kind or modes else ""
-    options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}", f"-DGENERATED_DIR={generated}"]
-    if generated:
-        say("variables")
-        resolved = folder / "bearing.toml"
-        resolved.write_text("\n".join(to_toml(start_document(case, table))), encoding="utf-8")
-        execute(
-            [sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated], folder, say
-        )
-    binaries = [
-        f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}"
-        for platform in platforms
-    ]
-    options += [f"-DBINARIES={';'.join(binaries)}", f"-DCOMPILER={zig_version() if platforms else ''}"]
-    if not has_compiler():  # the archive's project wants some compiler too
-        folder = folder / "archive"
-        folder.mkdir(exist_ok=True)
-        options += toolchain(sources, platforms[0])
-    compile_target(cmake, sources, folder, options, "fmu", say)
-    finished = folder / FMU_NAME
-    say("starting it once")
-    try_start(finished)
-    write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
-    # the example uses the FMU of the checkout
-    if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():
-        compile_target(cmake, sources, folder, options, "transmission", say)
-        for name in ("Shaft.fmu", "Transmission.ssp"):
-            write_atomically(
-                out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary)
+    given = given_table(rivet, case, kind, say, modes)
+    with alone_in(folder, say):
+        table = kept(given, table_copy(bearing))
+        # said in any case: a build folder remembers what it was told before
+        generated = folder / "generated" if bearing or rivet or kind or modes else ""
+        options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}", f"-DGENERATED_DIR={generated}"]
+        if generated:
+            say("variables")
+            resolved = folder / "bearing.toml"
+            resolved.write_text("\n".join(to_toml(start_document(case, table))), encoding="utf-8")
+            execute(
+                [sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated],
+                folder,
+                say,
             )
+        binaries = [
+            f"{platform}={cross_compile(cmake, sources, folder / platform, options, platform, say)}"
+            for platform in platforms
+        ]
+        options += [f"-DBINARIES={';'.join(binaries)}", f"-DCOMPILER={zig_version() if platforms else ''}"]
+        if not has_compiler():  # the archive's project wants some compiler too
+            folder = folder / "archive"
+            folder.mkdir(exist_ok=True)
+            options += toolchain(sources, platforms[0])
+        compile_target(cmake, sources, folder, options, "fmu", say)
+        finished = folder / FMU_NAME
+        say("starting it once")
+        try_start(finished)
+        write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
+        # the example uses the FMU of the checkout
+        if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():
+            compile_target(cmake, sources, folder, options, "transmission", say)
+            for name in ("Shaft.fmu", "Transmission.ssp"):
+                write_atomically(
+                    out.with_name(name), lambda temporary, made=folder / name: shutil.copyfile(made, temporary)
+                )
     return out
 
 
@@ -212,11 +220,29 @@ def default_out(sources, source):
 
 
 def build_folder(sources, bearing):
-    """Folder for intermediate files, one per bearing: in the checkout's build/, else in the user's cache."""
-    base = sources / "build" / "bearings" if sources == PACKAGE.parent else cache_folder("bearings")
+    """Folder for intermediate files, one per bearing: in the build/ of a checkout that can be written to, else in the
+    user's cache.
+    """
+    own = sources == PACKAGE.parent and os.access(sources, os.W_OK)
+    base = sources / "build" / "bearings" if own else cache_folder("bearings")
     folder = base / (Path(str(bearing)).stem if bearing else "default")
-    folder.mkdir(parents=True, exist_ok=True)
+    make_folder(folder)
     return folder
+
+
+@contextlib.contextmanager
+def alone_in(folder, say):
+    """No second build writes to the folder meanwhile: it waits here."""
+    lock = FileLock(folder / ".lock")
+    try:
+        lock.acquire(timeout=0)
+    except Timeout:
+        say("waiting for another build in this folder")
+        lock.acquire()
+    try:
+        yield
+    finally:
+        lock.release()
 
 
 def compilers():

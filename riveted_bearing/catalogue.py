@@ -17,7 +17,6 @@ from importlib.resources import files
 from bearing_model.load_ratings import dynamic_rating, static_rating
 
 TABLE = files("riveted_bearing") / "data" / "catalogue.csv"
-SOURCE = "NKE General Catalogue 2018/10"
 INCH = 25.4e-3
 # [m] usual with ball makers: 1/32 inch up to 1 1/2 inch, then 1/16 inch; two of 1/64 inch; millimetres up to 25 mm
 BALL_SIZES = sorted(

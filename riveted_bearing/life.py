@@ -8,7 +8,7 @@ import numpy as np
 import rainflow
 
 from bearing_model.generated.variables import MeanStress
-from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
+from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle, fatigue_law_in_hole, strengthened
 
 from .summary import settled
 
@@ -32,6 +32,33 @@ def fatigue_law(parameters):
     return FatigueLaw(**values | {"mean_stress": int(MeanStress[values["mean_stress"].upper()])})
 
 
+def cycle_damages(law, span, mean):
+    """fatigue_cycle() of many cycles: arrays of ranges and means [Pa]."""
+    half, mean = 0.5 * np.asarray(span, float), np.asarray(mean, float)
+    with np.errstate(over="ignore"):
+        if law.mean_stress == MeanStress.SWT:
+            amplitude = np.sqrt(np.maximum(mean + half, 0.0) * half)
+        else:
+            room = {
+                MeanStress.GOODMAN: 1.0 - np.maximum(mean, 0.0) / law.sigma_m,
+                MeanStress.MORROW: 1.0 - mean / law.sigma_f,
+            }.get(law.mean_stress, np.ones_like(half))
+            amplitude = np.where(room > 0.0, half / np.where(room > 0.0, room, 1.0), np.inf)
+        slope = np.where(amplitude > law.sigma_D, law.k_1, law.k_2)
+        return np.minimum((amplitude / law.sigma_D) ** slope / law.N_D, 1.0)
+
+
+def fatigue_law_at(parameters, k, place):
+    """FatigueLaw of a result's rivet k at "head" or "mid": strength_factor scales its strengths, fretting weakens a shank
+    on which its hole presses.
+    """
+    law = strengthened(fatigue_law(parameters), parameters.get(f"rivet[{k}].strength_factor", 1.0))
+    if place == "head" or law.fretting == 1.0:
+        return law
+    fits = (parameters["joint.fit"], parameters["joint.swell"], parameters[f"rivet[{k}].dfit"])
+    return fatigue_law_in_hole(law, sum(fits))  # of the sign of the effective fit
+
+
 def stress_history(result, k, place):
     """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None
     if not recorded.
@@ -51,7 +78,7 @@ def rivet_life(result, k, place):
     history = stress_history(result, k, place)
     if history is None:
         return None
-    law, t = fatigue_law(result.parameters), result.data["time"][settled(result)]
+    law, t = fatigue_law_at(result.parameters, k, place), result.data["time"][settled(result)]
     cycles = np.array([(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]).reshape(
         -1, 3
     )

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.patches import Circle
 
 from .results import write_atomically
-from .summary import RPM, rivet_rows, settled, summary_rows
+from .summary import RPM, breaks, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
 STYLE = {
@@ -86,12 +86,20 @@ def mark_settling(ax, result):
     end = 1e3 * min(result.parameters.get("start.settle", 0.0), result.data["time"][-1])
     ax.axvspan(0.0, end, color="#f3f4f6", zorder=0)
     ax.margins(x=0.0)
+    mark_breaks(ax, result)
+
+
+def mark_breaks(ax, result):
+    """A line at the time at which each rivet broke, in the colour of its place."""
+    for _, place, t in breaks(result):
+        ax.axvline(1e3 * t, color=HEAD if place == "head" else MIDDLE, lw=0.9, ls="--", label="_break")
 
 
 def show_settled(ax, result):
     """Scale a panel by the values after settling; the first shock may exceed the panel."""
     late = settled(result)
-    values = np.concatenate([line.get_ydata()[late] for line in ax.get_lines()])
+    curves = [line for line in ax.get_lines() if line.get_label() != "_break"]
+    values = np.concatenate([line.get_ydata()[late] for line in curves])
     low, high = values.min(), values.max()
     if high > low:
         margin = 0.08 * (high - low)

@@ -8,9 +8,6 @@ import math
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
-from bearing_model.physics.derived import default_table
-from rivet_model.closed_form import stack_stiffness
-
 from .errors import UserError
 from .fmu import Instance
 from .scene import History, Scene
@@ -57,6 +54,9 @@ def measured(model):
 
 def of_geometry(geometry):
     """The Thermal of a rivet in its cage by rule from the shipped table's, without finite elements."""
+    from bearing_model.physics.derived import default_table  # SciPy: not for a run
+    from rivet_model.closed_form import stack_stiffness
+
     k = stack_stiffness(geometry, default_table().joint["k_stack"])
     expansion = (geometry.alpha_flange - geometry.alpha_rivet) * 2.0 * geometry.flange_thickness
     return Thermal(k * expansion, geometry.T_0)

@@ -6,6 +6,8 @@ import tempfile
 
 import numpy as np
 
+from .results import cache_folder
+
 IN_MEMORY = 64 * 2**20  # bytes of a result that stay in memory
 BLOCK = 1024  # rows that are turned into columns together
 
@@ -21,8 +23,6 @@ class Record:
     def __init__(self, count, width):
         shape = (width, count)
         if 8 * width * count > IN_MEMORY:
-            from .rivet import cache_folder  # loads the finite elements: half a second
-
             with tempfile.TemporaryFile(dir=cache_folder("runs")) as file:
                 self.data = np.memmap(file, np.float64, "w+", shape=shape)
         else:

@@ -17,11 +17,14 @@ from .design.bench import display_of
 from .duty.sn import Strength, assumed, in_words
 from .errors import UserError
 from .life import fatigue_law, rivet_life
+from .overlay import read_measured, views
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
+    accelerated,
     assumed_as_bronze,
     assumed_rows,
+    breaks,
     columns,
     early_rows,
     flag_note,
@@ -59,10 +62,11 @@ def report_files(source):
     return found
 
 
-def report_pages(source, out=None, decides=None):
+def report_pages(source, out=None, decides=None, overlay=None, columns=None):
     """Write a page for each result of a path and yield the pages' paths one by one.
 
-    out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show.
+    out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show;
+    overlay: CSV file of measured series, columns: their {channel: column} where names differ (overlay.py).
     Raises UserError if there is no result, if one has no numbers, or if several are to go into one file.
     """
     sources, out = report_files(source), Path(out) if out else None
@@ -74,7 +78,8 @@ def report_pages(source, out=None, decides=None):
         result = read_result(path)
         if not has_numbers(result):
             raise UserError(f"{path}: no output has a number: there is nothing to show")
-        yield write_report(result, out if as_file else out / name.name if out else name, decides)
+        measured = read_measured(overlay, result, columns) if overlay else ()
+        yield write_report(result, out if as_file else out / name.name if out else name, decides, measured)
 
 
 def has_numbers(result):
@@ -83,15 +88,15 @@ def has_numbers(result):
     return not outputs or not all(np.all(np.isnan(values)) for values in outputs)
 
 
-def write_report(result, path, decides=None):
+def write_report(result, path, decides=None, measured=()):
     """Write the page of a result, whole or not at all; returns the path."""
-    page = render(result, decides)
+    page = render(result, decides, measured)
     write_atomically(Path(path), lambda temporary: temporary.write_text(page, encoding="utf-8"))
     return Path(path)
 
 
-def render(result, decides=None):
-    """The page as text; decides: see report_pages."""
+def render(result, decides=None, measured=()):
+    """The page as text; decides: see report_pages; measured: Series beside the run's."""
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
@@ -125,8 +130,11 @@ def render(result, decides=None):
         as_bronze=assumed_as_bronze(result),
         settle_note=settle_note(result),
         decides=decides,
+        measured=views(measured),
         display_of=display_of,
         life_is_known=life_is_known(result),
+        breaks=breaks(result),
+        accelerated=accelerated(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS if elastic or name not in OF_ELASTIC},
         figure=figure,

@@ -242,6 +242,21 @@ def make_folder(folder):
         raise UserError(f"{folder}: no permission to write to this folder")
 
 
+def cache_path(name):
+    """Path of a folder of the user's cache."""
+    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
+
+
+def cache_folder(name):
+    """A folder of the user's cache, made if it is not there."""
+    folder = cache_path(name)
+    try:
+        make_folder(folder)
+    except UserError as problem:
+        raise UserError(f"{problem}; the environment variable XDG_CACHE_HOME names another cache") from None
+    return folder
+
+
 def write_atomically(path, write):
     """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if
     folder or disk refuse.

@@ -3,7 +3,6 @@ finite elements.
 """
 
 import math
-import os
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
 from pathlib import Path
@@ -24,7 +23,7 @@ from rivet_model.load_cases import Joint
 
 from .bearings import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, in_cage, is_number, unit_scales
 from .errors import UserError
-from .results import make_folder, write_atomically
+from .results import cache_folder, cache_path, write_atomically
 from .scene import positive, read_toml, refusal
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
@@ -201,9 +200,10 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
         return rivet_table.DEFAULT_TABLE
     kind = kind or ("full" if shipped else "coarse")
     name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
-    target = cache_folder("tables") / f"{name}.json"
-    if is_table(target):
+    target = cache_path("tables") / f"{name}.json"
+    if is_table(target):  # perhaps of another user, in whose cache nothing can be written
         return target
+    cache_folder("tables")
 
     def progress(stage, done, total):
         say(f"rivet: {stage}", done / total)
@@ -221,13 +221,6 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
         raise UserError(f"{where}: {problem}") from None
     write_atomically(target, lambda temporary: table.write(made, temporary))
     return target
-
-
-def cache_folder(name):
-    """A folder of the user's cache, made if it is not there."""
-    folder = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
-    make_folder(folder)
-    return folder
 
 
 def table_text(t):

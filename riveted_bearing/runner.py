@@ -11,9 +11,9 @@ from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
 from .basis import basis
-from .bearings import not_given
 from .fmu import Instance
 from .interrupts import held_interrupts
+from .origin import not_given
 from .record import Record
 from .results import Result
 from .summary import given_names, ruled_names
@@ -69,7 +69,7 @@ def march(instance, scene, progress, interrupts):
     record, row_times = Record(count, len(scene.outputs)), np.zeros(count)
     read = instance.reader(scene.outputs)
     record.write(0, read())
-    row, due, stopped = 0, 0.0, ""
+    row, due, stopped, changes = 0, 0.0, "", list(scene.changes)
     for i, (now, then) in enumerate(itertools.pairwise(times.tolist())):
         if interrupts.pending:
             stopped = f"interrupted after t = {now:.9g} s"
@@ -77,6 +77,9 @@ def march(instance, scene, progress, interrupts):
         try:
             if changed[i]:
                 instance.fmu.setReal(references, inputs[i].tolist())
+            while changes and changes[0][0] <= now * (1.0 + 1e-12):
+                for name, value in changes.pop(0)[1].items():
+                    instance.set_parameter(instance.model.parameters[name], value)
             instance.fmu.doStep(now, then - now)
         except FMICallException as failure:
             stopped = f"the FMU gave up in the step from t = {now:.9g} s: {instance.complaints()}"
@@ -113,14 +116,16 @@ def closing_values(instance, model):
 
 
 def closing_names(model):
-    """Variables that say how it went over the whole run: statistics, damage, solver counters, processor time, and what
-    the rivets' stress rests on.
+    """Variables that say how it went over the whole run: statistics, damage, broken rivets, solver counters, processor
+    time, and what the rivets' stress rests on.
     """
     names = [*model.outputs, *model.locals]
     return [
         name
         for name in names
-        if name.startswith(("stat.", "solver.")) or ".damage_" in name or name == "rivet.table_kind"
+        if name.startswith(("stat.", "solver."))
+        or name.endswith(("].damage_head", "].damage_mid", "].broken", "].break_time", "].preload_loss"))
+        or name == "rivet.table_kind"
     ]
 
 
@@ -148,6 +153,14 @@ def settle_turns(model, scene):
     return float(np.mean(np.abs(inner - outer)) * t[-1] / (2.0 * np.pi))
 
 
+def changes_in_words(scene):
+    """Parameters that change in the run, by the time."""
+    found = {}
+    for at, values in scene.changes:
+        found.setdefault(f"{at:.9g} s", {}).update(values)
+    return found
+
+
 def provenance(model, scene):
     """Origin of a result: scene, inputs, FMU, versions, machine, date."""
     return {
@@ -169,6 +182,7 @@ def provenance(model, scene):
         ),
         "basis": dict(basis(model, [scene])),
         "replaced": list(scene.replaced),
+        "changes": changes_in_words(scene),
         "units": scene.units,
         "guid": model.description.guid,
         "model": model.description.description or model.description.modelName,

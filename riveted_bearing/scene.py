@@ -7,13 +7,16 @@
     output_interval = 1e-3            # optional, a multiple of step; *_peak channels keep the largest value in between
     tolerance = 1e-4                  # optional
     outputs = ["ring.*", "rivet[*].sigma_head_peak"]   # optional
-    [parameters]                      # fixed during the run; dotted keys, nested tables or quoted full names
+    [parameters]                      # at the start; dotted keys, nested tables or quoted full names
     joint.preload = "30 N"
     ring.tilt_mode = "supported"
     [inputs]                          # constant, points or a column of a CSV file; held before the first and after the last point
     shaft.F_y = "2994 N"
     shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
     shaft.F_x = { file = "loads.csv", column = "thrust", time = "t", unit = "kN", interpolation = "hold" }
+    [[change]]                        # of tunable parameters, at the first communication point from `at` on
+    at = "50 ms"
+    joint.mu = 0.3
 
 A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
 """
@@ -33,7 +36,7 @@ from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
-SECTIONS = ("description", "simulation", "parameters", "inputs")
+SECTIONS = ("description", "simulation", "parameters", "inputs", "change")
 OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet")  # what only a bearing file has
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
@@ -75,6 +78,7 @@ class Scene:
     source: str = ""  # the scene's file, "" for the FMU's own working point
     replaced: tuple = ()  # values of its file that stand in the place of the FMU's own, in words
     units: dict = field(default_factory=dict)  # units in which values were written, by full variable name
+    changes: tuple = ()  # (time [s], {name: value}) of parameters that change in the run, in the order of time
 
     @property
     def stride(self):
@@ -182,7 +186,7 @@ def apply(scene, where, document, model, folder):
     for key in document:
         if key not in SECTIONS:
             raise unknown(where, "key", key, SECTIONS)
-    sections = {name: section_of(where, document, name) for name in SECTIONS[1:]}
+    sections = {name: section_of(where, document, name) for name in SECTIONS[1:4]}
     parameters = read_section(
         where,
         "parameters",
@@ -212,9 +216,37 @@ def apply(scene, where, document, model, folder):
         description=str(document.get("description", scene.description)),
         parameters=merged(scene.parameters, parameters, own),
         inputs=scene.inputs | inputs,
+        changes=read_changes(where, document["change"], model) if "change" in document else scene.changes,
         units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
         **read_simulation(where, sections["simulation"], model),
     )
+
+
+def read_changes(where, blocks, model):
+    """Times and parameters of [[change]] in the order of time; UserError for a parameter that is fixed in a run."""
+    if not isinstance(blocks, list) or not all(isinstance(block, dict) and "at" in block for block in blocks):
+        raise refusal(where, "change", blocks, "[[change]] tables with at and parameters are needed")
+    found = []
+    for i, block in enumerate(blocks, 1):
+        label = f"{where}: change {i}"
+        try:
+            at = to_si(block["at"], SECONDS)
+        except UserError as problem:
+            raise refusal(label, "at", block["at"], problem) from None
+        section = {key: value for key, value in block.items() if key != "at"}
+        values = read_section(
+            label,
+            "parameters",
+            section,
+            model.parameters,
+            model.inputs,
+            lambda value, v: parameter_value(value, v, model),
+        )
+        for name in values:
+            if model.parameters[name].variability != "tunable":
+                raise refusal(label, name, values[name], "it is fixed in a run: docs/parameters.md has the reason")
+        found.append((at, values))
+    return tuple(sorted(found, key=lambda change: change[0]))
 
 
 def unit_of(value):

@@ -226,6 +226,33 @@ def settled(result):
     return late if has_statistics(result) else np.ones_like(late)
 
 
+PLACES = {1: "head", 2: "middle", 3: "by rivet[k].intact = 0"}
+
+
+def breaks(result):
+    """Rivets that broke by their damage, in the order of time: (number, place, time [s])."""
+    times = {k: t for k in rivets_of(result) if (t := result.summary.get(f"rivet[{k}].break_time", -1.0)) >= 0.0}
+    places = {k: PLACES.get(int(result.summary.get(f"rivet[{k}].broken", 1.0)), "") for k in times}
+    return sorted(((k, places[k], float(t)) for k, t in times.items()), key=lambda each: each[2])
+
+
+def gone_from(result):
+    """Time [s] from which on each broken rivet is gone: 0 of one that never was there."""
+    begun = {k: 0.0 for k in rivets_of(result) if result.parameters.get(f"rivet[{k}].intact", 1) == 0}
+    return begun | {k: t for k, _, t in breaks(result)}
+
+
+def rivets_of(result):
+    """Numbers of the rivets."""
+    return [k for k in range(1, 33) if f"rivet[{k}].intact" in result.parameters]
+
+
+def accelerated(result):
+    """Words on damage that was not counted as it is, "" where it was."""
+    factor = result.parameters.get("fatigue.acceleration", 1.0)
+    return "" if factor == 1.0 else f"damage accelerated {factor:g} times (fatigue.acceleration)"
+
+
 def columns(result, head, tail):
     """Recorded channels of one quantity of all balls or rivets."""
     return [name for name in result.data if name.startswith(head) and name.endswith(tail)]

@@ -509,6 +509,8 @@ static void records(void)
         for (size_t bin = 0; bin < STATISTICS_BINS; bin += 97)
             amount_refused(at + offsetof(StatisticsChannel, weight) + 8 * bin, "weight");
     }
+    range_refused(AT(lag.count), 0, MOTIONS, "motions that catch up");
+    range_refused(AT(lag.motion), 0, MOTIONS - 1, "motion that catches up");
     for (size_t kind = 0; kind < EVENT_COUNT; kind++) {
         count_refused(AT(event.onsets) + 8 * kind, "onsets");
         range_refused(AT(event.active) + 4 * kind, 0, 1, "active");
@@ -525,7 +527,7 @@ static bool holds_int(size_t at)
     }
     static const size_t ints[] = {offsetof(InstanceState, integrator.f_is_current),
                                   offsetof(InstanceState, initialized),
-                                  offsetof(InstanceState, history.steps)};
+                                  offsetof(InstanceState, history.steps), offsetof(InstanceState, lag.count)};
     for (size_t i = 0; i < sizeof ints / sizeof ints[0]; i++)
         if (at == ints[i] / 8 * 8) return true;
     for (size_t k = 0; k < 2 * Z; k++) {

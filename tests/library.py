@@ -91,6 +91,7 @@ class Model:
         )
         core.lib.variables_set_start(self.p, self.u)
         core.set_values(self.p, variables.PARAMETERS, parameters)
+        core.lib.variables_mark_given(self.p)
         core.set_values(self.u, variables.INPUTS, inputs)
         core.lib.temperature_apply(self.p, self.u, self.p)
         core.lib.model_derive(self.p, self.d)

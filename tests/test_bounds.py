@@ -108,6 +108,9 @@ TILTING = {"ring.tilt_mode": 2}
         ({"cage.J_t": 1e-10}, "cage.J_p"),  # 3 s a step before
         ({"cage.J_p": 1.0}, "cage.J_p"),
         ({"cage.J_p": 1.0, "cage.J_t": 1.0}, "cage.J_p"),
+        ({"cage.J_t": 1e-3}, "cage.J_t"),
+        ({"cage.m": 1e-5}, "cage.m"),  # 40,000 steps in 0.1 ms with cage.J_t = 0.7
+        ({"cage.m": 10.0}, "cage.m"),
         ({"cage.J_p": 4e-10, "cage.J_t": 2e-10}, "cage.J_p"),
         ({"cage.J_t": 1.04e-5}, "cage.J_p"),  # 2 % below J_p/2
         ({"cage.m": 0.05, "cage.J_p": 2.2e-5, "cage.J_t": 1.11e-5}, "cage.J_p"),  # of a lighter half
@@ -129,7 +132,7 @@ def test_impossible_inertia_is_refused(host, start, name):
     "start",
     [
         {},
-        {"cage.m": 10.0},  # moments of inertia left at their start follow the mass
+        {"cage.m": 0.1},  # moments of inertia left at their start follow the mass
         {"cage.m": 1e-3},
         {"cage.J_p": 2.0e-5},
         {"cage.J_p": 2.13e-5, "cage.J_t": 1.06e-5},  # a thin ring, rounded
@@ -157,6 +160,7 @@ def test_contradicting_motion_bounds_a_short_step(host):
     s after it, or fmi2Discard, when the whole mismatch of 1 mm was made up within the short step.
     """
     one, t, steps, force = host({}, logging=True).start(), 0.0, [], []
+    lags = []
     for k in range(24):
         h = 2e-8 if k == 17 else STEP
         if k >= 10:
@@ -165,10 +169,13 @@ def test_contradicting_motion_bounds_a_short_step(host):
         one.doStep(t, h)
         t += h
         steps.append(one.get("solver.steps")[0] - before)
+        lags.append(one.get("event.motion_lag")[0])
         force.append(np.hypot(*one.get("housing.F_y", "housing.F_z")))
     assert max(steps) < 3000 and max(force) < 5e5  # observed 671, 1.9e5 N
+    assert lags == [1.0 if k == 17 else 0.0 for k in range(24)]
+    assert one.get("event.motion_lag_onsets")[0] == 1.0
     said = [text for text in one.texts(fmi2.fmi2Warning) if "catches up" in text]
-    assert len(said) == 1 and "housing.z = 0, housing.v_z = 10" in said[0]
+    assert len(said) == 1 and "housing.z and housing.v_z" in said[0] and "they are -0.001 m and" in said[0]
 
 
 def motions(given, now, h, **parameters):
@@ -224,6 +231,71 @@ def test_smooth_motion_does_not_catch_up(h):
         u = ring_load.motion_trajectory(p, (given, InputDerivatives(), InputDerivatives()), now, h, history)
         history = ring_load.motion_remember(given, h, history)
         now = ring_load.input_trajectory_at(ring_load.input_trajectory_update(p, u, 0.0, 0.0), h)
+
+
+@pytest.mark.parametrize("name", ["housing.y", "housing.tilt_z", "frame.omega"])
+@pytest.mark.parametrize("h", [1e-9, 1e-7, 2e-6])
+def test_jump_stays_cheap(host, name, h):
+    """Twenty short steps and three of 0.1 ms after it; where the motion is caught up with, the event has gone."""
+    size = {"housing.y": 2e-4, "housing.tilt_z": 5e-3, "frame.omega": 50.0}[name]
+    one, t = host({}).start(), 0.0
+    one.set(**{name: size})
+    for step in [h] * 20 + [STEP] * 3:
+        one.doStep(t, step)
+        t += step
+    assert one.get("solver.steps")[0] < 5000  # observed 620 at most
+    assert one.get("event.motion_lag", "event.motion_lag_onsets") == pytest.approx([0.0, 1.0])
+
+
+def test_smooth_motions_are_no_event(host):
+    """Sines of housing and shaft, 3 kHz and 9e3 m/s2, in steps of 1 ns, of 1 us and of 1 to 5 us in turn."""
+    one = host({"ring.motion": 2, "shaft.x": 1e-5, "shaft.y": 2e-5}).start()
+    w, size, t = 2.0 * np.pi * 3e3, 2.5e-5, 0.0
+    for h in [1e-9] * 100 + [1e-6] * 100 + list(np.random.default_rng(5).choice([1e-6, 2e-6, 5e-6], 200)):
+        for name, place in (("housing.{}z", 0.0), ("shaft.{}y", 2e-5)):
+            one.set(**{name.format(""): place + size * (1.0 - np.cos(w * t))})
+            one.set(**{name.format("v_"): size * w * np.sin(w * t)})
+        one.doStep(t, h)
+        t += h
+        assert one.get("event.motion_lag")[0] == 0.0
+
+
+# -------------------------------------------------------------------------------------------------------- work limit
+
+
+def test_work_limit_scales_with_the_communication_step(host):
+    """0, the default: 10,000 steps for each 0.1 ms; a limit that is given counts for one communication step."""
+    limited = host({"solver.max_steps": 300}).start()
+    with pytest.raises(FMICallException) as refused:
+        limited.doStep(0.0, 1e-2)
+    assert refused.value.status == fmi2.fmi2Discard
+    assert "work limit is reached, 300 steps since 0 s (solver.max_steps = 300)" in limited.messages[-1][2]
+    one = host({}).start()
+    one.doStep(0.0, 5e-2)
+    assert one.get("solver.steps")[0] > 300
+
+
+def test_default_work_limit_is_in_force(host):
+    """30,000 times gravity at the smallest tolerance: refused after 0.2 s of processor time, with the number of steps."""
+    one = host({"frame.a_y": -3e5}, tolerance=1e-10).start()
+    with pytest.raises(FMICallException) as refused:
+        one.doStep(0.0, STEP)
+    assert refused.value.status == fmi2.fmi2Discard
+    assert "work limit is reached, 10000 steps since 0 s (solver.max_steps = 0)" in one.messages[-1][2]
+
+
+def test_smallest_tolerance_stays_within_the_work_limit(host):
+    one = host({}, tolerance=1e-10).start()
+    for k in range(2):
+        one.doStep(k * STEP, STEP)
+    assert one.get("solver.steps")[0] < 2 * 5000  # observed 2 * 860
+
+
+def test_fixed_steps_are_the_users_own(host):
+    """solver.step = 8 ns: 12,500 steps in 0.1 ms are no failure."""
+    one = host({"solver.method": 3, "solver.step": 8e-9}).start()
+    one.doStep(0.0, STEP)
+    assert one.get("solver.steps")[0] == 12500
 
 
 # --------------------------------------------------------------------------------------------------------- tolerance

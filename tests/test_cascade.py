@@ -10,9 +10,11 @@ from riveted_bearing import UserError
 from riveted_bearing.design.cascade import (
     Cascade,
     State,
+    breaks_of,
     follow,
     next_break,
     run_cascades,
+    run_single,
     write_cascades,
     write_picture,
 )
@@ -110,8 +112,11 @@ def test_neighbours_of_a_broken_rivet_carry_its_share(fmu, tmp_path, record_prop
     """
     document = {"scene": "demo", "seeds": 2, "breaks": 2, "simulation": {"t_end": "60 ms"}}
     document["parameters"] = {"scene.cage": "two_half", "start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
+    refused = {"seeds": 1, "breaks": 1, "case": [{"name": "heavy", "parameters": {"cage.J_t": 1e-3}}]}
     with cluster(None, 1) as client:
         found = run_cascades(tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
+        with pytest.raises(UserError, match=r"c\.toml: heavy: the run failed: .* refuses to start: cage\.J_t = 0\.001"):
+            run_cascades(tmp_path / "c.toml", refused, Model(fmu), tmp_path / "bad", lambda: client)
     again = run_cascades(
         tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: pytest.fail("no run is missing")
     )
@@ -125,3 +130,31 @@ def test_neighbours_of_a_broken_rivet_carry_its_share(fmu, tmp_path, record_prop
     stored = json.loads(write_cascades(found, tmp_path / "cascade.json").read_text())
     assert [each["rivet"] for each in stored["c"]["order"]] == [first[0], second[0]]
     assert write_picture(found, tmp_path / "cascade.png").stat().st_size > 10_000
+
+
+def test_one_simulation_and_restarts_agree(fmu, tmp_path, record_property):
+    """Two seeds: the first break of the single simulations comes within a factor of four of the restarts' time, as the
+    damage of 55 ms scatters; a single simulation stores rivet, place and hours.
+    """
+    document = {"scene": "demo", "seeds": 2, "breaks": 1, "simulation": {"t_end": "60 ms"}}
+    document["parameters"] = {"scene.cage": "two_half", "start.settle": "5 ms", "fatigue.sigma_D": "150 MPa"}
+    with cluster(None, 1) as client:
+        arguments = (tmp_path / "c.toml", document, Model(fmu), tmp_path / "runs", lambda: client)
+        found = run_cascades(*arguments)
+        single = run_single(*arguments, found)
+    (restarts,) = found[0].order
+    hours = [run[0][2] for run in single["c"] if run]
+    record_property("hours", [restarts[2], *hours])
+    assert hours and all(0.25 < each / restarts[2] < 4.0 for each in hours)
+    rates = found[0].states[0].rates.max(axis=1)
+    assert all(rates[run[0][0] - 1] > np.median(rates) for run in single["c"] if run)
+    stored = json.loads(write_cascades(found, tmp_path / "cascade.json", single).read_text())
+    assert next(run for run in stored["c"]["single"] if run)[0]["place"] in ("head", "middle")
+
+
+def test_breaks_of_a_run_in_hours():
+    """Damage accelerated 3.6e6 times: 1 ms stands for an hour."""
+    values = np.full((9, 2), -1.0)
+    values[3], values[7] = (0.052, 2.0), (0.051, 1.0)
+    assert [(k, place) for k, place, _ in breaks_of(values, 0.05, 3.6e6)] == [(8, "head"), (4, "middle")]
+    np.testing.assert_allclose([hours for *_, hours in breaks_of(values, 0.05, 3.6e6)], [1.0, 2.0])

@@ -10,7 +10,7 @@ from bearing_model.physics.hertz import hertz_contact
 
 REST = {"shaft.omega": 0.0, "shaft.F_x": 0.0}  # nothing tilts the balls' plane
 TABLE = default_table()
-KINDS = ("LAND_CONTACT", "POCKET_EXIT", "ELLIPSE_CUT", "OVERPRESSURE", "JOINT_OPEN", "RIVET_YIELD")
+KINDS = ("LAND_CONTACT", "POCKET_EXIT", "ELLIPSE_CUT", "OVERPRESSURE", "JOINT_OPEN", "RIVET_YIELD", "MOTION_LAG")
 NEAR = 1e-6  # relative distance from a limit, far above rounding
 
 

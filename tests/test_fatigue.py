@@ -11,6 +11,7 @@ import rainflow
 
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance import fatigue
+from riveted_bearing import run
 
 ASTM = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0]  # ASTM E1049-85, figure 6
 LAWS = {
@@ -157,6 +158,50 @@ def test_laws_against_closed_forms(core):
     assert cycle(core, law(2), 2e6, 800e6) == 1.0  # mean stress at the strength
     assert cycle(core, law(1), 1e12, 0.0) == 1.0  # life below one cycle
     assert math.isfinite(cycle(core, fatigue.FatigueLaw(k_1=40.0), 1e300, 0.0))
+
+
+@pytest.mark.parametrize("rule", list(MeanStress))
+def test_fretting_divides_the_strength(core, rule):
+    """A shank in a pressing hole: as much damage as a strength smaller by the factor; (2.4)^k below the knee, without a
+    mean.  With play, or at the factor 1: the law itself.
+    """
+    ffi, lib = core.ffi, core.lib
+    law = fatigue.FatigueLaw(fretting=2.4, mean_stress=rule)
+    weaker = fatigue.FatigueLaw(sigma_D=250e6 / 2.4, fretting=2.4, mean_stress=rule)
+
+    def in_hole(law, fit):
+        c = lib.fatigue_law_in_hole(ffi.new("FatigueLaw *", vars(law)), fit)
+        one = fatigue.fatigue_law_in_hole(law, fit)
+        assert {name: getattr(c, name) for name in vars(one)} == vars(one)
+        return one
+
+    assert in_hole(law, 1e-7) == weaker and in_hole(law, 0.0) == in_hole(law, -1e-6) == law
+    assert in_hole(fatigue.FatigueLaw(mean_stress=rule), 1e-7) == fatigue.FatigueLaw(mean_stress=rule)
+    small = [cycle(core, one, 100e6, 0.0) for one in (in_hole(law, 1e-7), law)]
+    assert small[0] / small[1] == pytest.approx(2.4**law.k_2, rel=1e-12)
+
+
+@pytest.mark.parametrize(("fit", "factor"), [("-20 um", 1.0), ("20 um", 2.0**15)])
+def test_fretting_weakens_the_middle_of_pressed_rivets(fit, factor):
+    """The same motion with and without: damage of the middle is 2^k_2 times larger where the hole presses, the head's
+    the same; far below the knee.
+    """
+    few = {"scene.stress": "fatigue", "scene.cage": "two_half", "start.settle": 1e-3, "joint.fit": fit}
+    plain, fretted = (
+        run(
+            "demo",
+            t_end=4e-3,
+            parameters=few | {"fatigue.fretting": factor},
+            outputs=["rivet[*].damage_head", "rivet[*].damage_mid"],
+        )
+        for factor in (1.0, 2.0)
+    )
+    for k in range(1, 10):
+        heads, mids = (
+            [r.data[f"rivet[{k}].damage_{place}"][-1] for r in (fretted, plain)] for place in ("head", "mid")
+        )
+        assert heads[0] == heads[1] > 0.0 and mids[1] > 0.0
+        assert mids[0] == pytest.approx(factor * mids[1], rel=1e-9)
 
 
 def test_constant_history_has_no_damage(new_channel):

@@ -42,6 +42,7 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "housing.interference": 1e-5,
     "housing.outside": 0.3,
     "oil.flow": 1e-5,
+    "joint.wear": 1e-7,
     "gravity.y": 9.81,
     "gravity.z": 9.81,
     "frame.radius": 0.1,
@@ -50,7 +51,7 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "pulse.F_a": 1000.0,
 }
 BESIDE = {"oil.nu_1": "oil.nu_2 = 5e-6\n", "oil.nu_2": "oil.nu_1 = 25e-6\n"}
-NO_EFFECT = {"solver.max_steps": "a limit that no run here reaches"}
+NO_EFFECT = {"solver.max_steps": "a limit that no run here reaches", "solver.clock": "measures the machine"}
 
 
 def another(model, v, name):
@@ -61,6 +62,8 @@ def another(model, v, name):
         return next(item for item in codes(variable) if item != SETTINGS.get(name, start))
     if v.name == "bearing.p_limit":
         return 1e9  # below the pressures of the working point
+    if v.name in NO_EFFECT:
+        return v.limits[1]
     if v.type == "Integer":
         return start + 1 if start < v.limits[1] else start - 1
     if start:

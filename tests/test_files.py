@@ -283,6 +283,21 @@ def test_a_text_in_place_of_a_number_is_one_message(little, tmp_path):
     assert files_below(tmp_path) == ["x.csv"]
 
 
+def test_two_users_and_one_cache(tmp_path, monkeypatch):
+    """A table that another user has made is read; where none can be written, the message names the variable.  Root, as
+    whom tests may run, has permission everywhere: os.access answers for another user.
+    """
+    from rivet_model.geometry import Geometry
+    from riveted_bearing.rivet import table_of
+
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    path = table_of("here", Geometry(shank_diameter=1.4e-3), "closed-form")
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    assert table_of("here", Geometry(shank_diameter=1.4e-3), "closed-form") == path
+    with pytest.raises(UserError, match=r"tables: no permission to write to this folder; .* XDG_CACHE_HOME"):
+        table_of("here", Geometry(shank_diameter=1.5e-3), "closed-form")
+
+
 def test_a_damaged_table_of_the_cache_is_made_anew(tmp_path, monkeypatch):
     from riveted_bearing.rivet import is_table, table_of
 

@@ -1,7 +1,12 @@
 """What a new user does first: an own FMU without a scene, a scene of another bearing, names of variables, the version."""
 
+import os
 import re
+import subprocess
+import sys
+import tomllib
 import zipfile
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -9,9 +14,12 @@ from typer.testing import CliRunner
 from bearing_model.generated.variables import ESSENTIALS
 from riveted_bearing import __version__, run
 from riveted_bearing.cli import program
+from riveted_bearing.cli.terminal import FULL
 from riveted_bearing.fmu import Model
 from riveted_bearing.scene import load_scene
 from riveted_bearing.variable_list import essentials, matching
+
+ROOT = Path(__file__).resolve().parents[1]
 
 
 def test_without_a_scene_the_fmu_has_its_own_working_point(own):
@@ -100,3 +108,54 @@ def test_variables_have_unit_and_limits(own):
 def test_the_version():
     done = CliRunner().invoke(program, ["--version"])
     assert done.exit_code == 0 and done.stdout.startswith(f"riveted-bearing {__version__}, Python 3")
+
+
+LEAN = """
+import sys
+
+for name in {libraries!r}:
+    sys.modules[name] = None  # as if it were not installed
+from riveted_bearing.cli import program
+
+program(sys.argv[1:])
+"""
+
+
+def test_an_installation_to_simulate_needs_few_libraries(fmu, tmp_path):
+    """Without the libraries of the extra full a run writes CSV and says so; other commands name what they lack."""
+    script = tmp_path / "lean.py"
+    script.write_text(LEAN.format(libraries=(*FULL, "pandas", "markdown_it", "latex2mathml")))
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+
+    def done(*arguments):
+        words = [sys.executable, str(script), *arguments]
+        return subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+
+    ran = done("run", "demo", "--fmu", str(fmu), "--t-end", "2 ms")
+    assert ran.returncode == 0 and (tmp_path / "results" / "demo.csv").is_file(), ran.stderr
+    assert "without pyarrow Parquet is left out" in ran.stderr and "without matplotlib the picture" in ran.stderr
+    assert done("variables", "joint.preload").returncode == 0
+    for words, library in ((("info", "6309"), "scipy"), (("report", "results/demo.csv"), "matplotlib")):
+        refused = done(*words)
+        assert refused.returncode == 2 and f"needs {library}" in refused.stderr and "[full]" in refused.stderr
+        assert "Traceback" not in refused.stderr
+
+
+def test_the_libraries_of_a_run_are_the_few(fmu):
+    """What pyproject.toml requires without an extra is what the test above leaves."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    names = [re.match(r"[\w-]+", text)[0] for text in project["dependencies"]]
+    assert names == ["fmpy", "numpy", "typer", "rich"]
+    full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["full"]}
+    assert {{"skfem": "scikit-fem", "distributed": "dask"}.get(name, name) for name in FULL} <= full
+
+
+def test_the_cookbook_comes_with_the_program():
+    """The pages of docs/, as files for a pipe; the wheel has them in _source/docs (cmake/fmu.cmake)."""
+    run_it = lambda *words: CliRunner().invoke(program, ["cookbook", *words])
+    assert run_it().stdout == (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
+    listed = run_it("list").stdout.splitlines()
+    assert {line.split()[0] for line in listed} == {path.stem for path in (ROOT / "docs").glob("*.md")}
+    refused = run_it("recipe")
+    assert refused.exit_code == 2 and 'did you mean "recipes"' in refused.output
+    assert "fmu_src fmus docs DESTINATION" in (ROOT / "cmake" / "fmu.cmake").read_text()

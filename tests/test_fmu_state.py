@@ -9,13 +9,14 @@ import subprocess
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
 import pytest
 from slave import DISCARD, ERROR, OK, Slave
 
-from bearing_model.generated.variables import Method
+from bearing_model.generated.variables import Method, Switch
 
 H = 1e-4  # communication step [s]
 LINUX = sys.platform.startswith("linux")
@@ -62,12 +63,29 @@ def test_any_thread(folder):
         assert same_bits(slave.outputs(), Slave(folder).initialize(shaft__F_y=float(load)).step(H, 10).outputs())
 
 
+def test_a_pool_of_threads_that_create_and_free(folder):
+    """32 threads, 128 instances of four loads and both cages, each created, stepped and freed in its thread: the bits of
+    instances one after the other.
+    """
+    cases = [(1000.0 + 500.0 * (n % 4), 1 if n % 8 < 4 else 3) for n in range(128)]
+
+    def outputs(case):
+        slave = Slave(folder).initialize(shaft__F_y=case[0], scene__cage=case[1]).step(H, 3)
+        found = slave.outputs().tobytes()
+        slave.free()
+        return found
+
+    expected = {case: outputs(case) for case in set(cases)}
+    with ThreadPoolExecutor(32) as pool:
+        assert list(pool.map(outputs, cases)) == [expected[case] for case in cases]
+
+
 @pytest.mark.skipif(not LINUX, reason="other systems' clocks tick too rarely")
 def test_processor_time_is_of_the_stepping_thread(folder):
     """Two threads at a time: what both count is no more than what the process spent, which a clock of the process would
     count twice.
     """
-    slaves = [Slave(folder).initialize() for _ in range(2)]
+    slaves = [Slave(folder).initialize(solver__clock=Switch.ON) for _ in range(2)]
     threads = [threading.Thread(target=slave.step, args=(1e-2, 20)) for slave in slaves]
     before = time.process_time()
     for thread in threads:

@@ -452,6 +452,25 @@ def finished(process):
     return out, err, process.returncode
 
 
+def test_a_killed_mission_goes_on(tmp_path):
+    """kill -9 of all its processes after the first run; folder and file have spaces and letters of other scripts."""
+    folder = tmp_path / "Übung 轴承"
+    folder.mkdir()
+    (folder / "trial.toml").write_text(MISSION)
+    results = folder / "results" / "trial"
+    process = start(folder, "--workers", "1")
+    patience = time.monotonic() + 300
+    while not list(results.glob("run-*.parquet")) and time.monotonic() < patience:
+        time.sleep(0.02)
+    os.killpg(process.pid, signal.SIGKILL)
+    finished(process)
+    kept = {path.name: path.stat().st_mtime_ns for path in results.glob("run-*.parquet")}
+    assert kept and not (results / "life.json").exists()
+    _, err, code = finished(start(folder, "--workers", "1"))
+    assert code == 0, err
+    assert {path.name for path in results.iterdir()} >= {"life.json", "life.html", "life.png", "runs.parquet"}
+
+
 def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
     """Ctrl-C after the first run: what is done is kept and one line says so; afterwards life.json is that of a run
     without a stop.  Then an S-N curve is given: the same runs, another life.
@@ -504,3 +523,36 @@ def test_a_bad_mission_ends_with_one_line_and_exit_code_2(tmp_path, text, fragme
     assert code == 2 and not out and err.count("\n") == 1
     for fragment in fragments:
         assert fragment in err
+
+
+# changes of parameters ------------------------------------------------------------------------------------------------
+
+
+def test_a_change_divides_the_point_in_which_it_falls(model):
+    """At 2 h of points of 1 h and 3 h: the second one is divided, and its rest and the third have the value."""
+    loads = {"shaft.F_y": 2000.0}
+    mission = mission_of(
+        model, [(1.0, loads), (3.0, loads), (1.0, loads)], change=[{"at": "2 h", "joint": {"mu": 0.2}}]
+    )
+    assert [(part.name, part.weight) for part in mission.parts] == [
+        ("1", 1.0),
+        ("2", 1.0),
+        ("2 from 2 h", 2.0),
+        ("3", 1.0),
+    ]
+    assert [part.scene.parameters.get("joint.mu") for part in mission.parts] == [None, None, 0.2, 0.2]
+    assert mission.hours == 5.0
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"joint": {"mu": 0.2}}, "change 1: at is needed"),
+        ({"at": 1.0, "bearing": {"D": 0.01}}, "bearing.D is fixed in a run"),
+        ({"at": 7.0, "joint": {"mu": 0.2}}, "change.at = .*below the 2 h"),
+        ({"at": 1.0, "scene": {"breakage": "on"}}, "not free here"),
+    ],
+)
+def test_a_change_that_cannot_be_is_refused(model, change, words):
+    with pytest.raises(UserError, match=words):
+        mission_of(model, [(2.0, {"shaft.F_y": 2000.0})], change=[change])

@@ -26,18 +26,24 @@ LIMITS = {  # words of a page
     "docs/guide.md": 2000,
     "docs/life.md": 1400,
     "docs/method.md": 3000,
-    "docs/own_bearing.md": 1000,
+    "docs/own_bearing.md": 1100,
     "docs/performance.md": 1800,
     "docs/physics.md": 1300,
     "docs/releasing.md": 300,
     "docs/rivet.md": 2000,
-    "docs/rules.md": 650,
-    "docs/running.md": 1000,
+    "docs/rules.md": 700,
+    "docs/running.md": 1200,
     "docs/stability.md": 900,
     "docs/sweeps.md": 550,
     "docs/validation.md": 2400,
 }
-NOTE, ALL_PAGES = 400, 25_200
+LATER = {  # pages beside those, which together have a limit
+    "docs/real_time.md": 900,
+    "docs/changing.md": 900,
+    "docs/recipes.md": 1500,
+    "docs/showing.md": 600,
+}
+NOTE, ALL_PAGES = 400, 25_650
 SENTENCE, LINE, LONG_LINES = 35, 160, 0.01
 
 ABBREVIATIONS = "Fig Figs Eq Eqs eq eqs Ref Refs Sec Tab Nos Vol vol p pp e.g i.e cf vs al approx resp Dr".split()
@@ -161,19 +167,19 @@ a block. Of code
 
 def test_every_page_has_a_limit():
     pages = {name_of(page) for page in PAGES if page not in NOTES} - set(GENERATED)
-    assert pages == set(LIMITS)
+    assert pages == {*LIMITS, *LATER}
 
 
 @each([page for page in PAGES if name_of(page) not in GENERATED])
 def test_words(page):
-    limit = NOTE if page in NOTES else LIMITS[name_of(page)]
+    limit = NOTE if page in NOTES else (LIMITS | LATER)[name_of(page)]
     found = len(page.read_text(encoding="utf-8").split())
     assert found <= limit, f"{name_of(page)}: {found} words, at most {limit}"
 
 
 def test_words_of_all_pages():
     count = {name_of(page): len(page.read_text(encoding="utf-8").split()) for page in PAGES}
-    total = sum(found for name, found in count.items() if name not in GENERATED)
+    total = sum(found for name, found in count.items() if name not in {*GENERATED, *LATER})
     assert total <= ALL_PAGES, f"{total} words, at most {ALL_PAGES}"
 
 

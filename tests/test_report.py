@@ -24,6 +24,7 @@ from riveted_bearing.design.sensitivity import Sensitivity
 from riveted_bearing.life import fatigue_law, rivet_life
 from riveted_bearing.report import CHARTS, OF_ELASTIC, duration, figure, render, report_files, report_pages
 from riveted_bearing.results import Result
+from riveted_bearing.summary import breaks, gone_from
 
 T_END = 0.012
 
@@ -113,6 +114,24 @@ def test_rigid_halves_do_not_bend(result):
 
 
 @pytest.mark.filterwarnings("error")
+def test_breaks_are_on_the_page_in_the_charts_and_in_the_film():
+    """Rivets that break in a run: the page lists them, the film lets them vanish at that time, the basis and the page say
+    that damage was accelerated.
+    """
+    weak = {"fatigue.sigma_D": "30 MPa", "fatigue.k_1": 5, "fatigue.k_2": 5, "fatigue.acceleration": 3e4}
+    scene = {"start.settle": 0.0, "scene.stress": "fatigue", "scene.breakage": "on", "scene.cage": "two_half"}
+    broken = run("demo", t_end=0.02, parameters=scene | weak)
+    found, gone = breaks(broken), gone_from(broken)
+    assert found and gone == {k: t for k, _, t in found} and all(0.0 < t <= 0.02 for t in gone.values())
+    assert [t for *_, t in found] == sorted(t for *_, t in found)
+    page, film = render(broken), frames(broken)[0]
+    assert "Broken rivets" in page and film["gone"] == gone
+    assert "damage accelerated 30000 times" in page
+    assert "accelerated 30000 times" in broken.about["basis"]["damage"]
+    whole = run("demo", t_end=2e-3, parameters={"rivet[4].intact": 0})
+    assert breaks(whole) == [] and gone_from(whole) == {4: 0.0}
+
+
 def test_a_run_without_stress_has_a_page():
     shown = render(run("demo", t_end=2e-3, parameters={"start.settle": 0.0, "scene.stress": "off"}))
     assert shown.count("the stress does not change") == 2  # spectra, rainflow

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from riveted_bearing import read_result, run, write_result
 from riveted_bearing.errors import UserError
 from riveted_bearing.fmu import Model
 from riveted_bearing.scene import History, load_scene, shipped_scenes
@@ -85,6 +86,11 @@ def test_scenes_mean_what_the_design_says(model):
     assert scenes["R"].parameters["ring.k_tilt"] == 2e4 and scenes["F"].parameters["ring.k_tilt"] == 1000.0
     assert scenes["R"].inputs["shaft.tilt_z"](0.0) == pytest.approx(math.radians(0.15), rel=1e-12)
     assert scenes["jam"].parameters["start.settle"] == 0.2 and scenes["jam"].parameters["ring.k_tilt"] == 500.0
+    free, physical = scenes["paper"].parameters, scenes["physical"].parameters
+    assert free["ring.tilt_mode"] == physical["ring.tilt_mode"] == "free" and free["scene.lubrication"] == "mixed"
+    differ = {name: (free[name], physical[name]) for name in free if free[name] != physical[name]}
+    assert differ == {"cage.centrifugal": ("off", "on"), "scene.cage": ("two_half", "elastic")}
+    assert (free["cage.pocket_clearance"], free["cage.guide_clearance"]) == pytest.approx((1e-4, 2e-4), rel=1e-15)
     for name in ("R", "F", "jam"):
         assert (
             scenes[name].parameters["ring.tilt_mode"] == "supported"
@@ -237,3 +243,38 @@ def test_a_scene_that_is_not_there(model, tmp_path):
         load_scene("dmeo", model)
     with pytest.raises(UserError, match="none.toml: no such scene file"):
         load_scene(tmp_path / "none.toml", model)
+
+
+# changes in a run -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("kind", ["parquet", "csv"])
+def test_a_scene_changes_parameters_in_the_run(tmp_path, kind):
+    """At the first communication point from `at` on; the file of results says so."""
+    path = tmp_path / "changing.toml"
+    path.write_text(
+        '[simulation]\nt_end = "2 ms"\noutputs = ["rivet[1].P", "rivet[2].P"]\n[parameters]\nscene.cage = "two_half"\n'
+        '[[change]]\nat = "1.05 ms"\njoint.preload = "35 N"\n[[change]]\nat = "0.5 ms"\n"rivet[2].intact" = 0\n'
+    )
+    result = run(path)
+    t, first, second = (result.data[name] for name in ("time", "rivet[1].P", "rivet[2].P"))
+    np.testing.assert_array_equal(first, np.where(t < 1.15e-3, 20.0, 35.0))
+    np.testing.assert_array_equal(second, np.where(t < 0.55e-3, 20.0, 0.0))
+    expected = {"0.0005 s": {"rivet[2].intact": 0}, "0.00105 s": {"joint.preload": 35.0}}
+    assert read_result(write_result(result, tmp_path / f"r.{kind}")).about["changes"] == expected
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ('at = "1 ms"\nbearing.D = "11 mm"', "bearing.D"),
+        ("joint.mu = 0.1", "at and parameters"),
+        ('at = "1 N"\njoint.mu = 0.1', "at"),
+        ('at = "1 ms"\njoint.mu = 7', "joint.mu"),
+    ],
+)
+def test_a_change_that_cannot_be_is_refused(tmp_path, change, words):
+    path = tmp_path / "changing.toml"
+    path.write_text(f"[[change]]\n{change}\n")
+    with pytest.raises(UserError, match=words):
+        run(path, t_end=2e-3)

@@ -173,3 +173,21 @@ def test_rotor_in_ross(fmu, tmp_path, record_property):
     assert np.abs(on_fmus[:2] / by_ross[:2] - 1.0).max() < 0.02
     assert np.abs(on_fmus[2:] / by_ross[2:] - 1.0).max() < 0.01
     assert apart.max() < 0.02
+
+
+# --------------------------------------------------------------------------------------------------- a failure of the oil
+
+
+def test_oil_off(fmu, tmp_path, record_property):
+    """50 ms without oil, by fmpy: the drag of the balls goes with the density of the mixture, 1.2/35, and comes back; the
+    pockets lose more by dry friction.
+    """
+    oil_off = example("oil_off", "oil_off.py")
+    result = oil_off.run(0.03, 0.05, 0.03, fmu=fmu, **{"scene.cage": 1})
+    means = oil_off.means(result, 0.03, 0.05)
+    record_property("means", json.dumps(means))
+    before, without, after = (means[name] for name in ("before", "without oil", "after"))
+    assert without["loss.ball_drag"] == pytest.approx(before["loss.ball_drag"] * 1.2 / 35.0, rel=0.02)
+    assert after["loss.ball_drag"] == pytest.approx(before["loss.ball_drag"], rel=0.01)
+    assert without["loss.pockets"] > 1.5 * before["loss.pockets"] > after["loss.pockets"]
+    oil_off.picture(result, 0.03, 0.05, tmp_path / "oil_off.png")

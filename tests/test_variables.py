@@ -114,6 +114,20 @@ def test_base_units_agree_with_the_names():
         assert {si: int(base.get(si, 0)) for si in expected} == expected, unit.get("name")
 
 
+def test_no_tolerance_that_importers_would_pass_on():
+    """fmpy and others hand the tolerance of DefaultExperiment to fmi2SetupExperiment, where it replaces solver.tol, also
+    one that the user has set: the description has none.
+    """
+    experiment = etree.parse(str(DESCRIPTION)).find("DefaultExperiment")
+    assert set(experiment.attrib) == {"startTime", "stopTime", "stepSize"}
+
+
+def test_instants_of_a_chaotic_motion_say_so():
+    """Loads and stresses that differ between communication steps of h and h/10 name the statistics that agree."""
+    for name in ("rivet[k].N", "rivet[k].V", "rivet[k].sigma_head", "ball[j].Q_c", "cage.F_pocket_max"):
+        assert variables.OUTPUTS[name].description.endswith("at an instant of a chaotic motion: compare stat.*")
+
+
 def test_structure(description):
     """Every output listed; derivatives of the exposed states; what does not depend on inputs says so."""
     outputs = {v.name for v in description.modelVariables if v.causality == "output"}

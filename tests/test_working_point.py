@@ -294,22 +294,11 @@ def test_statistics_near_the_prototype(statistics, name):
     assert statistics[name] == pytest.approx(PROTOTYPE[name], rel=0.25)
 
 
-@pytest.mark.parametrize(
-    ("what", "changes"),
-    [
-        # keeps its kinematic speed whatever the balls do
-        ("frozen", {"cage.m": 10.0}),
-        ("free", {"cage.pocket_clearance": 2.6e-3, "cage.width": 14.8e-3}),
-    ],
-)
-def test_frozen_or_free_cage_would_be_seen(simulate, what, changes):
-    """The bands above are narrow enough: mean force 1.5 N with a cage too heavy to move, duty 2 % with one that is
-    hardly touched.
-    """
-    names = [f"stat.{name}" for name in PROTOTYPE]
-    run = simulate(0.2, 1e-3, names, settle=0.2, **STATISTICS, **FRICTION, **changes)
-    outside = [name for name in PROTOTYPE if abs(run[f"stat.{name}"][-1] / PROTOTYPE[name] - 1.0) > 0.25]
-    assert {"frozen": "Q_c_mean", "free": "contact_duty"}[what] in outside
+def test_free_cage_would_be_seen(simulate):
+    """The bands above are narrow enough: duty 2 % with a cage that is hardly touched."""
+    free = {"cage.pocket_clearance": 2.6e-3, "cage.width": 14.8e-3}
+    run = simulate(0.2, 1e-3, ["stat.contact_duty"], settle=0.2, **STATISTICS, **FRICTION, **free)
+    assert abs(run["stat.contact_duty"][-1] / PROTOTYPE["contact_duty"] - 1.0) > 0.25
 
 
 def test_extremes_near_the_prototype(core):

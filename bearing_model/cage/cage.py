@@ -281,6 +281,20 @@ def cage_slip(model, w):
     return np.hypot(*joints_in_plane(model, w)[0])
 
 
+def cage_rubbing(model, w):
+    """Normal force times slip speed of plates and heads at each joint [W], without the slip that is elastic.
+
+    Where they slip, the traction is mu times the pressure, so that it is what they dissipate over mu.
+    """
+    joint, d, series = model.p.joint, model.d, model.modes.series if model.modes else 1.0
+    at = w.elastic.joints if model.modes else w.two_half
+    faces = ((at.N_plate, w.plate_rate, w.S, d.k_plate_t), (at.rivet[0], w.head_rate, w.H, d.k_head))
+    return sum(
+        rate * np.sum(F * F, axis=0) / (series * k) * normal / (joint.mu * normal + joint.F_floor)
+        for normal, rate, F, k in faces
+    )
+
+
 def pocket_energy(model, w):
     """Elastic energy of all pockets [J], [..., Z]; of elastic walls also that in their compliance, beside their modes."""
     d, E = model.d, 0.0

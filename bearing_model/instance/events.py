@@ -73,4 +73,5 @@ def event_outputs(model, w):
             2.0 * ring_fit_growth(d.fit, ring_fit_speed(model.ring_load)) - p.bearing.P_d + 0.0 * w.x[..., :1], 0.0
         ),
         "event.joint_open": count(w.u[0], d.P / d.k_plate),
+        "event.step_too_long": np.zeros_like(w.x[..., 0]),  # its methods choose their steps
     }

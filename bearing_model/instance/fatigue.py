@@ -2,7 +2,7 @@
 
 import copy
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from bearing_model.generated.variables import MeanStress
 
@@ -19,7 +19,19 @@ class FatigueLaw:
     k_2: float = 15.0
     sigma_m: float = 785e6
     sigma_f: float = 1180e6
+    acceleration: float = 1.0  # factor on the damage of each cycle that is counted
+    fretting: float = 1.0
     mean_stress: int = MeanStress.GOODMAN
+
+
+def fatigue_law(p, k):
+    """The law of rivet k (from 0), whose strength_factor scales all strengths."""
+    return strengthened(FatigueLaw(**vars(p.fatigue)), p.rivet.strength_factor[k])
+
+
+def strengthened(law, factor):
+    """The law with all strengths times a factor."""
+    return replace(law, **{name: factor * getattr(law, name) for name in ("sigma_D", "sigma_m", "sigma_f")})
 
 
 def fully_reversed(law, sigma_a, sigma_mean):
@@ -35,6 +47,13 @@ def fully_reversed(law, sigma_a, sigma_mean):
     else:
         room = 1.0
     return sigma_a / room if room > 0.0 else math.inf
+
+
+def fatigue_law_in_hole(law, fit_eff):
+    """Law of the shank's middle in a hole with an effective fit [m]: sigma_D/fretting under the pressure of an
+    interference.  DIN 743-2 for shafts in press fits.
+    """
+    return replace(law, sigma_D=law.sigma_D / law.fretting) if fit_eff > 0.0 else law
 
 
 def fatigue_cycle(law, range_, mean):
@@ -66,7 +85,7 @@ class FatigueChannel:
 
     def push(self, law, sigma):
         """Next sample of the history [Pa]."""
-        direction = (sigma > self.last) - (sigma < self.last)
+        direction = int(sigma > self.last) - int(sigma < self.last)
         if self.samples == 0:
             self.samples = 1
             self._turning_point(law, sigma)
@@ -86,7 +105,7 @@ class FatigueChannel:
         return rest.closed
 
     def _count(self, law, cycles, start, end):
-        self.closed += cycles * fatigue_cycle(law, abs(start - end), 0.5 * (start + end))
+        self.closed += law.acceleration * cycles * fatigue_cycle(law, abs(start - end), 0.5 * (start + end))
 
     def _drop_first(self, law):
         self._count(law, 0.5, self.stack[0], self.stack[1])

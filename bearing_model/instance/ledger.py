@@ -1,6 +1,6 @@
 """Where the energy goes: what was supplied, stored and lost since the start, term by term.
 
-    sum of supplied = change of energy + sum of lost
+    sum of supplied + sum of changed = change of energy + sum of lost
 
 Powers are integrated over the accepted steps from their values and rates at both ends,  h (P_0 + P_1)/2 + h^2 (P_0' - P_1')/12  (order 4, Hermite),
 the energies are those of the states, so that the two sides of the balance share nothing but the trajectory.  The rates
@@ -25,17 +25,27 @@ class Ledger:
 
     supplied: by the inner ring's spin (the shaft's torque), translation and tilting, by the housing, by gravity and
     frame; stored: change of kinetic and elastic energies;
+    changed: by parameters that were set in the run and rivets that broke, part of stored;
     lost: in races, pockets, drag, land and joints.
     """
 
     supplied: dict = field(default_factory=dict)
     stored: dict = field(default_factory=dict)
     lost: dict = field(default_factory=dict)
+    changed: dict = field(default_factory=dict)
 
     @property
     def residual(self):
-        """Supplied - stored - lost [J]: zero but for the error of the integration."""
-        return sum(self.supplied.values()) - sum(self.stored.values()) - sum(self.lost.values())
+        """Supplied + changed - stored - lost [J]: zero but for the error of the integration."""
+        put_in = sum(self.supplied.values()) + sum(self.changed.values())
+        return put_in - sum(self.stored.values()) - sum(self.lost.values())
+
+    def add_change(self, before, after):
+        """Add the energies {name: J} that a change of parameters takes from `before` to `after` at once."""
+        for name, energy in after.items():
+            jump = float(np.squeeze(energy - before[name]))
+            self.changed[name] = self.changed.get(name, 0.0) + jump
+            self.stored[name] = self.stored.get(name, 0.0) + jump
 
     def add(self, model, t, y):
         """Add the steps between the times t [points], whose states are y [points, N_STATES]; the first point is the
@@ -52,7 +62,7 @@ class Ledger:
             self.stored[name] = self.stored.get(name, 0.0) + energy[-1, 0] - energy[0, 0]
 
     def copy(self):
-        return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost))
+        return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost), dict(self.changed))
 
     @classmethod
     def over_time(cls, ledgers):
@@ -62,7 +72,7 @@ class Ledger:
             terms = getattr(ledgers[-1], name)
             return {term: np.array([getattr(ledger, name).get(term, 0.0) for ledger in ledgers]) for term in terms}
 
-        return cls(account("supplied"), account("stored"), account("lost"))
+        return cls(account("supplied"), account("stored"), account("lost"), account("changed"))
 
 
 def integral(h, P, P_dot):

@@ -192,7 +192,7 @@ def stress_outputs(model, w):
     }
 
 
-def energy_outputs(model, y, w, energy_start):
+def energy_outputs(model, y, w, energy_start, energy_change):
     energy, work = energy_total(model, y, w), y[..., WORK][..., 0]
     parts = {
         "races": w.race_dissipated,
@@ -217,13 +217,14 @@ def energy_outputs(model, y, w, energy_start):
     }
     return {name: value[..., 0] for name, value in values.items()} | {
         "bearing.energy": energy,
-        "bearing.energy_residual": energy - energy_start - work,
+        "bearing.energy_change": energy_change + 0.0 * energy,
+        "bearing.energy_residual": energy - energy_start - energy_change - work,
     }
 
 
-def outputs(model, w, y, y_dot, energy_start):
+def outputs(model, w, y, y_dot, energy_start, energy_change=0.0):
     """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total
-    at the start [J].
+    at the start, energy_change: what changes of parameters have added since [J].
     """
     values = {"bearing.Z": np.full(y.shape[:-1], float(Z))}
     values |= (
@@ -233,6 +234,6 @@ def outputs(model, w, y, y_dot, energy_start):
         values
         | rivet_outputs(model, w)
         | stress_outputs(model, w)
-        | energy_outputs(model, y, w, energy_start)
+        | energy_outputs(model, y, w, energy_start, energy_change)
         | event_outputs(model, w)
     )

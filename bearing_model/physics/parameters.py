@@ -4,6 +4,7 @@ SI units.
 A name that Python reserves has an underscore behind it: p.bearing.lambda_.
 """
 
+import copy
 import keyword
 import math
 from dataclasses import replace
@@ -32,6 +33,12 @@ ENUMERATIONS = (
 TYPES = {enumeration.__name__: enumeration for enumeration in ENUMERATIONS}
 
 
+def place(name):
+    """Group and member of a variable: "bearing.lambda" is p.bearing.lambda_."""
+    group, member = name.replace("[j]", "").replace("[k]", "").split(".")
+    return group, member + "_" * keyword.iskeyword(member)
+
+
 class Values:
     """Groups of values of one table, start values where nothing is given."""
 
@@ -49,8 +56,7 @@ class Values:
                 value = np.array([admit(variable, v) for v in value])
             else:
                 value = admit(variable, value)
-            group, member = name.replace("[j]", "").replace("[k]", "").split(".")
-            member += "_" * keyword.iskeyword(member)
+            group, member = place(name)
             if not hasattr(self, group):
                 setattr(self, group, SimpleNamespace())
             setattr(getattr(self, group), member, value)
@@ -67,7 +73,46 @@ class Parameters(Values):
 
     def __init__(self, values=None):
         super().__init__(PARAMETERS, values)
+        self.mark_given()
         check_geometry(self)
+
+    def mark_given(self):
+        """Mark the parameters whose start value stands for one that follows from others, where they differ from it."""
+        own = {n.replace(".", "_"): self.value(n) != v.start for n, v in PARAMETERS.items() if v.derives}
+        self.given = SimpleNamespace(**own)
+
+    def value(self, name):
+        """Value of a parameter by its name in the table."""
+        group, member = place(name)
+        return getattr(getattr(self, group), member)
+
+    def changed(self, values):
+        """These parameters with values {name: value} that are set in a run: "joint.mu", "rivet[3].intact", "rivet[k].intact".
+
+        ValueError as at the start, and for a parameter that is fixed.
+        """
+        p = copy.deepcopy(self)
+        for name, value in values.items():
+            head, bracket, rest = name.partition("[")
+            number, _, tail = rest.partition("]")
+            letter = next((x for x in "jk" if f"{head}[{x}]{tail}" in PARAMETERS), "") if bracket else ""
+            table_name = f"{head}[{letter}]{tail}" if letter else name
+            require(table_name in PARAMETERS, f"{name}: unknown; variables are listed in docs/parameters.md")
+            variable = PARAMETERS[table_name]
+            require(
+                not variable.fixed,
+                f"{name} = {value} is not allowed: it is fixed after initialization, for {variable.fixed}",
+            )
+            group, member = place(table_name)
+            new = np.array(p.value(table_name)) if variable.count > 1 else admit(variable, value)
+            if variable.count > 1:
+                where = slice(None) if number in "jk" else int(number) - 1
+                new[where] = [admit(variable, v) for v in value] if np.ndim(value) else admit(variable, value)
+            setattr(getattr(p, group), member, new)
+            if variable.derives:
+                setattr(p.given, table_name.replace(".", "_"), True)
+        check_geometry(p)
+        return p
 
 
 class Inputs(Values):
@@ -170,6 +215,9 @@ def check_geometry(p):
         p.fatigue.k_2 >= p.fatigue.k_1,
         f"fatigue.k_2 = {p.fatigue.k_2}: at least fatigue.k_1 = {p.fatigue.k_1} is allowed",
     )
+    on = "rivets break by their damage, which scene.stress = fatigue alone counts; allowed is off, or on with it"
+    counted = p.scene.breakage != variables.Switch.ON or p.scene.stress == variables.Stress.FATIGUE
+    require(counted, f"scene.breakage = on: {on}")
     apart = p.pulse.count < 2 or p.pulse.interval >= p.pulse.duration
     require(apart, f"pulse.interval = {p.pulse.interval} s: at least pulse.duration = {p.pulse.duration} s is allowed")
     clearance = pocket + p.pocket.dD

@@ -10,10 +10,11 @@ fits     the seats' interference changes by the difference of the expansions; th
 oil      eta = eta_0 rho(T) nu(T)/(rho(T_0) nu(T_0)), nu by Walther's law (viscosity.py), rho = rho_0 (1 - a (T - T_0)),
          alpha = alpha_0 exp(-c (T - T_0)), beta = beta_0 beta(T)/beta(T_0)
 
-T_a: temperature at which the rivet table gives preload and fit.  eta_0 and beta_0 left at their start values are those
-of the variable table's oil, so that the two points alone decide.  At the start values of all temperatures no parameter
-changes, not even its last bit.  Neglected: expansion of the widths and of the circle of rivets, growth of ring and cage
-inertia, elastic constants over temperature.  Masses stay as they are.
+T_a: temperature at which the rivet table gives preload and fit.  eta_0 and beta_0 that are not given (left at their
+start values before the run, never set in it) are those of the variable table's oil, so that the two points alone
+decide.  At the start values of all temperatures no parameter changes, not even its last bit.  Neglected: expansion of
+the widths and of the circle of rivets, growth of ring and cage inertia, elastic constants over temperature.  Masses
+stay as they are.
 """
 
 import copy
@@ -53,8 +54,8 @@ def oil_ratios(oil, T, other):
 def heat_oil(p, T, hot):
     given_eta, given_beta = oil_ratios(p.oil, T, p.oil)
     eta, beta = oil_ratios(p.oil, T, START_OIL)
-    hot.oil.eta = p.oil.eta * (eta if p.oil.eta == START_OIL.eta else given_eta)
-    hot.oil.beta = p.oil.beta * (beta if p.oil.beta == START_OIL.beta else given_beta)
+    hot.oil.eta = p.oil.eta * (given_eta if p.given.oil_eta else eta)
+    hot.oil.beta = p.oil.beta * (given_beta if p.given.oil_beta else beta)
     hot.oil.rho = oil_density(p.oil, T)
     hot.oil.alpha = p.oil.alpha * np.exp(-p.oil.alpha_T * (T - p.oil.T_0))
 

@@ -13,11 +13,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
-from bearing_model.cage.cage import cage_loads, cage_slip
+from bearing_model.cage.cage import cage_loads, cage_rubbing, cage_slip
 from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
-from bearing_model.instance.energy import energy_total
-from bearing_model.instance.fatigue import FatigueChannel, FatigueLaw
+from bearing_model.instance.breakage import Breakage
+from bearing_model.instance.energy import energy_terms, energy_total
+from bearing_model.instance.fatigue import FatigueChannel, fatigue_law, fatigue_law_in_hole
 from bearing_model.instance.ledger import Ledger
+from bearing_model.instance.loosening import Loosening
 from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
 from bearing_model.physics.hertz import hertz_energy
@@ -89,10 +91,16 @@ class Record:
     omega_time: float = 0.0
     eccentricity_time: float = 0.0
     dislocation_max: float = 0.0
+    breakage: Breakage = field(default_factory=Breakage)
+    loosening: Loosening = field(default_factory=Loosening)
+    fit_eff: np.ndarray = field(default_factory=lambda: np.zeros(Z))  # of each rivet [m], by the model
 
-    @property
-    def law(self):
-        return FatigueLaw(**vars(self.p.fatigue))
+    def laws(self, place):
+        """FatigueLaw of each rivet at "head" or "mid"."""
+        laws = [fatigue_law(self.p, k) for k in range(Z)]
+        if place == "head":
+            return laws
+        return [fatigue_law_in_hole(law, fit) for law, fit in zip(laws, self.fit_eff, strict=True)]
 
     def add(self, model, t, h, w):
         """Record accepted steps of lengths h [s] that end at the times t, from the evaluation w at their ends; returns
@@ -105,6 +113,8 @@ class Record:
         self.duty_time += np.sum((weight * (Q_c > 0.0))[counts])
         peaks = {"cage.F_pocket_peak": np.max(Q_c)}
         peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
+        if p.joint.wear > 0.0:
+            self.loosening.add(p, model.d.table, h, cage_rubbing(model, w))
         h0, h1 = w.half
         centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
@@ -113,18 +123,21 @@ class Record:
         return peaks
 
     def add_stress(self, model, t, h, counts, w):
+        self.fit_eff = model.d.fit_eff[:Z]
         sigma, _ = rivet_rom_stress(model.d.table, cage_loads(model, w).rivet, model.d.fit_eff)
         peaks = {}
         channels = (("head", HEAD_P1, self.head, self.fatigue_head), ("mid", MID_VM, self.mid, self.fatigue_mid))
+        standing = np.flatnonzero(self.breakage.holds(self.p))
         for name, channel, statistics, fatigue in channels:
             stress = sigma[..., channel]
             for k in range(Z):
                 statistics[k].add(h[counts], stress[counts, k])
             statistics[Z].add(h[counts], np.max(stress, axis=1)[counts])
             if self.p.scene.stress == Stress.FATIGUE:
+                laws = self.laws(name)
                 for values in stress[t >= self.p.start.settle]:
-                    for k in range(Z):
-                        fatigue[k].push(self.law, values[k])
+                    for k in standing:
+                        fatigue[k].push(laws[k], values[k])
             peak = np.max(stress, axis=0)
             peaks |= {f"rivet[k].sigma_{name}_peak": peak, f"rivet.sigma_{name}_max": np.max(peak)}
         return peaks
@@ -150,8 +163,28 @@ class Record:
                 f"stat.rivet_{part}_{name}[k]": np.array([four(c)[name] for c in channels[:Z]])
                 for name in ("mean", "rms", "p999", "max")
             }
-            values[f"rivet[k].damage_{part}"] = np.array([channel.damage(self.law) for channel in fatigue])
+            values[f"rivet[k].damage_{part}"] = self.damage(fatigue, part)
         return values
+
+    def damage(self, fatigue, place):
+        """Damage of the heads or the middles [Z]."""
+        return np.array([channel.damage(law) for channel, law in zip(fatigue, self.laws(place), strict=True)])
+
+    @property
+    def standing(self):
+        """The parameters in force, with the preloads that wear has left and without broken rivets."""
+        return self.breakage.apply(self.loosening.apply(self.p))
+
+    def rivet_outputs(self):
+        return self.breakage.outputs(self.p) | {"rivet[k].preload_loss": self.loosening.loss}
+
+    def break_rivets(self, t):
+        """Break the rivets whose damage has reached 1 at time t [s]; returns whether there are any."""
+        if self.p.scene.breakage != Switch.ON:
+            return False
+        return self.breakage.update(
+            self.p, t, self.damage(self.fatigue_head, "head"), self.damage(self.fatigue_mid, "mid")
+        )
 
 
 def no_stress():
@@ -183,7 +216,7 @@ class Integration:
             times.append(solver.t)
             states.append(solver.y.copy())
             self.steps += 1
-            if self.steps > self.p.solver.max_steps:
+            if 0 < self.p.solver.max_steps < self.steps:
                 raise RuntimeError(
                     f"t = {solver.t:.9g} s: more than solver.max_steps = {self.p.solver.max_steps} steps"
                 )
@@ -199,6 +232,7 @@ def simulate(
     t_end=1e-3,
     *,
     derivatives=None,
+    changes=None,
     step=1e-4,
     t_start=0.0,
     tolerance=None,
@@ -212,9 +246,11 @@ def simulate(
     parameters: {name: value} of the variable table in SI, others at their start values.  inputs: the same, or a
     function t -> {name: value} called at each communication point and held until the next one, as an FMU's inputs are.
     derivatives: a function t -> (first, second) derivatives of inputs {name: value}, called at the same points: the
-    inputs are then polynomials of time until the next point.  tolerance: of a step, relative to the error scales;
+    inputs are then polynomials of time until the next point.  changes: a function t -> parameters {name: value} that
+    are set at the communication point t and in force from there.  tolerance: of a step, relative to the error scales;
     default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF, LSODA.  table: RivetTable,
-    default that of the 6207. ValueError names a value that is not allowed; RuntimeError if the solver cannot go on.
+    default that of the 6207. ValueError names a value that is not allowed; RuntimeError if the solver cannot go on, and
+    when all rivets are broken.
 
     >>> results = simulate({"scene.cage": "two_half"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
     >>> results["ball[1].Q_i"].shape
@@ -238,14 +274,16 @@ def simulate(
     run = Integration(p, t_start, y, p.solver.tol if tolerance is None else tolerance, method)
     record, w = Record(p), Work()
     rhs(model, t_start, y, w)
-    energy_start = energy_total(model, y, w) - y[WORK][0]
+    energy_start, energy_change = energy_total(model, y, w) - y[WORK][0], 0.0
 
     count = int(np.ceil((t_end - t_start) / step * (1.0 - 1e-12)))
     points = np.minimum(t_start + step * np.arange(count + 1), t_end)
     ledger, history = Ledger(), None
     ledger.add(model, np.array([t_start]), y[None])
-    first = observe(model, t_start, y, energy_start) | accepted(
-        model, record, np.array([t_start]), np.zeros(1), y[None]
+    first = (
+        observe(model, t_start, y, energy_start)
+        | record.rivet_outputs()
+        | accepted(model, record, np.array([t_start]), np.zeros(1), y[None])
     )
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
@@ -255,7 +293,14 @@ def simulate(
             motion_trajectory(p, given, reached, point - t_0, history),
             motion_remember(given[0], point - t_0, history),
         )
-        model, expansion = at_temperature(p, model, reached, given[0], run, table)
+        model, expansion = at_temperature(record.standing, model, reached, given[0], run, table)
+        set_now = changes(t_0) if changes else None
+        if set_now:
+            p = record.p = run.p = p.changed(set_now)
+            if "solver.tol" in set_now:
+                run.tolerance = p.solver.tol
+            model, jump = rederive(record, model, given[0], run, table, ledger)
+            energy_change += jump
         expansion += at_speed(model, given[0], run)
         while run.t < point:
             trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
@@ -268,14 +313,23 @@ def simulate(
         model = replace(model, ring_load=ring_load_at(here, run.t), trajectory=None)
         if p.ring.motion == RingMotion.PRESCRIBED:
             run.y = ring_follow(model.ring_load, run.y)
-        model, further = at_temperature(p, model, given[0], here.u[0], run, table)
+        model, further = at_temperature(record.standing, model, given[0], here.u[0], run, table)
         energy_start += expansion + further
+        if record.loosening.update(p):
+            model, jump = rederive(record, model, here.u[0], run, table, ledger)
+            energy_change += jump
+        if record.break_rivets(run.t):
+            model, jump = rederive(record, model, here.u[0], run, table, ledger)
+            energy_change += jump
         states.append(run.y)
         ledgers.append(ledger.copy())
         rows.append(
-            observe(model, run.t, run.y, energy_start)
+            observe(model, run.t, run.y, energy_start, energy_change)
+            | record.rivet_outputs()
             | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]}
         )
+        if p.scene.breakage == Switch.ON and not np.any(record.breakage.holds(p)):
+            raise RuntimeError(f"t = {run.t:.9g} s: all {Z} rivets are broken, the halves of the cage come apart")
     table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     return Results(
         points, np.array(states), table_of, record.statistics(), Ledger.over_time(ledgers), run.steps, run.rhs_evals
@@ -297,6 +351,20 @@ def at_temperature(p, model, from_, u, run, table):
     return hot, energies[1] - energies[0]
 
 
+def rederive(record, model, u, run, table, ledger):
+    """The Model with the parameters in force and the rivets that hold, at the temperatures in the Inputs u, and what that
+    adds to its energy [J].
+    """
+    new, terms = Model.under(record.standing, u, model.ring_load, table=table), []
+    for each in (model, new):
+        w = Work()
+        rhs(each, run.t, run.y, w)
+        terms.append(energy_terms(each, run.y, w))
+    before = dict(ledger.changed)
+    ledger.add_change(*terms)
+    return new, sum(ledger.changed.values()) - sum(before.values())
+
+
 def at_speed(model, u, run):
     """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
     loads, fit = (model.ring_load, replace(model.ring_load, omega=u.shaft.omega)), model.d.fit
@@ -311,11 +379,11 @@ def at_speed(model, u, run):
     return energies[1] - energies[0]
 
 
-def observe(model, t, y, energy_start):
+def observe(model, t, y, energy_start, energy_change=0.0):
     """Outputs at one state by name."""
     w = Work()
     y_dot = rhs(model, t, y, w)
-    return outputs(model, w, y, y_dot, energy_start)
+    return outputs(model, w, y, y_dot, energy_start, energy_change)
 
 
 def accepted(model, record, t, h, y):

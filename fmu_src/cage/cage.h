@@ -141,6 +141,11 @@ CageLoads cage_loads;
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 
+#ifndef DUAL
+// Normal force times slip speed of plates and heads at each joint [W], without the slip that is elastic: wear by Archard's law.
+void cage_rubbing(const Model *model, const Work *w, double rubbing[Z]);
+#endif
+
 // Kinetic energy of the halves, elastic energy of pockets, joints and modes [J].
 scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 

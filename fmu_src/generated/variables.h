@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{2046afd8-5875-6928-3b38-233070a80f7d}"  // digest of the table
+#define MODEL_GUID "{6489aec2-4c44-1188-036b-d978bfc99723}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -132,15 +132,17 @@ typedef struct {
         double mu;  // [1] Friction coefficient of plates and rivet heads
         double zeta;  // [1] Damping ratio of the closed joints in the axial direction
         double F_floor;  // [N] Friction capacity that remains in an open joint
+        double wear;  // [1/Pa] Wear coefficient of plates and heads, volume / (normal force x slip): preload that the rivets lose
     } joint;
     struct {
         double preload_factor[Z];  // [1] Preload of this rivet / joint.preload
         double dfit[Z];  // [m] Fit of this rivet less joint.fit
         int intact[Z];  // 0: the rivet is broken and carries nothing; the plates still meet under pressure
+        double strength_factor[Z];  // [1] Strength of this rivet: factor on fatigue.sigma_D, sigma_m and sigma_f
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
-        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points (oil.nu_1, oil.nu_2)
+        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force (oil.nu_1, oil.nu_2)
         double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
         double B;  // [1] Traction law: linear term
@@ -157,7 +159,7 @@ typedef struct {
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
-        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force
         double T_0;  // [K] Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given
         double nu_1;  // [m2/s] Kinematic viscosity of the oil at the lower temperature oil.T_1
         double T_1;  // [K] Lower temperature of the viscosity's two points
@@ -222,6 +224,8 @@ typedef struct {
         double k_2;  // [1] Slope below the knee
         double sigma_m;  // [Pa] Tensile strength (Goodman)
         double sigma_f;  // [Pa] Fatigue strength coefficient (Morrow)
+        double acceleration;  // [1] Factor on the damage of every cycle that is counted, by which a life passes in seconds; 1 for results
+        double fretting;  // [1] Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
     struct {
@@ -234,18 +238,24 @@ typedef struct {
         int churning;  // Switch: Drag moment of the mixture on the spinning balls
         int heating;  // Switch: Shear heating in the inlets of the races, in their films and in the films of the lands
         int growth;  // Switch: Growth of the inner ring by its rotation, which takes clearance
+        int breakage;  // Switch: Whether a rivet breaks at the end of the communication step in which its damage reaches 1
     } scene;
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
-        int max_steps;  // Largest number of internal steps in one communication step
+        int clock;  // Switch: Measure solver.cpu_time
+        int max_steps;  // Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0
     } solver;
     struct {
         int seed;  // Seed of the balls' initial spacing (splitmix64)
         double spacing;  // [1] Initial spacing error: uniform within +- this part of the pocket clearance
         double settle;  // [s] Time before which stat.* and damage do not count
     } start;
+    struct {  // whether the host has given a value to a parameter whose start value stands for one that follows from others
+        int oil_eta;
+        int oil_beta;
+    } given;
 } Parameters;
 
 typedef struct {
@@ -312,7 +322,8 @@ typedef struct {
         scalar energy;  // [J] Kinetic energy of balls and cage in the frame, and elastic energy of all contacts
         scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
         scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
-        scalar energy_residual;  // [J] Energy now - energy at start - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar energy_residual;  // [J] Energy now - energy at start - bearing.energy_change - net work since: 0 but for the errors of the integration and of the work's own integral
+        scalar energy_change;  // [J] Energy that changes of parameters have added to the bearing since the start; negative: released, as by a rivet that breaks
         scalar contacts;  // [1] Number of closed contacts (races and pockets)
         scalar penetration;  // [m] Largest elastic approach of all contacts
         scalar clearance;  // [m] Diametral clearance at the present speed, temperatures and fits
@@ -361,7 +372,7 @@ typedef struct {
         scalar Q_e[Z];  // [N] Contact load on the outer race
         scalar alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
         scalar alpha_e[Z];  // [rad] Contact angle at the outer race (0 without contact)
-        scalar Q_c[Z];  // [N] Contact load on the cage pocket, both halves together
+        scalar Q_c[Z];  // [N] Contact load on the cage pocket, both halves together; at an instant of a chaotic motion: compare stat.*
         scalar omega_m[Z];  // [rad/s] Orbital speed
         scalar p_i[Z];  // [Pa] Largest contact pressure on the inner race
         scalar p_e[Z];  // [Pa] Largest contact pressure on the outer race
@@ -390,18 +401,18 @@ typedef struct {
         scalar psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
     } half_1;
     struct {
-        scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane
+        scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane; at an instant of a chaotic motion: compare stat.*
         scalar omega;  // [rad/s] Speed of the cage (mean of the halves)
         scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
         scalar y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
         scalar z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
         scalar eccentricity;  // [1] Displacement of the cage's centre against the outer ring / radial guide clearance
-        scalar F_pocket_max;  // [N] Largest pocket contact load of all balls
+        scalar F_pocket_max;  // [N] Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*
         scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;
     struct {
-        scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet
-        scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm)
+        scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet; at an instant of a chaotic motion: compare stat.*
+        scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm); at an instant of a chaotic motion: compare stat.*
         scalar sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
         scalar sigma_mid_p1[Z];  // [Pa] Largest principal stress of the shank at the split
         scalar sigma_head_peak[Z];  // [Pa] Largest sigma_head since the last communication point
@@ -411,12 +422,15 @@ typedef struct {
         scalar table_kind;  // [1] What the rivets' stress table rests on: 1 finite elements, 2 coarse finite elements, 3 closed forms
         scalar damage_head[Z];  // [1] Miner's sum of sigma_head since start.settle
         scalar damage_mid[Z];  // [1] Miner's sum of sigma_mid since start.settle
-        scalar N[Z];  // [N] External tension of the joint
-        scalar V[Z];  // [N] Transverse load of the joint
-        scalar T[Z];  // [N] Tension of the rivet, with preload and prying
-        scalar M[Z];  // [N.m] Moment that the joint transmits
+        scalar broken[Z];  // [1] 0: the rivet holds; 1 broken in the head, 2 in the middle by its damage, 3 by rivet[k].intact = 0
+        scalar break_time[Z];  // [s] Time at which the rivet broke by its damage; -1 if it did not
+        scalar preload_loss[Z];  // [N] Preload lost by wear of plates and heads since the start (joint.wear)
+        scalar N[Z];  // [N] External tension of the joint; at an instant of a chaotic motion: compare stat.*
+        scalar V[Z];  // [N] Transverse load of the joint; at an instant of a chaotic motion: compare stat.*
+        scalar T[Z];  // [N] Tension of the rivet, with preload and prying; at an instant of a chaotic motion: compare stat.*
+        scalar M[Z];  // [N.m] Moment that the joint transmits; at an instant of a chaotic motion: compare stat.*
         scalar P[Z];  // [N] Preload at the present temperature
-        scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane
+        scalar slip[Z];  // [m] Slip of one half against the other at the joint, in the plane; at an instant of a chaotic motion: compare stat.*
         scalar flag[Z];  // [1] Sum of 1 rivet yields, 2 flange yields, 8 fit beyond the stress table
         scalar V_y[Z];  // [N] Transverse load that the shank carries, on the +X half, along y of the cage's frame
         scalar V_z[Z];  // [N] Transverse load that the shank carries, on the +X half, along z of the cage's frame
@@ -476,10 +490,10 @@ typedef struct {
         scalar steps;  // [1] Accepted internal steps
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
-        scalar error_tests_failed;  // [1] Internal steps rejected by the error test
+        scalar error_tests_failed;  // [1] Internal steps beyond the error test: rejected, or with solver.method = fixed taken nevertheless
         scalar tolerance;  // [1] Tolerance in force
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
-        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on (not part of the saved state)
+        scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)
     } solver;
     struct {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
@@ -489,13 +503,19 @@ typedef struct {
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
+        scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
+        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
+        scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
+        scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
+        scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
     } event;
 } Outputs;
 
@@ -583,4 +603,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 340 };  // time is the first
+enum { N_VARIABLES = 356 };  // time is the first

@@ -420,10 +420,10 @@ static bool settable(Instance *m, Call call, fmi2ValueReference reference, bool 
         refuse(m, call, "%s = %.10g is not allowed: only inputs and parameters can be set", message, value);
         return false;
     }
-    if (v->causality == CAUSALITY_PARAMETER && m->session.phase == STEPPING) {
+    if (v->causality == CAUSALITY_PARAMETER && v->fixed && m->session.phase == STEPPING) {
         variable_element_name(v, element, message, sizeof message);
-        refuse(m, call, "%s = %.10g is not allowed: parameters are fixed after initialization", message,
-               value);
+        refuse(m, call, "%s = %.10g is not allowed: it is fixed after initialization, for %s", message, value,
+               v->fixed);
         return false;
     }
     if (!variable_allows(v, element, value, message, sizeof message)) {
@@ -431,6 +431,14 @@ static bool settable(Instance *m, Call call, fmi2ValueReference reference, bool 
         return false;
     }
     return true;
+}
+
+// Notes that the host has given a value to a parameter whose start value stands for one that follows from others.
+// Before the run a value that is the start value notes nothing: importers set all start values.
+static void note_given(Instance *m, const Variable *v)
+{
+    if (v->given > 0 && m->session.phase == STEPPING)
+        *(int *)((char *)part_parameters(m->part) + v->given) = 1;
 }
 
 // All values are checked before the first is set.
@@ -445,6 +453,7 @@ static fmi2Status SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t
         int element;
         const Variable *v = variable_find(vr[i], &element);
         ((double *)storage(m, v))[element] = value[i];
+        note_given(m, v);
     }
     if (n > 0) forget_start(m);
     return fmi2OK;

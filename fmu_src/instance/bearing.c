@@ -28,11 +28,9 @@ static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 static void add_stress(Bearing *b, bool counts, double h)
 {
     InstanceState *s = &b->s;
-    FatigueLaw law;
     JointLoads load;
     double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
-    memcpy(&law, &s->p.fatigue, sizeof law);
 
     // stress of all rivets
     b->kernels.cage_loads(&b->model, &b->w, &load);
@@ -49,9 +47,11 @@ static void add_stress(Bearing *b, bool counts, double h)
             statistics_add(&s->head[k], STRESS_FLOOR, h, head[k]);
             statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
         }
-        if (fatigue) {
+        if (fatigue && rivet_holds(&s->p, &s->breakage, k)) {
+            const FatigueLaw law = fatigue_law(&s->p, k),
+                             in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
             fatigue_push(&s->fatigue_head[k], &law, head[k]);
-            fatigue_push(&s->fatigue_mid[k], &law, mid[k]);
+            fatigue_push(&s->fatigue_mid[k], &in_hole, mid[k]);
         }
     }
     if (counts) {
@@ -73,6 +73,13 @@ static void add_cage(Bearing *b, double h)
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
 }
 
+static void add_wear(Bearing *b, double h)
+{
+    double rubbing[Z];
+    cage_rubbing(&b->model, &b->w, rubbing);
+    loosening_add(&b->s.p, h, rubbing, &b->s.loosening);
+}
+
 // Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
 static void accepted_step(void *context, double h, const Work *w)
 {
@@ -82,6 +89,7 @@ static void accepted_step(void *context, double h, const Work *w)
     add_force(s, w, counts, h);
     if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
     if (counts) add_cage(b, h);
+    if (s->p.joint.wear > 0.0) add_wear(b, h);
 }
 
 static void solver_message(void *context, const char *message)
@@ -89,26 +97,33 @@ static void solver_message(void *context, const char *message)
     bearing_log(context, LOG_SOLVER, "%s", message);
 }
 
+static bool is_fixed(const Bearing *b)
+{
+    return b->s.p.solver.method == METHOD_FIXED;
+}
+
+double fixed_length(const Bearing *b)
+{
+    return is_fixed(b) ? b->s.integrator.h : 0.0;
+}
+
 // Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, s->head_peak, s->mid_peak, now);
+    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->head_peak, s->mid_peak, now);
+    now[EVENT_RIVET_BREAK].count = s->breakage.latest;
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
-        if (!event_onset(&s->event, kind, &now[kind])) continue;
+        if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
-        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE;
+        const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE ||
+                            kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG;
         const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
     }
-}
-
-static bool is_fixed(const Bearing *b)
-{
-    return b->s.p.solver.method == METHOD_FIXED;
 }
 
 // ---- life cycle -------------------------------------------------------------------------------------------
@@ -118,7 +133,13 @@ Bearing *part_create(const PartHost *host)
     if (b == NULL) return NULL;
     memset(b, 0, sizeof *b);
     b->host = *host;
-    b->kernels = kernels_select();
+    const char *refused;
+    b->kernels = kernels_wanted(&refused);
+    if (refused)
+        bearing_log(b, LOG_WARNING,
+                    "RIVETED_BEARING_ISA = %.40s: this processor has no such kernels, %s take their place; "
+                    "avx512, avx2 and baseline are names",
+                    refused, b->kernels.name);
     b->model = (Model){.p = &b->hot, .d = &b->d, .ring_load = &b->ring_load};
     b->integrator =
         integrator_create(&b->kernels, &b->model, &b->w, &b->s.integrator, accepted_step, solver_message, b);
@@ -144,7 +165,7 @@ void part_reset(Bearing *b)
     memset(&b->out, 0, sizeof b->out);
     variables_set_start(&b->s.p, &b->s.u[0]);
     b->start = b->s.u[0];
-    b->reported = b->catch_up_reported = false;
+    b->reported = false;
     b->current = 0;
     b->evaluated = false;
 }
@@ -169,17 +190,25 @@ double *part_state(Bearing *b)
     return b->s.integrator.now.y;
 }
 
+// The parameters under which the present state was reached; before the start those that have been set.
+static const Parameters *present_parameters(const Bearing *b)
+{
+    return b->s.initialized ? &b->s.p_now : &b->s.p;
+}
+
 double part_time(const Bearing *b)
 {
     return b->s.integrator.t;
 }
+
+static const double FIRST_STEP = 1e-6;  // [s]
 
 // The present inputs u_now and their rates, as a trajectory that begins at the present time.
 static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
 {
     const InstanceState *s = &b->s;
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
-    input_trajectory_update(&s->p, u, s->integrator.t, s->integrator.t, trajectory);
+    input_trajectory_update(present_parameters(b), u, s->integrator.t, s->integrator.t, trajectory);
     trajectory->frame_angle = s->frame_angle;
 }
 
@@ -192,10 +221,18 @@ static void hold_ring_load(Bearing *b)
     ring_load_at(&present, b->s.integrator.t, &b->ring_load);
 }
 
+// The parameters that the model has at the temperatures in u.
+static void parameters_at(const Bearing *b, const Inputs *u, Parameters *hot)
+{
+    temperature_apply(present_parameters(b), u, hot);
+    loosening_apply(&b->s.loosening, hot);
+    breakage_apply(&b->s.breakage, hot);
+}
+
 // Computes all that follows from the parameters at the temperatures in u.
 static void derive_at(Bearing *b, const Inputs *u)
 {
-    temperature_apply(&b->s.p, u, &b->hot);
+    parameters_at(b, u, &b->hot);
     model_derive(&b->hot, &b->d);
     b->model.modes = cage_derive(&b->hot, &b->d, b->cage);
     integrator_tolerance(b->integrator, b->s.tolerance);
@@ -233,33 +270,92 @@ static void evaluate(Bearing *b)
     b->evaluated = true;
 }
 
+static double present_energy(Bearing *b)
+{
+    evaluate(b);
+    return energy_total(&b->model, b->s.integrator.now.y, &b->w);
+}
+
 // Changes the temperatures of oil and parts from those in `from` to those in u.  The work of the expansion is no part
 // of the energy balance: the energy at the start moves by as much as the elastic energy of the present state.
 static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
 {
     if (temperature_same(from, u)) return;
-    const double *y = b->s.integrator.now.y;
-    evaluate(b);
-    const double before = energy_total(&b->model, y, &b->w);
+    const double before = present_energy(b);
     derive_at(b, u);
-    evaluate(b);
-    b->s.energy_start += energy_total(&b->model, y, &b->w) - before;
+    b->s.energy_start += present_energy(b) - before;
     b->s.integrator.f_is_current = 0;
+}
+
+// Derives all constants again, at the temperatures in u, after the parameters in force or the rivets that hold have
+// changed since the energy was `before`.  What that adds to the energy is a term of its own in the balance.
+static void rederive(Bearing *b, const Inputs *u, double before)
+{
+    derive_at(b, u);
+    b->s.energy_change += present_energy(b) - before;
+    b->s.integrator.f_is_current = 0;
+}
+
+// Puts the parameters in force that the host has set since the last step.
+static void change_parameters(Bearing *b, const Inputs *u)
+{
+    InstanceState *s = &b->s;
+    if (memcmp(&s->p, &s->p_now, sizeof s->p) == 0) return;
+    const double before = present_energy(b);
+    if (s->p.solver.tol != s->p_now.solver.tol) s->tolerance = s->p.solver.tol;
+    const bool other_laws = memcmp(&s->p.scene, &s->p_now.scene, sizeof s->p.scene) != 0;
+    memcpy(&s->p_now, &s->p, sizeof s->p);
+    rederive(b, u, before);
+    if (!other_laws || is_fixed(b)) return;
+    // spins jump from one balance to another, as at the start
+    s->integrator.h = fmin(s->integrator.h, FIRST_STEP);
+    s->integrator.now.h = s->integrator.now.ratio = 0.0;
+}
+
+// The preloads follow the wear.
+static void loosen(Bearing *b)
+{
+    InstanceState *s = &b->s;
+    if (loosening_update(&s->p, &s->loosening)) rederive(b, &s->u_now, present_energy(b));
+}
+
+// Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
+static bool break_rivets(Bearing *b)
+{
+    static const char *const PLACE[] = {[BROKEN_HEAD] = "head", [BROKEN_MIDDLE] = "middle"};
+    InstanceState *s = &b->s;
+    if (s->p.scene.breakage != SWITCH_ON) {
+        s->breakage.latest = 0;
+        return true;
+    }
+    const double t = s->integrator.t;
+    if (breakage_update(&s->p, t, b->d.fit_eff, s->fatigue_head, s->fatigue_mid, &s->breakage))
+        rederive(b, &s->u_now, present_energy(b));
+    int left = 0;
+    for (int k = 0; k < Z; k++) {
+        left += rivet_holds(&s->p, &s->breakage, k);
+        if (s->breakage.latest > 0 && s->breakage.place[k] != HOLDS && s->breakage.time[k] == t)
+            bearing_log(b, LOG_EVENT, "t = %.9g s: rivet[%d] breaks in its %s", t, k + 1,
+                        PLACE[s->breakage.place[k]]);
+    }
+    return left > 0;
 }
 
 PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 {
     InstanceState *s = &b->s;
+    variables_mark_given(&s->p);
     if (!check_all(b) || !room_for_cage(b)) return PART_ERROR;
     report_start(b);
     s->t_start = t_start;
     s->tolerance = tolerance > 0.0 ? tolerance : s->p.solver.tol;
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
+    memcpy(&s->p_now, &s->p, sizeof s->p);
     s->frame_angle = 0.0;
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
-    s->integrator.h = 1e-6;
+    s->integrator.h = FIRST_STEP;
     derive(b);
 
     // quasi-static start
@@ -335,20 +431,33 @@ static double next_stop(const Bearing *b, double t_begin, double t_end, int stre
     return stretch < steps ? t_begin + stretch / steps * (t_end - t_begin) : t_end;
 }
 
+// Internal steps that a communication step of length h [s] may take.  Where solver.max_steps leaves it to the core,
+// MOST_STEPS for each SPAN [s] of it, and no fewer: some 0.15 s of processor time, 500 times the usual steps at the
+// default tolerance and 10 times those at the smallest.  The number of fixed steps is the user's.
+static double most_steps(const Bearing *b, double h)
+{
+    const double MOST_STEPS = 10000.0, SPAN = 1e-4, LARGEST = 2e9;  // the largest fits a long everywhere
+    const double given = b->s.p.solver.max_steps;
+    if (given > 0.0) return given;
+    return is_fixed(b) ? LARGEST : floor(fmin(MOST_STEPS * fmax(h / SPAN, 1.0), LARGEST));
+}
+
 PartStatus part_step(Bearing *b, double t_end)
 {
     InstanceState *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
     Inputs u[INPUT_ORDERS + 1];
-    if (!check_inputs(b, t_end - t_begin)) return PART_ERROR;
-    const int behind = motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u);
-    if (behind < MOTIONS) report_catch_up(b, behind);
+    if (!check_change(b) || !check_inputs(b, t_end - t_begin)) return PART_ERROR;
+    motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u, &s->lag);
     report_without_effect(b);
-    const double before = cpu_clock();
+    const bool clocked = s->p.solver.clock == SWITCH_ON;
+    const double before = clocked ? cpu_clock() : 0.0;
     change_temperature(b, &s->u_now, &s->u[0]);
+    change_parameters(b, &s->u[0]);
     const double frame_omega = s->u_now.frame.omega;  // which does not jump
     s->energy_start += energy_of_speed(&b->model, s->integrator.now.y, s->u_now.shaft.omega + frame_omega,
                                        s->u[0].shaft.omega + frame_omega);
+    const double most = most_steps(b, t_end - t_begin);
     s->force_peak = 0.0;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
@@ -359,7 +468,7 @@ PartStatus part_step(Bearing *b, double t_end)
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
         begin_trajectory(b, u, t_begin, frame_angle, stop);
-        const long left = s->p.solver.max_steps - (long)(s->integrator.steps - steps_before);
+        const long left = (long)fmax(most - (s->integrator.steps - steps_before), 1.0);
         status = integrator_advance(b->integrator, stop, left);
         end_trajectory(b);
     }
@@ -372,17 +481,23 @@ PartStatus part_step(Bearing *b, double t_end)
     change_temperature(b, &s->u[0], &s->u_now);
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
-    b->cpu_time += cpu_clock() - before;
+    if (status == 0) loosen(b);
+    const bool holds = status != 0 || break_rivets(b);
+    if (clocked) b->cpu_time += cpu_clock() - before;
     if (status == 0) {
         report_events(b);
-        return PART_OK;
+        if (holds) return PART_OK;
+        bearing_log(b, LOG_ERROR,
+                    "t = %.9g s: all %d rivets are broken, the halves of the cage come apart: the run ends",
+                    s->integrator.t, Z);
+        return PART_DISCARD;
     }
     const double steps = s->integrator.steps - steps_before;
-    if (steps >= s->p.solver.max_steps)
-        bearing_log(
-            b, LOG_ERROR,
-            "t = %.9g s: the work limit is reached, solver.max_steps = %d steps since %.9g s; step size %g s",
-            s->integrator.t, s->p.solver.max_steps, t_begin, s->integrator.h);
+    if (steps >= most)
+        bearing_log(b, LOG_ERROR,
+                    "t = %.9g s: the work limit is reached, %.0f steps since %.9g s (solver.max_steps = %d); "
+                    "step size %g s",
+                    s->integrator.t, most, t_begin, s->p.solver.max_steps, s->integrator.h);
     else
         bearing_log(
             b, LOG_ERROR,
@@ -409,7 +524,7 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     Derived d;
     Work w;
     double y_dot[N_ALL_STATES];
-    temperature_apply(&s->p, u, &hot);
+    parameters_at(b, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
     const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes};

@@ -43,7 +43,8 @@ static bool check_motions(Bearing *b, double h)
     if (!(h > 0.0)) return true;
     Inputs u[INPUT_ORDERS + 1], end;
     InputTrajectory trajectory = {.t_0 = 0.0};
-    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u[0], h, u);
+    MotionLag lag;
+    motion_trajectory(&b->s.p, b->s.u, &b->s.history, &b->s.u[0], h, u, &lag);
     if (memcmp(u, b->s.u, sizeof u) == 0) return true;
     memcpy(trajectory.u, u, sizeof u);
     input_trajectory_at(&trajectory, h, &end);
@@ -128,6 +129,9 @@ static bool check_cage(Bearing *b)
 // Share by which the moments of inertia may miss their bounds: numbers of three digits are rounded.
 static const double ROUNDED = 0.01;
 
+// Mass of the lightest half, as a part of that of a ring which fills its space.
+static const double LIGHTEST_HALF = 0.25;
+
 // Triangle rule, J_p = 2 J_t - 2 m <x^2> with <x^2> the mean square of the axial distance from the centre of mass.
 static bool check_triangle(Bearing *b, const char *part, double J_p, double J_t)
 {
@@ -142,7 +146,9 @@ static bool check_triangle(Bearing *b, const char *part, double J_p, double J_t)
 
 // Checks that bodies can have the moments of inertia.  A body that is too easy to turn would need very short steps.
 //
-//   cage half  its mass lies between the radii D_i/2 and D_o/2: m D_i^2/4 <= J_p <= m D_o^2/4;  J_p <= 2 J_t.
+//   cage half  no heavier than a ring that fills its space, of the largest cage.rho, no lighter than LIGHTEST_HALF of one
+//              of the smallest;  J_t at most that of a body of twice the size, m (D_o^2 + width^2);
+//              its mass lies between the radii D_i/2 and D_o/2: m D_i^2/4 <= J_p <= m D_o^2/4;  J_p <= 2 J_t.
 //              Values left at their start follow the mass (derived.c).
 //   ring       with its share of the shaft J_p <= 2 J_t.  Where loads tilt it, J_p is at least that of a solid shaft
 //              of half the bore, m (bore/4)^2/2.  A disk on the shaft may have any J_p.
@@ -155,13 +161,27 @@ static bool check_bodies(Bearing *b)
     const double shaft = (1.0 - ROUNDED) * p->ring.m * bore * bore / 32.0;
     double J_p, J_t;
     cage_half_inertia(p, &J_p, &J_t);
+    const Variable *rho = variable_named("cage.rho");
+    const double D_o_2 = p->cage.D_o * p->cage.D_o, widest = m * (D_o_2 + p->cage.width * p->cage.width);
+    const double ring = 0.125 * PI * (D_o_2 - p->cage.D_i * p->cage.D_i) * p->cage.width;
+    if (!(m >= LIGHTEST_HALF * rho->min * ring && m <= rho->max * ring)) {
+        bearing_log(b, LOG_ERROR,
+                    "cage.m = %g kg: no half between cage.D_i, cage.D_o and cage.width has this mass; %g ... "
+                    "%g kg is allowed",
+                    m, LIGHTEST_HALF * rho->min * ring, rho->max * ring);
+        return false;
+    }
     bool fine = J_p >= least && J_p <= most;
     if (!fine)
         bearing_log(b, LOG_ERROR,
                     "cage.J_p = %g kg.m2: not of a half of cage.m = %g kg between cage.D_i and cage.D_o; "
                     "%g ... %g kg.m2 is allowed",
                     J_p, m, least, most);
-    fine &= check_triangle(b, "cage", J_p, J_t);
+    fine = fine && check_triangle(b, "cage", J_p, J_t);
+    fine = fine &&
+           require(b, J_t <= widest,
+                   "cage.J_t = %g kg.m2: at most cage.m (cage.D_o^2 + cage.width^2) = %g kg.m2 is allowed",
+                   J_t, widest);
     fine &= check_triangle(b, "ring", p->ring.J_p, p->ring.J_t);
     if (p->ring.motion == RING_MOTION_FREE && p->ring.tilt_mode != TILT_MODE_PRESCRIBED)
         fine &= require(b, p->ring.J_p >= shaft,
@@ -269,7 +289,13 @@ static bool check_geometry(Bearing *b)
             fine = false;
         }
     }
-    return check_cage(b) && fine;
+    const bool counted = p->scene.breakage != SWITCH_ON || p->scene.stress == STRESS_FATIGUE;
+    if (!counted)
+        bearing_log(
+            b, LOG_ERROR,
+            "scene.breakage = on: rivets break by their damage, which scene.stress = fatigue alone counts; "
+            "allowed is off, or on with scene.stress = fatigue");
+    return check_cage(b) && fine && counted;
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
@@ -348,6 +374,23 @@ bool check_all(Bearing *b)
     return check_values(b) && check_temperatures(b, &b->s.u[0]);
 }
 
+bool check_change(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    if (memcmp(&s->p, &s->p_now, sizeof s->p) == 0) return true;
+    const double t = s->integrator.t;
+    if (memcmp(&s->p.pulse, &s->p_now.pulse, sizeof s->p.pulse) != 0 &&
+        (pulse_in_progress(&s->p, t) || pulse_in_progress(&s->p_now, t))) {
+        bearing_log(
+            b, LOG_ERROR,
+            "pulse.t_start = %g s, pulse.interval = %g s, pulse.duration = %g s: an impact has begun before "
+            "t = %.9g s and not ended; a change between impacts is allowed",
+            s->p.pulse.t_start, s->p.pulse.interval, s->p.pulse.duration, t);
+        return false;
+    }
+    return check_geometry(b) && check_temperatures(b, &s->u[0]);
+}
+
 // Inputs that have no effect on a ring whose motion is free, and on one whose motion is prescribed.
 typedef struct {
     const char *name;
@@ -396,33 +439,6 @@ void report_without_effect(Bearing *b)
     b->reported = true;
     bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
                 list);
-}
-
-// Name and value of the input at a place in Inputs.
-static const char *input_at(const Inputs *u, int place, double *value)
-{
-    const size_t offset = (size_t)place * sizeof(double);
-    const Variable *v = VARIABLES;
-    while (v->causality != CAUSALITY_INPUT || v->offset != offset) v++;
-    *value = ((const double *)u)[place];
-    return v->name;
-}
-
-void report_catch_up(Bearing *b, int motion)
-{
-    if (b->catch_up_reported) return;
-    b->catch_up_reported = true;
-    const InstanceState *s = &b->s;
-    double x, v, x_now, v_now;
-    const char *position = input_at(&s->u[0], MOTION[motion].position, &x);
-    const char *velocity = input_at(&s->u[0], MOTION[motion].velocity, &v);
-    input_at(&s->u_now, MOTION[motion].position, &x_now);
-    input_at(&s->u_now, MOTION[motion].velocity, &v_now);
-    bearing_log(
-        b, LOG_WARNING,
-        "t = %.9g s: %s = %g, %s = %g are given, the motion so far leads to %g, %g: it catches up over "
-        "%g s or more; later cases are not logged",
-        s->integrator.t, position, x, velocity, v, x_now, v_now, CATCH_UP_TIME);
 }
 
 // Logs that the parts stay at their start temperatures where the oil alone has been given another one.
@@ -505,18 +521,28 @@ static bool saved_is(Bearing *b, bool condition, const char *what)
     return condition;
 }
 
+static bool lag_is_valid(const MotionLag *lag)
+{
+    const double mismatch[] = {lag->x, lag->v};
+    return lag->count >= 0 && lag->count <= MOTIONS && lag->motion >= 0 && lag->motion < MOTIONS &&
+           values_are_sane(mismatch, 2);
+}
+
 // Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the
 // pocket forces.
 static bool check_recorded(Bearing *b, double time)
 {
     const InstanceState *s = &b->s;
     const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
-    const double sums[] = {s->energy_start, s->omega_time};
+    const double sums[] = {s->energy_start, s->energy_change, s->omega_time};
     bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
                 values_are_sane(sums, sizeof sums / sizeof sums[0]);
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
     fine = saved_is(b, fine, "peaks and sums") &&
-           saved_is(b, event_state_is_valid(&s->event), "counts of events");
+           saved_is(b, event_state_is_valid(&s->event), "counts of events") &&
+           saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets") &&
+           saved_is(b, loosening_is_valid(&s->loosening), "lost preloads") &&
+           saved_is(b, lag_is_valid(&s->lag), "a motion that catches up");
     fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
     for (int k = 0; fine && k < STRESS_CHANNELS; k++)
         fine = saved_is(b, statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time),

@@ -1,6 +1,7 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "instance/events.h"
 
+#include "cage/cage.h"
 #include "numbers/elementary.h"
 #include "numbers/saved_numbers.h"
 #include "physics/hertz.h"
@@ -108,13 +109,25 @@ static void clearance(const Model *model, Event *event)
     add(event, 0, 2.0 * growth - model->p->bearing.P_d, 0.0);
 }
 
+// Equal steps beyond the length that the films of the present state allow; their own length may differ by rounding.
+static void steps(const Model *model, const Work *w, double step, Event *event)
+{
+    double film[2][3];
+    for (int land = 0; land < 2; land++) {
+        film[land][0] = w->film[land].yy;
+        film[land][1] = w->film[land].yz;
+        film[land][2] = w->film[land].zz;
+    }
+    add(event, 0, step * (1.0 - 1e-9), cage_longest_step(model, film));
+}
+
 static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
 {
     for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
-void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z],
-                Event now[EVENT_COUNT])
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double step,
+                const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
 {
     memset(now, 0, EVENT_COUNT * sizeof *now);
     lands(model, w, &now[EVENT_LAND_CONTACT]);
@@ -123,6 +136,8 @@ void events_now(const Model *model, const Work *w, const double head_peak[Z], co
     joints(model, w, &now[EVENT_JOINT_OPEN]);
     rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
     clearance(model, &now[EVENT_NO_CLEARANCE]);
+    steps(model, w, step, &now[EVENT_STEP_TOO_LONG]);
+    now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
 }
 
 bool event_onset(EventState *state, EventKind kind, const Event *now)
@@ -144,6 +159,24 @@ bool event_state_is_valid(const EventState *state)
                 (active == 0 || (active == 1 && state->onsets[kind] > 0.0));
     }
     return fine;
+}
+
+// The input at a place in Inputs.
+static const Variable *input_at(int place)
+{
+    const size_t offset = (size_t)place * sizeof(double);
+    const Variable *v = VARIABLES;
+    while (v->causality != CAUSALITY_INPUT || v->offset != offset) v++;
+    return v;
+}
+
+static void motion_text(const Event *now, char *text, size_t size)
+{
+    const Variable *x = input_at(MOTION[now->element].position), *v = input_at(MOTION[now->element].velocity);
+    snprintf(text, size,
+             "%s and %s jumped or contradict each other: they are %.4g %s and %.4g %s off the motion before, "
+             "which catches up over %g s or more",
+             x->name, v->name, now->value, x->unit, now->limit, v->unit, CATCH_UP_TIME);
 }
 
 void event_text(EventKind kind, const Event *now, char *text, size_t size)
@@ -191,6 +224,15 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "temperatures and fits",
                  -now->value);
         return;
+    case EVENT_RIVET_BREAK:  // reported one by one, with its place (bearing.c)
+    case EVENT_STEP_TOO_LONG:
+        snprintf(text, size,
+                 "solver.method = fixed: steps of %.4g s are too long for the films between cage and ring, "
+                 "which allow "
+                 "%.4g s: the results are wrong; set solver.step to that or less",
+                 now->value, now->limit);
+        return;
+    case EVENT_MOTION_LAG: motion_text(now, text, size); return;
     case EVENT_COUNT: break;
     }
 }

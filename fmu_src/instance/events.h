@@ -12,9 +12,12 @@
 //   no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
 //   rivet yield    sigma_head_peak or sigma_mid_peak beyond the yield stress since the last communication point;
 //                  the stress is linear elastic
+//   rivet break    a rivet's damage has reached 1 in the last communication step (breakage.h); each is reported
+//   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
+//                  communication step (motion_trajectory in ring_load.h)
 #pragma once
 
-#include "physics/model.h"
+#include "physics/ring_load.h"
 
 typedef enum {
     EVENT_LAND_CONTACT,
@@ -24,6 +27,9 @@ typedef enum {
     EVENT_JOINT_OPEN,
     EVENT_RIVET_YIELD,
     EVENT_NO_CLEARANCE,
+    EVENT_RIVET_BREAK,
+    EVENT_STEP_TOO_LONG,
+    EVENT_MOTION_LAG,
     EVENT_COUNT
 } EventKind;
 
@@ -31,7 +37,8 @@ typedef enum {
 typedef struct {
     int count;            // contacts, balls, joints ... at which the event happens
     int element;          // the worst of them
-    double value, limit;  // of this element, in the unit of the message; value/limit is largest there
+    double value, limit;  // of this element, in the unit of the message; value/limit is largest there.  Of a
+                          // motion: how far its position and velocity are off
 } Event;
 
 // Memory of the events: plain bytes, part of the saved state.
@@ -43,10 +50,10 @@ typedef struct {
 // Angle from a groove's bottom to which the contact ellipse of ball j reaches [rad], 0 without contact.
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 
-// All kinds of events at the state whose results are w.  head_peak, mid_peak: peak stresses of each rivet
-// [Pa].
-void events_now(const Model *model, const Work *w, const double head_peak[Z], const double mid_peak[Z],
-                Event now[EVENT_COUNT]);
+// All kinds of events but rivets that break at the state whose results are w.  lag: motions of the last step; step: length of equal steps [s],
+// else 0; head_peak, mid_peak: peak stresses of each rivet [Pa].
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double step,
+                const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.
 bool event_onset(EventState *state, EventKind kind, const Event *now);

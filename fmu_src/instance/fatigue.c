@@ -2,7 +2,6 @@
 #include "instance/fatigue.h"
 
 #include "numbers/saved_numbers.h"
-#include "variables.h"
 
 #include <limits.h>
 #include <math.h>
@@ -10,6 +9,16 @@
 
 _Static_assert(sizeof(FatigueLaw) == sizeof(((Parameters *)0)->fatigue),
                "FatigueLaw is p->fatigue, member by member");
+
+FatigueLaw fatigue_law(const Parameters *p, int k)
+{
+    FatigueLaw law;
+    memcpy(&law, &p->fatigue, sizeof law);
+    law.sigma_D *= p->rivet.strength_factor[k];
+    law.sigma_m *= p->rivet.strength_factor[k];
+    law.sigma_f *= p->rivet.strength_factor[k];
+    return law;
+}
 
 // Amplitude that does the same damage at zero mean; infinite where the mean alone breaks the part.
 static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma_mean)
@@ -27,6 +36,13 @@ static double fully_reversed(const FatigueLaw *law, double sigma_a, double sigma
     }
 }
 
+FatigueLaw fatigue_law_in_hole(const FatigueLaw *law, double fit_eff)
+{
+    FatigueLaw in_hole = *law;
+    if (fit_eff > 0.0) in_hole.sigma_D /= law->fretting;
+    return in_hole;
+}
+
 double fatigue_cycle(const FatigueLaw *law, double range, double mean)
 {
     double sigma_ar = fully_reversed(law, 0.5 * range, mean);
@@ -37,7 +53,7 @@ double fatigue_cycle(const FatigueLaw *law, double range, double mean)
 // Damage of a number of cycles between two stresses.
 static double count(const FatigueLaw *law, double cycles, double from, double to)
 {
-    return cycles * fatigue_cycle(law, fabs(from - to), 0.5 * (from + to));
+    return law->acceleration * cycles * fatigue_cycle(law, fabs(from - to), 0.5 * (from + to));
 }
 
 // Counts the first range of the stack as half a cycle and takes its first point off.

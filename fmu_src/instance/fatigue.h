@@ -12,17 +12,25 @@
 //     Goodman  sigma_a/(1 - sigma_mean/sigma_m), no credit for compression (sigma_mean < 0 counts as 0)
 //     SWT      sqrt(sigma_max sigma_a), 0 if sigma_max <= 0
 //     Morrow   sigma_a/(1 - sigma_mean/sigma_f)
+// fatigue.acceleration multiplies the damage of every cycle that is counted.
 // A cycle whose mean reaches sigma_m or sigma_f, or whose life is below one cycle, breaks the part: its
 // damage is 1.
 #pragma once
+
+#include "variables.h"
 
 #include <stdbool.h>
 
 // Material: p->fatigue of the variable table, in its order [Pa, 1].
 typedef struct {
     double sigma_D, N_D, k_1, k_2, sigma_m, sigma_f;
+    double acceleration;  // factor on the damage of each cycle
+    double fretting;
     int mean_stress;  // MEAN_STRESS_* of variables.h
 } FatigueLaw;
+
+// The law of rivet k, whose strength_factor scales all strengths.
+FatigueLaw fatigue_law(const Parameters *p, int k);
 
 // Capacity of the stack.  The ranges on the stack shrink toward its end, so its length grows with the
 // logarithm of the signal's resolution: 2e5 random samples took 26 points.
@@ -38,6 +46,12 @@ typedef struct {
     int samples;                  // 0 or 1: whether there is a first sample
     int dropped;                  // first points dropped, counted as half cycles, because the stack was full
 } FatigueChannel;
+
+// Law of the shank's middle in a hole with an effective fit [m].  An interference presses the hole on the shank, whose
+// surface then slips at the edges of the contact under any alternating load.  Fretting divides the strength:
+//     sigma_D / fretting,   fit_eff > 0            DIN 743-2 for shafts in press fits
+// There is no pressure in a hole with play, except where a half has slipped through it: that is left out.
+FatigueLaw fatigue_law_in_hole(const FatigueLaw *law, double fit_eff);
 
 // Damage of one cycle.
 double fatigue_cycle(const FatigueLaw *law, double range, double mean);

@@ -2,8 +2,10 @@
 // files only.
 #pragma once
 
+#include "instance/breakage.h"
 #include "instance/events.h"
 #include "instance/fatigue.h"
+#include "instance/loosening.h"
 #include "instance/part.h"
 #include "instance/statistics.h"
 #include "physics/ring_load.h"
@@ -18,14 +20,17 @@ enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };
 
 // The saved state: all that the instance's future depends on, in plain bytes.
 typedef struct {
-    Parameters p;
+    Parameters p;                // of the next step
     Inputs u[INPUT_ORDERS + 1];  // inputs of the next step: their values at its start and their derivatives
     Inputs u_now, u_now_dot;     // inputs under which the present state was reached, and their rates
+    Parameters p_now;            // under which the present state was reached
     MotionHistory history;       // of the motions that the host gave
+    MotionLag lag;               // of the motions in the last step
     double frame_angle;          // by which the frame has turned since the start [rad]
     IntegratorState integrator;
     double t_start, tolerance;
-    double energy_start;  // total energy at the start [J]
+    double energy_start;   // total energy at the start [J]
+    double energy_change;  // that changes of parameters have added since [J]
     // since the last communication point: largest pocket force [N], largest stresses of each rivet [Pa]
     double force_peak, head_peak[Z], mid_peak[Z];
     // since start.settle: largest slip of a joint [m]; integrals over time of pocket contact, cage speed,
@@ -34,6 +39,8 @@ typedef struct {
     double duty_time, omega_time, eccentricity_time;
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
+    Breakage breakage;
+    Loosening loosening;
     EventState event;
     int initialized;
 } InstanceState;
@@ -43,7 +50,7 @@ typedef struct Part Bearing;  // this FMU's part (part.h)
 struct Part {
     PartHost host;
     InstanceState s;
-    Parameters hot;  // s.p at the temperatures in s.u_now: what the model sees
+    Parameters hot;  // s.p_now at the temperatures in s.u_now, without broken rivets: what the model sees
     Derived d;
     Inputs start;  // start values of the variable table
     InputTrajectory trajectory;
@@ -58,12 +65,14 @@ struct Part {
     double y_dot[N_ALL_STATES];  // dy/dt at the present state
     bool evaluated;              // w and y_dot belong to the present state and inputs
     bool reported;               // inputs and parameters without effect have been logged
-    bool catch_up_reported;      // that a motion catches up with the given one has been logged
     double cpu_time;             // processor time of all steps [s]
 };
 
 // Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
+
+// Largest length of the steps of solver.method = fixed [s], 0 for the other methods.
+double fixed_length(const Bearing *b);
 
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);
@@ -74,11 +83,11 @@ void report_without_effect(Bearing *b);
 // Logs the same before the start, and settings that do less than their names promise.
 void report_start(Bearing *b);
 
-// Logs once that a motion (its index in MOTION) is far behind the given one and catches up with it.
-void report_catch_up(Bearing *b, int motion);
-
 // Whether all balls lie in their grooves at the start; w holds the results there.
 bool check_start(Bearing *b);
+
+// Whether parameters that have changed since the last step make a bearing, at the inputs of the next step.
+bool check_change(Bearing *b);
 
 // Whether the inputs stay within their limits over a step of length h; inputs may change at every step.  Temperatures
 // must leave the bearing its clearances and the oil a viscosity within its limits.

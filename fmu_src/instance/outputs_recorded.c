@@ -16,11 +16,16 @@ static void fill_peak(Bearing *b)
 
 static void fill_fatigue(Bearing *b)
 {
-    FatigueLaw law;
-    memcpy(&law, &b->s.p.fatigue, sizeof law);
+    const InstanceState *s = &b->s;
     for (int k = 0; k < Z; k++) {
+        const FatigueLaw law = fatigue_law(&s->p_now, k);
+        const bool worn_out = s->breakage.place[k] != HOLDS;
+        b->out.rivet.preload_loss[k] = s->loosening.loss[k];
+        b->out.rivet.broken[k] = rivet_broken(&s->p_now, &s->breakage, k);
+        b->out.rivet.break_time[k] = worn_out ? s->breakage.time[k] : -1.0;
         b->out.rivet.damage_head[k] = fatigue_damage(&b->s.fatigue_head[k], &law);
-        b->out.rivet.damage_mid[k] = fatigue_damage(&b->s.fatigue_mid[k], &law);
+        const FatigueLaw in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
+        b->out.rivet.damage_mid[k] = fatigue_damage(&b->s.fatigue_mid[k], &in_hole);
     }
 }
 
@@ -73,14 +78,15 @@ static void fill_solver(Bearing *b)
     b->out.solver.error_tests_failed = i->error_tests_failed;
     b->out.solver.cpu_time = b->cpu_time;
     b->out.solver.tolerance = b->s.tolerance;
-    b->out.solver.method_used = b->s.p.solver.method;
+    b->out.solver.method_used = b->s.p_now.solver.method;
 }
 
 static void fill_event(Bearing *b)
 {
     Event now[EVENT_COUNT];
     const double *onsets = b->s.event.onsets;
-    events_now(&b->model, &b->w, b->s.head_peak, b->s.mid_peak, now);
+    events_now(&b->model, &b->w, &b->s.lag, fixed_length(b), b->s.head_peak, b->s.mid_peak, now);
+    now[EVENT_RIVET_BREAK].count = b->s.breakage.latest;
     b->out.event.land_contact = now[EVENT_LAND_CONTACT].count;
     b->out.event.pocket_exit = now[EVENT_POCKET_EXIT].count;
     b->out.event.ellipse_cut = now[EVENT_ELLIPSE_CUT].count;
@@ -88,6 +94,9 @@ static void fill_event(Bearing *b)
     b->out.event.joint_open = now[EVENT_JOINT_OPEN].count;
     b->out.event.rivet_yield = now[EVENT_RIVET_YIELD].count;
     b->out.event.no_clearance = now[EVENT_NO_CLEARANCE].count;
+    b->out.event.rivet_break = now[EVENT_RIVET_BREAK].count;
+    b->out.event.step_too_long = now[EVENT_STEP_TOO_LONG].count;
+    b->out.event.motion_lag = now[EVENT_MOTION_LAG].count;
     b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
     b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
     b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];
@@ -95,6 +104,9 @@ static void fill_event(Bearing *b)
     b->out.event.joint_open_onsets = onsets[EVENT_JOINT_OPEN];
     b->out.event.rivet_yield_onsets = onsets[EVENT_RIVET_YIELD];
     b->out.event.no_clearance_onsets = onsets[EVENT_NO_CLEARANCE];
+    b->out.event.rivet_break_onsets = onsets[EVENT_RIVET_BREAK];
+    b->out.event.step_too_long_onsets = onsets[EVENT_STEP_TOO_LONG];
+    b->out.event.motion_lag_onsets = onsets[EVENT_MOTION_LAG];
 }
 
 static void fill_constant(Bearing *b)
@@ -116,6 +128,8 @@ void outputs_fill(Bearing *b, OutputGroup group)
     case GROUP_ENERGY:
         outputs_evaluate(&now, group, &b->out);
         b->out.bearing.energy_residual -= b->s.energy_start;
+        b->out.bearing.energy_residual -= b->s.energy_change;
+        b->out.bearing.energy_change = b->s.energy_change;
         return;
     case GROUP_STATE:
     case GROUP_RING:

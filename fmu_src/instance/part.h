@@ -35,7 +35,8 @@ Part *part_create(const PartHost *host);
 void part_destroy(Part *part);  // NULL is allowed
 void part_reset(Part *part);    // as newly created, but for the processor time it has used
 
-Parameters *part_parameters(Part *part);  // may be changed before part_initialize
+// May be changed before part_initialize, and those that are not fixed before each step, which they are in force from.
+Parameters *part_parameters(Part *part);
 // Inputs (order 0) and their derivatives (1...INPUT_ORDERS) at the present time.  The host may change them
 // before each step.  After a step the inputs have the values that their polynomials have reached, and the
 // derivatives are 0.

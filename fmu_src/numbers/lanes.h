@@ -21,6 +21,10 @@
 #include <stdint.h>
 #include <string.h>
 
+#ifdef __FAST_MATH__
+#error "-ffast-math changes results and takes tests for numbers out: compile without it"
+#endif
+
 #ifndef LANE_WIDTH
 #define LANE_WIDTH 2
 #endif
@@ -168,6 +172,15 @@ INLINE wide wide_fma(wide x, wide y, wide z)
     return (wide)_mm512_fmadd_pd((__m512d)x, (__m512d)y, (__m512d)z);
 #elif defined(FUSED) && defined(__FMA__) && LANE_WIDTH == 4
     return (wide)_mm256_fmadd_pd((__m256d)x, (__m256d)y, (__m256d)z);
+#elif defined(FUSED) && defined(__FMA__) && LANE_WIDTH == 8
+    // AVX-512's packets on a processor without it, for the tests (cmake/core.cmake)
+    __m256d part[2][3];
+    memcpy(&part[0][0], &x, 32), memcpy(&part[1][0], (const char *)&x + 32, 32);
+    memcpy(&part[0][1], &y, 32), memcpy(&part[1][1], (const char *)&y + 32, 32);
+    memcpy(&part[0][2], &z, 32), memcpy(&part[1][2], (const char *)&z + 32, 32);
+    for (int i = 0; i < 2; i++) part[i][0] = _mm256_fmadd_pd(part[i][0], part[i][1], part[i][2]);
+    memcpy(&x, &part[0][0], 32), memcpy((char *)&x + 32, &part[1][0], 32);
+    return x;
 #elif defined(FUSED) && defined(__ARM_NEON) && LANE_WIDTH == 2
     return (wide)vfmaq_f64((float64x2_t)z, (float64x2_t)x, (float64x2_t)y);
 #else

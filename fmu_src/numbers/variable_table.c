@@ -83,6 +83,14 @@ bool variables_allow(Causality causality, const void *values, double rounding,
     return fine;
 }
 
+void variables_mark_given(Parameters *parameters)
+{
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (v->given > 0)
+            *(int *)((char *)parameters + v->given) = variable_value(v, 0, parameters) != v->start;
+    }
+}
+
 void variables_set_start(Parameters *parameters, Inputs *inputs)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {

@@ -36,7 +36,9 @@ typedef struct {
     int state;          // index in y of an output that is a state, else -1
     size_t offset;      // offset of the first element in Inputs, Parameters or Outputs
     double start, min, max;
-    bool built;  // fixed by the build: no value but the start value is allowed
+    bool built;         // fixed by the build: no value but the start value is allowed
+    const char *fixed;  // why a parameter cannot change once a run has begun; NULL if it can
+    size_t given;       // offset in Parameters of the mark that the host has given it; 0 if it has none
 } Variable;
 
 extern const Variable VARIABLES[N_VARIABLES];  // in the order of value references
@@ -60,6 +62,9 @@ void variable_element_name(const Variable *variable, int element, char *name, si
 
 // Value of an element in the Parameters, Inputs or Outputs that hold it.
 double variable_value(const Variable *variable, int element, const void *values);
+
+// Marks the parameters whose start value stands for one that follows from others, where they differ from it.
+void variables_mark_given(Parameters *parameters);
 
 // Sets all start values.
 void variables_set_start(Parameters *parameters, Inputs *inputs);

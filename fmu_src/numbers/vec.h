@@ -66,6 +66,14 @@ INLINE vec vec_load(const scalar *x, const scalar *r, const scalar *t)
     return (vec){wide_load(x), wide_load(r), wide_load(t)};
 }
 
+// v where the condition holds, else -0, which changes no sum.
+INLINE vec vec_where(bits condition, vec v)
+{
+    const wide none = wide_set(-0.0);
+    return (vec){wide_select(condition, v.x, none), wide_select(condition, v.r, none),
+                 wide_select(condition, v.t, none)};
+}
+
 INLINE void vec_store(vec v, scalar *x, scalar *r, scalar *t)
 {
     wide_store(x, v.x);

@@ -65,10 +65,11 @@ static double catch_up_time(double d_x, double d_v, double h, double limit)
     return fmax(CATCH_UP_TIME, (2.0 * v + sqrt(4.0 * v * v + 6.0 * limit * x)) / limit);
 }
 
-int motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1], const MotionHistory *history,
-                      const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1])
+void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
+                       const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1],
+                       MotionLag *lag)
 {
-    int behind = MOTIONS;
+    *lag = (MotionLag){0};
     const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
     const double *in[INPUT_ORDERS + 1], *at = (const double *)now;
     double *out[INPUT_ORDERS + 1];
@@ -100,7 +101,7 @@ int motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
         if (T > h) {
             out[1][v] = out[2][q] = a + (6.0 * d_x / T + 4.0 * d_v) / T;
             out[2][v] = jerk - (12.0 * d_x / T + 6.0 * d_v) / (T * T);
-            if (behind == MOTIONS) behind = i;
+            if (lag->count++ == 0) lag->motion = i, lag->x = d_x, lag->v = d_v;
             continue;
         }
         const double x_1 = in[0][q] + h * (in[0][v] + 0.5 * h * (a + h / 3.0 * jerk));
@@ -109,7 +110,6 @@ int motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
         out[1][v] = out[2][q] = (6.0 * mean - 4.0 * v_0 - 2.0 * v_1) / h;
         out[2][v] = (6.0 * (v_0 + v_1) - 12.0 * mean) / (h * h);
     }
-    return behind;
 }
 
 static double pulse_start(const Parameters *p, int n)
@@ -131,6 +131,12 @@ static int pulse_index(const Parameters *p, double t)
 static bool has_pulses(const Parameters *p)
 {
     return (p->pulse.F_r != 0.0 || p->pulse.F_a != 0.0) && p->ring.motion == RING_MOTION_FREE;
+}
+
+bool pulse_in_progress(const Parameters *p, double t)
+{
+    const int i = pulse_index(p, t);
+    return has_pulses(p) && i >= 0 && pulse_start(p, i) < t && t < pulse_start(p, i) + p->pulse.duration;
 }
 
 double pulse_next_edge(const Parameters *p, double t)

@@ -42,6 +42,12 @@ typedef struct {
     int steps;
 } MotionHistory;
 
+// The motions that catch up with the given ones over more than the communication step.
+typedef struct {
+    int count, motion;  // how many, and the first of them by its index in MOTION
+    double x, v;        // the given position and velocity of this one less those that it has
+} MotionLag;
+
 // The polynomials of a communication step of length h from the inputs that the host has given at its begin.
 //
 //   position and velocity at the end    X = x + v h + a h^2/2 + a' h^3/6,  V = v + a h + a' h^2/2
@@ -60,9 +66,10 @@ typedef struct {
 //
 // In steps shorter than SHORTEST_MOTION the motion goes on with the velocity that it has, because the rates above
 // could overflow.  Where the motion is not given (the shaft's in free motion) it has no derivatives; where it
-// is, there are no loads.  Returns the first motion that is catching up, MOTIONS if there is none.
-int motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1], const MotionHistory *history,
-                      const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1]);
+// is, there are no loads.  lag: the motions that are catching up.
+void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1],
+                       const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1],
+                       MotionLag *lag);
 
 // Adds what was given at the begin of a step of length h.
 void motion_remember(const Inputs *given, double h, MotionHistory *history);
@@ -84,6 +91,9 @@ INLINE scalar frame_angle_at(const InputTrajectory *trajectory, scalar t)
 
 // The load at time t under inputs u that are held.
 void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
+
+// Whether a built-in pulse has begun and not ended at time t.
+bool pulse_in_progress(const Parameters *p, double t);
 
 // Next start or end of a built-in pulse after t, infinity after the last one.
 double pulse_next_edge(const Parameters *p, double t);

@@ -43,8 +43,8 @@ static void heat_oil(const Parameters *p, double T, Parameters *hot)
     oil_ratios(p, T, p, &given_eta, &given_beta);
     oil_ratios(p, T, &start, &eta, &beta);
     const double dT = T - p->oil.T_0;
-    hot->oil.eta = p->oil.eta * (p->oil.eta == start.oil.eta ? eta : given_eta);
-    hot->oil.beta = p->oil.beta * (p->oil.beta == start.oil.beta ? beta : given_beta);
+    hot->oil.eta = p->oil.eta * (p->given.oil_eta ? given_eta : eta);
+    hot->oil.beta = p->oil.beta * (p->given.oil_beta ? given_beta : beta);
     hot->oil.rho = oil_density(p, T);
     hot->oil.alpha = p->oil.alpha * portable_exp(-p->oil.alpha_T * dT);
 }

@@ -2,6 +2,8 @@
 // compiled by KERNELS_X86 or KERNELS_NEON; without such a name there is only the one of lanes.h.
 #include "solver/kernels.h"
 
+#include <stdlib.h>
+
 #undef rhs
 #undef vector_ops
 #undef vector_ops_all
@@ -41,33 +43,73 @@ static unsigned registers_kept(void)
     return a;
 }
 
-// Asks the processor by cpuid, because the compilers' __builtin_cpu_supports needs a runtime library that not
-// every tool chain has.
-Kernels kernels_select(void)
+// Whether this processor has fused multiply-add and packets of four, of eight.  Asked by cpuid, because the compilers'
+// __builtin_cpu_supports needs a runtime library that not every tool chain has.
+static void processor_has(bool *four, bool *eight)
 {
-    enum { YMM = 0x6, ZMM = 0xe6 };
+    enum { YMM = 0x6, ZMM = 0xe6 };  // bits of registers_kept
 
-    const unsigned AVX2 = 1u << 5, AVX512 = 1u << 16 | 1u << 17 | 1u << 31;  // F, DQ, VL
-    const unsigned FMA = 1u << 12;
+    const unsigned FMA = 1u << 12, AVX2 = 1u << 5;
     unsigned a, b, c, d;
     const unsigned kept = registers_kept();
-    if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & FMA)) return KERNELS(sse2);
-    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d)) b = 0;
-    if ((kept & ZMM) == ZMM && (b & AVX512) == AVX512) return KERNELS(avx512);
-    return (kept & YMM) == YMM && (b & AVX2) ? KERNELS(avx2) : KERNELS(sse2);
+    *four = *eight = false;
+    if (!__get_cpuid(1, &a, &b, &c, &d) || !(c & FMA)) return;
+    if (!__get_cpuid_count(7, 0, &a, &b, &c, &d)) return;
+    *four = (kept & YMM) == YMM && (b & AVX2);
+#ifdef EIGHT_BY_FOURS
+    *eight = *four;  // the tests' kernel of AVX-512's packets, computed by AVX2
+#else
+    const unsigned AVX512 = 1u << 16 | 1u << 17 | 1u << 31;  // F, DQ, VL
+    *eight = (kept & ZMM) == ZMM && (b & AVX512) == AVX512;
+#endif
 }
-#elif defined(KERNELS_NEON)
-DECLARE(neon);
 
 Kernels kernels_select(void)
 {
-    return KERNELS(neon);
+    bool four, eight;
+    processor_has(&four, &eight);
+    return eight ? KERNELS(avx512) : four ? KERNELS(avx2) : KERNELS(sse2);
+}
+
+static bool kernels_named(const char *name, Kernels *kernels)
+{
+    bool four, eight;
+    processor_has(&four, &eight);
+    if (strcmp(name, "avx512") == 0 && eight)
+        *kernels = KERNELS(avx512);
+    else if (strcmp(name, "avx2") == 0 && four)
+        *kernels = KERNELS(avx2);
+    else if (strcmp(name, "baseline") == 0)
+        *kernels = KERNELS(sse2);
+    else
+        return false;
+    return true;
 }
 #else
+#if defined(KERNELS_NEON)
+DECLARE(neon);
+#define BASELINE neon
+#else
 DECLARE(ISA);
+#define BASELINE ISA
+#endif
 
 Kernels kernels_select(void)
 {
-    return KERNELS(ISA);
+    return KERNELS(BASELINE);
+}
+
+static bool kernels_named(const char *name, Kernels *kernels)
+{
+    *kernels = kernels_select();
+    return strcmp(name, "baseline") == 0;
 }
 #endif
+
+Kernels kernels_wanted(const char **refused)
+{
+    const char *name = getenv("RIVETED_BEARING_ISA");
+    Kernels kernels = kernels_select();
+    *refused = name && *name && !kernels_named(name, &kernels) ? name : NULL;
+    return *refused ? kernels_select() : kernels;
+}

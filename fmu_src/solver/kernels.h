@@ -29,3 +29,7 @@ static inline const VectorOps *kernels_ops(const Kernels *kernels, const Model *
 
 // The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);
+
+// The kernels that the environment variable RIVETED_BEARING_ISA names (avx512, avx2, baseline), for tests; those of
+// kernels_select without it.  refused: its value where this processor has no such kernels, else NULL.
+Kernels kernels_wanted(const char **refused);

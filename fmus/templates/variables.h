@@ -36,6 +36,13 @@ typedef struct {
 {% endfor %}
     } {{ group }};
 {% endfor %}
+{% if name == "Parameters" and table.variables | selectattr("derives") | list %}
+    struct {  // whether the host has given a value to a parameter whose start value stands for one that follows from others
+{% for v in table.variables | selectattr("derives") %}
+        int {{ v | given_member }};
+{% endfor %}
+    } given;
+{% endif %}
 } {{ name }};
 {% endmacro %}
 {{ struct("Parameters", ["parameter"], "double") }}

@@ -27,6 +27,8 @@ class Variable:
     group: str | None
     description: str
     source: str | None
+    derives: bool  # whether the start value stands for one that follows from others
+    fixed: str | None  # why a parameter cannot change once a run has begun; None if it can
 
 {% for name, items in table.enumerations.items() %}
 
@@ -67,14 +69,14 @@ UNITS = {
 {% endfor %}
 }
 
-# name, vr, type, unit, display, start, min, max, count, group, description, source
+# name, vr, type, unit, display, start, min, max, count, group, description, source, derives, fixed
 {% for causality, title in (("parameter", "PARAMETERS"), ("input", "INPUTS"), ("output", "OUTPUTS"), ("local", "LOCALS")) %}
 {{ title }} = {
     v.name: v
     for v in (
 {% for v in table.of(causality) %}
         Variable({{ v.name | quoted }}, {{ v.vr }}, {{ v.type | quoted }}, {{ v.unit | quoted }}, {{ v.display | quoted }}, {{ v.start }}, {{ v.min }}, {{ v.max -}}
-                 , {{ "Z" if v.is_array else 1 }}, {{ v.group | quoted }}, {{ v.description | quoted }}, {{ v.source | quoted }}),
+                 , {{ "Z" if v.is_array else 1 }}, {{ v.group | quoted }}, {{ v.description | quoted }}, {{ v.source | quoted }}, {{ v.derives }}, {{ v.fixed | quoted }}),
 {% endfor %}
     )
 }

@@ -10,6 +10,8 @@ from . import (
     build,
     cascade,
     compare,
+    compare_designs,
+    cookbook,
     info,
     life,
     matrices,
@@ -19,6 +21,7 @@ from . import (
     run,
     sensitivity,
     study,
+    summary,
     sweep,
     variables,
 )

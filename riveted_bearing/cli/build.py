@@ -50,7 +50,12 @@ def build(
     with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("starting", total=None)
 
+        told = []
+
         def say(text, share=None):
+            if not messages.is_terminal and text not in told:  # a log: each step once
+                told.append(text)
+                messages.print(text)
             bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
 
         path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes)

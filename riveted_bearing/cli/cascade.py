@@ -29,13 +29,16 @@ def cascade(
     out: Annotated[
         Path | None, typer.Option(help="folder of runs, cascade.json and picture; default: results/CASCADE")
     ] = None,
+    single: Annotated[
+        bool, typer.Option(help="then one simulation for each seed, in which the rivets break by themselves")
+    ] = False,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
     """What happens when the first rivet goes: order, times and loads until three are gone or the cage opens; a second
     call does only missing runs.
     """
-    from ..design.cascade import default_document, plan_cascade, run_cascades, write_cascades, write_picture
+    from ..design.cascade import default_document, plan_cascade, run_cascades, run_single, write_cascades, write_picture
     from ..errors import UserError
     from ..fmu import Model
 
@@ -49,12 +52,16 @@ def cascade(
     make_folder(folder)
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
         found = run_cascades(study, document, model, folder, client, progress)
+        lives = run_single(study, document, model, folder, client, found, progress) if single else None
     for rows in dict.fromkeys(each.basis for each in found):
         print_basis(rows)
     for each in found:
         print_cascade(each)
+        for seed, run in enumerate(lives[each.name] if lives else (), start=1):
+            order = ", ".join(f"{place} of {k} after {hours_text(hours)}" for k, place, hours in run)
+            console.print(f"one simulation, seed {seed}: {order or 'nothing breaks'}", soft_wrap=True)
     for label, path in (
-        ("results", write_cascades(found, folder / "cascade.json")),
+        ("results", write_cascades(found, folder / "cascade.json", lives)),
         ("picture", write_picture(found, folder / "cascade.png")),
     ):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)

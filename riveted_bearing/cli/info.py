@@ -67,7 +67,7 @@ def read_as_scene(names):
 
 def info_tables(case):
     """Tables for the terminal: (title, rich table) for geometry, frequencies, equilibrium and the single balls."""
-    from ..bearings import not_given
+    from ..origin import not_given
 
     state = case.equilibrium()
     return [

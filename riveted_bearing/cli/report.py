@@ -18,11 +18,28 @@ def report(
     sensitivity: Annotated[
         Path | None, typer.Option(help="sensitivity.json of `sensitivity`, or its folder: the pages name what decides")
     ] = None,
+    overlay: Annotated[
+        Path | None,
+        typer.Option(
+            help='measured series (CSV, names like "housing.F_y [kN]"): the page shows them beside the run\'s'
+        ),
+    ] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option(
+            help='column of the CSV for a channel, e.g. housing.F_y="Fy [kN]" or time="t [ms]"; repeatable',
+            metavar="CHANNEL=COLUMN",
+        ),
+    ] = None,
 ):
     """One self-contained HTML page per run: figures, charts, and the motion to play and scrub."""
     from ..design.sensitivity import read_indices
+    from ..errors import UserError
+    from ..overlay import assigned
     from ..report import report_pages
 
+    if column and not overlay:
+        raise UserError(f"--column {column[0]}: needs --overlay with the file of the column")
     decides = read_indices(sensitivity) if sensitivity else None
-    for path in report_pages(results, out, decides):
+    for path in report_pages(results, out, decides, overlay, assigned(column or [])):
         console.print(f"report  [cyan]{escape(str(path))}[/]", soft_wrap=True)

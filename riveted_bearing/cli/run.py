@@ -1,6 +1,7 @@
 """riveted-bearing run: one scene through the FMU."""
 
 import re
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
 
@@ -8,7 +9,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..errors import UserError, unknown
+from ..errors import UserError, extra, unknown
 from ..interrupts import held_interrupts
 from ..results import FORMATS, make_folder, write_result
 from ..scene import load_scene, shipped_scenes
@@ -41,7 +42,7 @@ def run(
     from ..runner import simulate
 
     model = Model(fmu)
-    target = result_path(scene or model.path, out, format)
+    target = result_path(scene or model.path, out, format or lean_format(out))
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
     make_folder(target.parent)
     with held_interrupts():  # from the first step until its results are written
@@ -49,7 +50,7 @@ def run(
             result = simulate(model, plan, progress)
         print_summary(result)
         paths = [write_result(result, target)]
-        if plot:
+        if plot and is_there("matplotlib", "the picture"):
             from ..plot import plot_result
 
             paths.append(plot_result(result, target.with_suffix(".png")))
@@ -59,9 +60,30 @@ def run(
         f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
         soft_wrap=True,
     )
+    from ..summary import accelerated, breaks
+
+    for k, place, t in breaks(result):
+        console.print(f"rivet {k} broke in the {place} at {1e3 * t:.4g} ms")
+    if words := accelerated(result):
+        console.print(f"[yellow]{words}[/]")
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
+
+
+def is_there(library, what):
+    """Whether a library of the extra "full" is installed; a note tells what is left out without it."""
+    if find_spec(library):
+        return True
+    messages.print(f"[yellow]note:[/] without {library} {what} is left out: {escape(extra('full'))}", soft_wrap=True)
+    return False
+
+
+def lean_format(out):
+    """CSV where Parquet would be written but its library is missing; None otherwise."""
+    if out.suffix.removeprefix(".") in FORMATS or is_there("pyarrow", "Parquet"):
+        return None
+    return "csv"
 
 
 def result_path(scene, out, kind):

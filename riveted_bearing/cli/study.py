@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, resumable, sweep_progress
+from .terminal import FMU, SCHEDULER, SETTINGS, WORKERS, changes, command, console, resumable, sweep_progress
 
 
 @command
@@ -21,28 +21,25 @@ def study(
     seeds: Annotated[
         int | None, typer.Option(min=2, help="seeds of each point; default: eight, which the report's confidence needs")
     ] = None,
-    elastic: Annotated[
-        bool,
-        typer.Option(
-            "--elastic", help="all sweeps with elastic cage halves too: their verdicts beside those of rigid halves"
-        ),
-    ] = False,
+    settings: SETTINGS = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """The paper's figures again and its claims one by one: runs, pictures and paper.md; a second call does only missing
-    runs.
+    """The paper's figures again and its claims one by one, in the scenes `paper` and `physical`: runs, pictures and
+    paper.md; a second call does only missing runs. With --set: scene `paper` beside the same with your parameters.
     """
     from ..fmu import Model
-    from ..paper_study.paper import write_paper
-    from ..paper_study.study import check_names, run_study
+    from ..paper_study.paper import counted, write_paper
+    from ..paper_study.study import check_names, run_columns
     from ..sweep import cluster
 
     model = Model(fmu)
     check_names(names or [])
+    yours = changes(model, settings, None, None, None) if settings else None
     make_folder(report or out)
     with resumable(out), cluster(scheduler, workers) as client, sweep_progress() as progress:
-        data = run_study(model, out, client, names, seeds, progress)
-        bent = run_study(model, out / "elastic", client, names, seeds, progress, cage="elastic") if elastic else None
-    path = write_paper(data, report or out, bent)
+        columns = run_columns(model, out, client, names, seeds, progress, yours)
+    path = write_paper(columns, report or out, settings or ())
+    for line in counted(columns):
+        console.print(escape(line), soft_wrap=True)
     console.print(f"report   [cyan]{escape(str(path))}[/]", soft_wrap=True)

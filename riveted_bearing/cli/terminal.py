@@ -14,10 +14,23 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from ..errors import UserError, unknown
+from ..errors import UserError, extra, unknown
 from ..version import __version__
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
+# Libraries of the extra "full": a run needs none of them.
+FULL = (
+    "scipy",
+    "skfem",
+    "threadpoolctl",
+    "jinja2",
+    "matplotlib",
+    "pyarrow",
+    "dask",
+    "distributed",
+    "filelock",
+    "rainflow",
+)
 program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 PIPE_WIDTH = 160  # characters, where there is no terminal to ask
 console = Console(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
@@ -72,6 +85,15 @@ def command(function):
             return function(*arguments, **options)
         except UserError as problem:
             messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
+            raise typer.Exit(BAD_INPUT) from None
+        except ModuleNotFoundError as problem:
+            library = (problem.name or "").partition(".")[0]
+            if library not in FULL:
+                raise
+            messages.print(
+                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}",
+                soft_wrap=True,
+            )
             raise typer.Exit(BAD_INPUT) from None
         except KeyboardInterrupt:
             messages.print("interrupted: no file has changed")

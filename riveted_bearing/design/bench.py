@@ -113,6 +113,7 @@ class Bench:
         self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
         self.scenes = {}
         self.counts_damage = False
+        self.label = "the scene"  # of a point without names, for messages
 
     def sweep(self, names, scenes):
         """The runs of scenes by key, in which the names vary."""
@@ -182,7 +183,8 @@ class Bench:
         chosen = np.array([places[key] for key in keys])
         for i in chosen:
             if rows["status"][i] == "failed":
-                raise UserError(f"{self.path}: {self.point_text(names, rows, i)}: the run failed: {rows['message'][i]}")
+                point = self.point_text(names, rows, i) or self.label
+                raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")
         values = np.column_stack([response(self.path, rows, name)[chosen] for name in responses])
         values[rows["status"][chosen] == "stopped"] = np.nan
         return values.reshape(len(points), len(seeds), len(responses))

@@ -13,6 +13,10 @@ each rivet's head and middle, mean over the seeds.  Damage adds up over the stat
 1 breaks, and with it the rivet carries nothing.  A cascade ends when enough rivets are gone, when the cage opens - all
 joints that stand are open at one communication point -, or when nothing is damaged any more.
 
+The same as one simulation for each seed (run_single): rivets break by themselves (scene.breakage = on), and
+fatigue.acceleration is so large that the first one breaks in the middle of the run.  Its times, multiplied by the
+factor, are those of the restarts but for the scatter of short runs.
+
 How sure the order is: the share of bootstrap resamples of the seeds in which the same place is the next to break.
 """
 
@@ -118,12 +122,50 @@ def run_cascades(path, document, model, folder, client, progress=None):
         section = section_of(path, document, "parameters") | parameters
         bench = Bench(path, common | {"parameters": section}, model, folder, client, progress)
         bench.counts_damage = True
+        bench.label = name
         rivets = sum(each.startswith("rivet[") and each.endswith("].intact") for each in model.parameters)
         if breaks >= rivets:
             raise refusal(path, "breaks", breaks, f"less than the number of rivets, {rivets}, is allowed")
         states = follow(lambda gone, bench=bench, rivets=rivets: state_of(bench, rivets, gone), breaks, bench.first)
         found.append(Cascade(name, tuple(states), tuple(bench.basis())))
     return found
+
+
+def run_single(path, document, model, folder, client, found, progress=None):
+    """Breaks of one simulation for each seed, by the case's name: [seed][break] (rivet, place, hours since the begin).
+
+    found: Cascades of run_cascades, whose first state says by how much the damage is to be accelerated.  A case in which
+    nothing is damaged has no breaks.
+    """
+    cases, breaks = plan_cascade(path, document)
+    common = {
+        key: document[key]
+        for key in ("description", "scene", "simulation", "inputs", "seeds", "seed")
+        if key in document
+    }
+    lives = {}
+    for cascade in found:
+        section = section_of(path, document, "parameters") | cases[cascade.name]
+        plain = Bench(path, common | {"parameters": section}, model, folder, client, progress)
+        settle = plain.scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+        first = cascade.states[0].hours
+        if not np.isfinite(first):
+            lives[cascade.name] = [[] for _ in range(plain.seeds)]
+            continue
+        factor = 2.0 * 3600.0 * first / (plain.scene.t_end - settle)
+        own = {"scene.breakage": "on", "fatigue.acceleration": factor}
+        bench = Bench(path, common | {"parameters": section | own}, model, folder, client, progress)
+        rivets = len(cascade.states[0].rates)
+        names = [f"rivet[{k}].{what}" for k in range(1, rivets + 1) for what in ("break_time", "broken")]
+        values = bench([], [[]], names)[0].reshape(bench.seeds, rivets, 2)
+        lives[cascade.name] = [breaks_of(times, settle, factor)[:breaks] for times in values]
+    return lives
+
+
+def breaks_of(values, settle, factor):
+    """(rivet, place, hours) in the order of time from break times and places [Z, 2] of a run with accelerated damage."""
+    broken = [(t, k + 1, PLACES[int(place) - 1]) for k, (t, place) in enumerate(values) if t >= 0.0]
+    return [(k, place, (t - settle) * factor / 3600.0) for t, k, place in sorted(broken)]
 
 
 def state_of(bench, rivets, gone):
@@ -138,6 +180,7 @@ def state_of(bench, rivets, gone):
         raise UserError(f"{bench.path}: with the rivets {', '.join(map(str, gone))} gone the FMU stops every run")
     values = values[~np.isnan(values).any(axis=1)]
     hours = np.maximum(values[:, -4] - values[:, -3], 1e-9) / 3600.0
+    hours *= float(bench.scene.parameters.get("fatigue.acceleration", 1.0))
     rates = values[:, : 2 * rivets].reshape(-1, rivets, 2) / hours[:, None, None]
     stress = values[:, 2 * rivets : 3 * rivets].mean(axis=0)
     opens = bool(np.max(values[:, -1]) >= rivets - len(gone))
@@ -181,8 +224,10 @@ def next_break(damage, rates):
     return hours[at], (int(at[0]), int(at[1]))
 
 
-def write_cascades(found, path):
-    """JSON: for each case what it rests on, its breaks (rivet, place, hours, sure) and its states; returns the path."""
+def write_cascades(found, path, single=None):
+    """JSON: for each case what it rests on, its breaks (rivet, place, hours, sure), its states, and the breaks of single
+    simulations by seed, if there are any (run_single); returns the path.
+    """
 
     def plain(state):
         values = asdict(state) | {
@@ -198,6 +243,16 @@ def write_cascades(found, path):
             "order": [{"rivet": rivet, "place": place, "hours": hours} for rivet, place, hours in each.order],
             "states": list(map(plain, each.states)),
         }
+        | (
+            {
+                "single": [
+                    [{"rivet": k, "place": place, "hours": hours} for k, place, hours in run]
+                    for run in single[each.name]
+                ]
+            }
+            if single
+            else {}
+        )
         for each in found
     }
     write_atomically(

@@ -38,7 +38,8 @@ METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
 @dataclass(frozen=True)
 class Sensitivity:
     """For each response: factors with mu_star, its confidence, sigma and the mu_star of noise; those of Sobol with S1,
-    ST, their confidence (95 %), and the noise's share of the variance; basis: what the runs rest on.
+    ST, their confidence (95 %), and the noise's share of the variance; basis: what the runs rest on; ranges: of the
+    factors, (lowest, highest) in SI.
     """
 
     name: str
@@ -50,6 +51,7 @@ class Sensitivity:
     chosen: tuple
     sobol: dict = field(default_factory=dict)
     basis: dict = field(default_factory=dict)
+    ranges: dict = field(default_factory=dict)
 
     @property
     def ranked(self):
@@ -154,6 +156,10 @@ def analyse(study, evaluate):
         morris,
         tuple(chosen),
         sobol,
+        ranges={
+            name: [float(low), float(high)]
+            for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)
+        },
     )
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from bearing_model.generated.variables import INPUTS
 
 from ..errors import UserError
-from ..life import fatigue_law
+from ..life import fatigue_law, fatigue_law_at
 from ..results import write_atomically
 from ..sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
 from .confidence import Estimate, until_sure
@@ -125,12 +125,17 @@ class Runs:
         matrix = stored_cycles(rows, i)
         damage = own
         if "sn" in self.mission.document:
+            if law.fretting != 1.0:
+                raise UserError(
+                    f"{where}: fatigue.fretting = {law.fretting:g}: with a section [sn], whose curve is for all places, only 1 is allowed"
+                )
             if law not in self.strengths:
                 self.strengths[law] = read_strength(self.mission.path, self.mission.document["sn"], law)
             damage = damage_of_matrix(self.strengths[law], matrix, own.size).reshape(own.shape)
         seconds = rows["simulated_time"][i] - rows["start.settle"][i]
         self.damages[key] = damage if part.event else damage * 3600.0 / seconds
-        self.matrices[key] = (matrix, law, own)
+        laws = [fatigue_law_at({n: rows[n][i] for n in rows}, 1 + c // 2, PLACES[c % 2]) for c in range(own.size)]
+        self.matrices[key] = (matrix, laws, own)
         self.cost[key] = float(rows["whole_cpu_time"][i])
 
     def counted(self):
@@ -138,10 +143,10 @@ class Runs:
         from .sn import Strength, damage_of_cycles
 
         found, own = 0.0, 0.0
-        for matrix, law, total in self.matrices.values():
+        for matrix, laws, total in self.matrices.values():
             channel = total.argmax()
             chosen = matrix[0] == channel
-            found += damage_of_cycles(Strength(law), *(column[chosen] for column in matrix[1:])).sum() / max(
+            found += damage_of_cycles(Strength(laws[channel]), *(column[chosen] for column in matrix[1:])).sum() / max(
                 total.max(), 1e-300
             )
             own += 1.0

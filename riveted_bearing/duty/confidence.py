@@ -49,9 +49,7 @@ def estimate(duty, samples, confidence, seed):
     rates = np.array([runs.mean(axis=0) for runs in samples])
     life, damage = lives(duty, rates)
     place = int(np.argmin(life))
-    logs = [np.log(np.maximum(runs, NO_DAMAGE)) for runs in samples]
-    spread = np.array([log.std(axis=0, ddof=1) for log in logs])  # [C, K]
-    counts = np.array([len(runs) for runs in samples])
+    logs, spread, counts = scatter_of(samples)
     case_shares = np.einsum("ji,jic->c", damage[..., place], duty.blends)
     error = relative_error(spread[:, place], counts)
     s = math.sqrt(np.sum((case_shares * error) ** 2))
@@ -77,6 +75,37 @@ def estimate(duty, samples, confidence, seed):
     return Estimate(life[place], low, high, 0.5 * math.log(high / low), place, shares, case_shares, error, drawn, rates)
 
 
+def scatter_of(samples):
+    """Logarithms of the damages of each case's runs, their standard deviations [C, K], and the numbers of runs [C]."""
+    logs = [np.log(np.maximum(runs, NO_DAMAGE)) for runs in samples]
+    return logs, np.array([log.std(axis=0, ddof=1) for log in logs]), np.array([len(runs) for runs in samples])
+
+
+def ratio_interval(duties, samples, found, confidence, seed):
+    """Ends of the interval of ln(L_b/L_a) and the correlation of both over the draws, from two designs' Duties, damages
+    [n, K] of each case with common seeds and equal numbers of runs, and Estimates.
+
+    The studentized bootstrap above, in which a draw has the same runs for both:
+    s^2 = s_a^2 + s_b^2 - 2 r s_a s_b, r the correlation of ln L_a* and ln L_b*.
+    """
+    drawn = [
+        drawn_lives(duty, *scatter_of(runs), np.random.default_rng(seed))
+        for duty, runs in zip(duties, samples, strict=True)
+    ]
+    errors = [math.sqrt(np.sum((one.case_shares * one.error) ** 2)) for one in found]
+    middle = math.log(found[1].life / found[0].life)
+    deviation = drawn[1][0] - drawn[0][0]
+    if np.abs(deviation).max() < 1e-12:
+        return middle, middle, 1.0
+    scatter = drawn[0][0].std() * drawn[1][0].std()
+    r = float(np.corrcoef(drawn[0][0], drawn[1][0])[0, 1]) if scatter > 0.0 else 0.0
+    combined = lambda a, b: np.sqrt(np.maximum(a**2 + b**2 - 2.0 * r * a * b, 0.0))
+    s = float(combined(*errors))
+    t = deviation / np.maximum(combined(drawn[0][1], drawn[1][1]), 0.1 * s)
+    low, high = np.quantile(t, [0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence])
+    return middle - high * s, middle - low * s, r
+
+
 def relative_error(spread, counts):
     """Standard error of ln of the mean of n runs whose logarithms have the standard deviation `spread` (log-normal
     law).
@@ -87,6 +116,14 @@ def relative_error(spread, counts):
 def bootstrap(duty, logs, spread, counts, rng, least_error):
     """Studentized deviations of ln life and the lives themselves, DRAWS of each; the standard error of a draw is at
     least `least_error`.
+    """
+    deviation, s, shortest = drawn_lives(duty, logs, spread, counts, rng)
+    return deviation / np.maximum(s, least_error), shortest
+
+
+def drawn_lives(duty, logs, spread, counts, rng):
+    """DRAWS deviations of ln life, their standard errors, and the lives [h]; the same runs are drawn for other logs of
+    the same counts by an equal rng.
     """
     centres = np.array([log.mean(axis=0) for log in logs])
     scale = np.where(spread > 0.0, spread, 1.0)
@@ -106,7 +143,7 @@ def bootstrap(duty, logs, spread, counts, rng, least_error):
     errors = relative_error(np.take_along_axis(deviations, place[:, None, None], axis=-1)[..., 0], counts)
     s = np.sqrt(np.sum((shares * errors) ** 2, axis=-1))
     shortest, expected = life.min(axis=-1), lives(duty, truth)[0].min()
-    return (np.log(shortest) - math.log(expected)) / np.maximum(s, least_error), shortest
+    return np.log(shortest) - math.log(expected), s, shortest
 
 
 def further_runs(found, counts, target, most):

@@ -18,6 +18,10 @@ name = "landing"
 count = 12                           # per pass of the mission; damage of its whole run after start.settle
 inputs.impact.F_r = { t = [0.05, 0.051, 0.052], value = [0, 4000, 0] }
 
+[[change]]                           # of tunable parameters, in every pass of the mission: from this time of its points on,
+at = "2 h"                           # in their order; a point that is under way is divided
+joint.mu = 0.2
+
 [table]                              # further points from a CSV table
 file = "duty.csv"
 hours = "h"                          # column
@@ -43,6 +47,7 @@ rivets = "each"                      # or "alike": every rivet takes every place
 [tolerance]                          # see tolerances.py
 """
 
+import itertools
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -67,6 +72,7 @@ SECTIONS = (
     "inputs",
     "point",
     "event",
+    "change",
     "table",
     "history",
     "preload_loss",
@@ -92,7 +98,7 @@ HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
 RIVETS = ("each", "alike")
 PRELOAD = "joint.preload"
-FORCED = {"scene.stress": "fatigue", "scene.statistics": "on"}
+FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
 
 
 @dataclass(frozen=True)
@@ -252,9 +258,60 @@ def tables(path, document, name):
     return blocks
 
 
+def changed_points(path, document, model):
+    """The tables [[point]] with the parameters of [[change]]; a point in which a change falls is divided."""
+    blocks, changes = tables(path, document, "point"), tables(path, document, "change")
+    if not changes:
+        return blocks
+    if any(key in document for key in ("table", "history")) or any("hours" not in block for block in blocks):
+        raise UserError(f"{path}: change: needs an order of time: [[point]] with hours, no [table] and no [history]")
+    times = [change_of(path, i, change, model) for i, change in enumerate(changes, 1)]
+    ends = np.cumsum([amount(path, "point: hours", block["hours"], HOURS) for block in blocks])
+    late = [at for at, _ in times if not 0.0 <= at < ends[-1]]
+    if late:
+        raise refusal(
+            path, "change.at", f"{late[0]:g} h", f"from 0 to below the {ends[-1]:g} h of all points is allowed"
+        )
+    found, begin = [], 0.0
+    for i, (block, end) in enumerate(zip(blocks, ends, strict=True), 1):
+        edges = [begin, *sorted({at for at, _ in times if begin < at < end}), float(end)]
+        for part, (start, stop) in enumerate(itertools.pairwise(edges)):
+            parameters = dict(block.get("parameters", {}))
+            for at, values in times:
+                if at <= start:
+                    parameters = merged(parameters, values)
+            name = f"{block.get('name', i)}" + (f" from {start:g} h" if part else "")
+            found.append(block | {"name": name, "hours": stop - start, "parameters": parameters})
+        begin = float(end)
+    return found
+
+
+def change_of(path, number_of, change, model):
+    """Time [h] and parameters of one [[change]]; UserError for one that a run could not change."""
+    label = f"change {number_of}"
+    if "at" not in change:
+        raise UserError(f"{path}: {label}: at is needed: the time at which its parameters change")
+    values = {key: value for key, value in change.items() if key != "at"}
+    for name, _ in leaves(values, model.parameters):
+        variable = model.parameters.get(name)
+        if variable is not None and variable.variability != "tunable":
+            raise UserError(f"{path}: {label}: {name} is fixed in a run: see docs/parameters.md")
+    return amount(path, f"{label}: at", change["at"], HOURS), values
+
+
+def merged(tree, other):
+    """Nested tables with those of another one put over them."""
+    both = {
+        key: merged(tree[key], other[key])
+        for key in other
+        if isinstance(tree.get(key), dict) and isinstance(other[key], dict)
+    }
+    return tree | other | both
+
+
 def points(path, document, model):
     """The Parts of [[point]], [table] and [history]."""
-    blocks = tables(path, document, "point")
+    blocks = changed_points(path, document, model)
     found = []
     for i, block in enumerate(blocks, 1):
         label = f"point {block.get('name', i)}"
@@ -310,7 +367,7 @@ def part_of(path, document, model, label, name, block, weight, event=False):
         model,
         (str(path), common),
         (f"{path}: {label}", own),
-        ("a mission", {"parameters": FORCED}),
+        ("a mission", {"parameters": {name: value for name, value in FORCED.items() if name in model.parameters}}),
     )
     if scene.t_end <= scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])):
         raise refusal(

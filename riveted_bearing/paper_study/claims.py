@@ -7,11 +7,13 @@ from importlib.resources import files
 from itertools import product
 
 import numpy as np
+from scipy.stats import norm
 
-from .study import CLEARANCES, GRIPS, Estimate, Runs, clearance_series, estimate, grip
+from .study import CLEARANCES, SCATTER, Estimate, Runs, clearance_series, estimate
 
 PICTURES = tomllib.loads((files("riveted_bearing") / "data" / "claims.toml").read_text(encoding="utf-8"))
-LABELS = PICTURES.pop("labels")
+NUMBERS = PICTURES.pop("numbers")
+MEASURES = {"mean": "", "p99.9": "_peak", "range": "_range"}  # measures of the stress: end of the columns' names
 LOOP = r" for (\$\w+) in ([^$]+?)(?= for \$|$)"
 PREDICATES = {
     ">": lambda a, b: a.low > b.high,
@@ -25,57 +27,103 @@ PREDICATES = {
 
 @dataclass(frozen=True)
 class Claim:
-    """A sentence of the paper: its place, the sentence, figures of the runs, which conditions they meet, the reason."""
+    """A sentence of the paper: its place, the claim in short, the paper's words, the condition in words and why it is
+    fair; figures of the runs, which conditions they meet, and which of those before the repair; the reason.
+    """
 
     where: str
     said: str
+    sentence: str
+    condition: str
+    reason: str
     found: str
     holds: tuple
+    before: tuple
+    repaired: bool
     why: str
 
     @property
     def verdict(self):
         """reproduced, partly or not: all, some or none of the conditions are met."""
-        return "reproduced" if all(self.holds) else "partly" if any(self.holds) else "**not**"
+        return verdict_of(self.holds)
+
+    @property
+    def verdict_before(self):
+        """The verdict by the conditions before the repair."""
+        return verdict_of(self.before)
 
 
-def all_claims(data):
-    """Claims for which there are runs, in the order of the paper, by the picture (of study.PICTURES, or "cost")."""
-    sweeps = {name: picture.get("sweep", name) for name, picture in PICTURES.items()}
+def verdict_of(holds):
+    """reproduced, partly or not: all, some or none of the conditions are met."""
+    return "reproduced" if all(holds) else "partly" if any(holds) else "not"
+
+
+def all_claims(data, measure="mean"):
+    """Claims for which there are runs, in the order of the paper, by the picture; measure: of the stress."""
     return {
-        name: Figures(data, data[sweep], PICTURES[name]).claims() for name, sweep in sweeps.items() if sweep in data
+        name: Figures(data, data[sweep_of(name)], picture, measure).claims()
+        for name, picture in PICTURES.items()
+        if sweep_of(name) in data
     }
+
+
+def sweep_of(picture):
+    """Name of the sweep whose runs a picture shows."""
+    return PICTURES[picture].get("sweep", picture)
+
+
+def numbers(data):
+    """The paper's numbers for which there are runs: (what, the paper's value, the value in these runs)."""
+    return [
+        (number["what"], number["paper"], figures_of(data, number["sweep"]).filled(number["value"]))
+        for number in NUMBERS
+        if sweep_of(number["sweep"]) in data
+    ]
+
+
+def figures_of(data, picture, measure="mean"):
+    """Figures of the runs of a picture."""
+    return Figures(data, data[sweep_of(picture)], PICTURES[picture], measure)
 
 
 @dataclass(frozen=True)
 class Figures:
-    """Figures of the runs of one picture, a table of claims.toml; data: Runs of all sweeps by name."""
+    """Figures of the runs of one picture, a table of claims.toml; data: Runs of all sweeps by name; measure: of the
+    stress.
+    """
 
     data: dict
     runs: Runs
     picture: dict
+    measure: str = "mean"
 
     def claims(self):
-        """The picture's Claims."""
-        return [self.claim(*title.split(": ", 1), **table) for title, table in self.picture.items() if ": " in title]
+        """The picture's Claims of which all runs are there."""
+        tables = {title: table for title, table in self.picture.items() if ": " in title}
+        return [
+            self.claim(*title.split(": ", 1), **table)
+            for title, table in tables.items()
+            if all(sweep in self.data for sweep in others(table["holds"]))
+        ]
 
-    def claim(self, where, said, holds, why, here="", lines=(), last=None, also=None):
+    def claim(self, where, said, holds, sentence, condition, reason, why, here, before=None, lines=()):
         """The Claim of its table."""
-        if last and all(map(self.met, repeated([last["if"]]))):
-            lines = [*lines, last["line"]]
         here += "".join(f"\n    - {line}" for line in repeated(lines))
-        why += "".join(text for sweep, text in (also or {}).items() if sweep in self.data)
-        return Claim(where, said, self.filled(here), tuple(map(self.met, repeated(holds))), self.filled(why))
+        now, old = (tuple(map(self.met, repeated(conditions))) for conditions in (holds, before or holds))
+        return Claim(
+            where, said, sentence, condition, reason, self.filled(here), now, old, before is not None, self.filled(why)
+        )
 
     def filled(self, text):
         """A text with figures for its quantities; a format after a colon is for the mean, "[]" adds the interval."""
-        texts = {name: value for name, value in self.picture.items() if name.startswith("$")}
-        return re.sub(
-            r"{([^{}:]+):?([^{}]*)}", lambda match: shown(self.value(match[1]), match[2]), replaced(text, texts)
-        )
+        return re.sub(r"{([^{}:]+):?([^{}]*)}", lambda match: shown(self.value(match[1]), match[2]), text)
 
     def met(self, condition):
-        """Whether "QUANTITY PREDICATE QUANTITY" holds, or all of several joined by "and"."""
+        """Whether "QUANTITY PREDICATE QUANTITY" holds, or all of several joined by "and"; "PICTURE: ..." for another
+        picture's runs.
+        """
+        if other := re.fullmatch(r"(\w+): (.+)", condition):
+            return figures_of(self.data, other[1], self.measure).met(other[2])
         parts = (
             re.fullmatch(r"(.+) (>=?|<=?|exceeds|within) (.+)", part).groups() for part in condition.split(" and ")
         )
@@ -89,7 +137,8 @@ class Figures:
         return value if isinstance(value, Estimate) else Estimate(value, value, value)
 
     def value(self, text):
-        """Estimate, number or text of "WORD COLUMN, ...[POINTS]", a number, a label, a multiple or a ratio of means."""
+        """Estimate or number of "WORD COLUMN, ...[POINTS]", a number, a multiple or a ratio of means."""
+        text = replaced(text, {f"${place}": f"{place}{MEASURES[self.measure]}" for place in ("head", "mid")})
         if " / " in text:
             above, below = map(self.estimate, text.split(" / "))
             return above.mean / below.mean
@@ -97,7 +146,7 @@ class Figures:
             return float(multiple[1]) * self.estimate(multiple[2]).mean
         if quantity := re.fullmatch(r"(?:(\w+) )?(.+)\[(.*)\]", text):
             return WORDS[quantity[1] or "mean"](self, *quantity[2].split(", "), quantity[3])
-        return LABELS.get(text) or float(text)
+        return float(text)
 
     def places(self, points):
         """Runs at a point, or at all points of a range, beside the value of the last axis: [(value, Runs)]."""
@@ -129,9 +178,14 @@ def along(runs, axis, word):
     if axis == "series":
         return [(word, clearance_series(runs, label)) for label in CLEARANCES if label.startswith(word)]
     if ".." not in word:
-        return [(word, runs.at(**{axis: word if axis == "scene" else float(word)}))]
+        return [(word, runs.at(**{axis: float(word)}))]
     first, last = (float(end or default) for end, default in zip(word.split(".."), ("-inf", "inf")))
     return [(float(value), runs.at(**{axis: value})) for value in np.unique(runs[axis]) if first <= value <= last]
+
+
+def others(conditions):
+    """Sweeps of other pictures that conditions are about."""
+    return [sweep_of(other[1]) for line in conditions if (other := re.match(r"(\w+): ", line))]
 
 
 def repeated(lines):
@@ -183,11 +237,6 @@ def valley(f, column, points):
     return min(from_best(f, column, f"{points} -> {points.replace('..', str(end))}").low for end in (first, last))
 
 
-def valleys(f, *columns_points):
-    *columns, points = columns_points
-    return ", ".join(LABELS[column] for column in columns if valley(f, column, points) > 0.0) or "none"
-
-
 def below_from(f, column, limit, points):
     places, means = f.means(column, points)
     return next((place for i, place in enumerate(places) if (means[i:] < float(limit)).all()), places[-1])
@@ -210,12 +259,19 @@ def damaged(f, place, other, point):
     return sum(mean(f, pair, point).low > 0.0 for pair in pairs)
 
 
-def grips(f, column, preload):
-    runs = {name: grip(f.data["grip"], name).at(preload=float(preload)) for name in GRIPS}
-    return "; ".join(f"{name}: {np.median(at[column]):.1f}" for name, at in runs.items())
+def share(f, place, other, point):
+    """A rivet's strength at both places is log-normal: the odds that the first breaks before the second."""
+    decades = np.array(
+        [f.values(f"{place}_damage_{k}-{other}_damage_{k}", point) for k in range(1, rivets(f, place) + 1)]
+    )
+    return estimate(norm.cdf(decades / (np.sqrt(2.0) * SCATTER)).mean(axis=0))
 
 
-FUNCTIONS = (mean, clear, best, from_best, valley, valleys, below_from, crossing, rivets, damaged, grips)
+def ratios(f, first, second, points):
+    return np.divide(*(f.means(column, points)[1] for column in (first, second)))
+
+
+FUNCTIONS = (mean, clear, best, from_best, valley, below_from, crossing, rivets, damaged, share)
 WORDS = {word.__name__: word for word in FUNCTIONS} | {
     "tenfold": lambda f, *where: Estimate(*(10.0**end for end in vars(mean(f, *where)).values())),
     "median": lambda f, *where: np.median(f.values(*where)),
@@ -224,5 +280,6 @@ WORDS = {word.__name__: word for word in FUNCTIONS} | {
     "least": lambda f, *where: f.means(*where)[1].min(),
     "spread": lambda f, *where: np.ptp(f.means(*where)[1]),
     "over_least": lambda f, *where: f.means(*where)[1][0] / f.means(*where)[1].min(),
-    "percent_over_least": lambda f, *where: 100.0 * (WORDS["over_least"](f, *where) - 1.0),
+    "highest_ratio": lambda f, *where: ratios(f, *where).max(),
+    "lowest_ratio": lambda f, *where: ratios(f, *where).min(),
 }

@@ -1,6 +1,7 @@
 """The paper's study (Cui et al., Machines 2023, 11, 700, section 4): its figures again.
 
-Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds.  Curves are means over the seeds
+Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds, in each of two scenes: `paper`, the
+paper's equations as they read, and `physical`, with the physics that they leave out.  Curves are means over the seeds
 with the 95 % confidence interval of that mean (Student's t).  Stress is shown three ways, because the paper does not
 say which stress it means: the mean over time of the worst rivet, its 99.9 % quantile over every internal step, and the
 dynamic range of a single rivet (99.9 % quantile - 0.1 % quantile of the samples, of the rivet with the largest
@@ -17,6 +18,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
+from scipy.stats import norm
 from scipy.stats import t as student
 
 from bearing_model.cage.common import joint_law
@@ -26,10 +28,16 @@ from bearing_model.rivet import rivet_rom
 from ..errors import unknown
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
 from ..results import write_atomically
+from ..scene import leaves
 from ..summary import DEG, RPM
 from ..sweep import load_sweep, plan_sweep, run_sweep
 
 SHIPPED = files("riveted_bearing") / "data" / "studies"
+SCENES = {"paper": "the paper's equations", "physical": "centrifugal load, elastic halves"}
+BESIDE = ("tolerance", "fretting", "rings_speed", "rings_clearance")  # sweeps beside the figures: scene `paper` only
+T_S = 1.25  # strength of 90 % of the rivets over that of 10 %: machined steel (Haibach, Betriebsfestigkeit)
+SLOPE = 15.0  # of the S-N curve below its knee (fatigue.k_2)
+SCATTER = SLOPE * np.log10(T_S) / (2.0 * norm.ppf(0.9))  # of a rivet's life, in decades
 LOADS = {2994: ("2994 / 515 N", HEAD), 2246: ("2246 / 386 N", MIDDLE), 1994: ("1994 / 258 N", RING)}  # Fr / Fa
 
 
@@ -45,9 +53,9 @@ def check_names(names):
             raise unknown("study", "study", name, shipped_studies())
 
 
-def study_sweep(name, model, repeats=None, cage=None):
+def study_sweep(name, model, repeats=None, scene=None, changed=None):
     """The Sweep of a shipped study; repeats: number of seeds in the place of the study's own, if the study varies the
-    seed; cage: in the place of its own.
+    seed; scene: in the place of its own; changed: document of parameters and inputs that the study does not set.
     """
     check_names([name])
     path = SHIPPED / f"{name}.toml"
@@ -55,17 +63,22 @@ def study_sweep(name, model, repeats=None, cage=None):
     document = dict(sweep.document)
     if repeats is not None and "repeats" in document:
         document["repeats"] = repeats
-    if cage is not None:
-        given = document["parameters"]
-        document["parameters"] = given | {"scene": given["scene"] | {"cage": cage}}
+    if scene is not None:
+        document["scene"] = scene
+    for section in ("parameters", "inputs"):
+        known = [*model.parameters, *model.inputs]
+        own = dict(leaves(document.get(section, {}), known))
+        further = {key: value for key, value in (changed or {}).get(section, {}).items() if key not in sweep.factors}
+        if further:
+            document[section] = further | own
     return sweep if document == sweep.document else plan_sweep(name, document, model, path)
 
 
-def run_study(model, folder, client, names=None, repeats=None, progress=None, cage=None):
+def run_study(model, folder, client, names=None, repeats=None, progress=None, scene=None, changed=None):
     """Do the runs that the study's folder lacks and return its Runs by name; progress: called with name and the numbers
-    of runs done, failed, in all.
+    of runs done, failed, in all; scene, changed: see study_sweep.
     """
-    sweeps = [study_sweep(name, model, repeats, cage) for name in names or shipped_studies()]
+    sweeps = [study_sweep(name, model, repeats, scene, changed) for name in names or shipped_studies()]
     progress = progress or (lambda *_: None)
     return {
         sweep.name: runs_of(
@@ -74,6 +87,31 @@ def run_study(model, folder, client, names=None, repeats=None, progress=None, ca
             )
         )
         for sweep in sweeps
+    }
+
+
+def run_columns(model, folder, client, names=None, repeats=None, progress=None, yours=None):
+    """The Runs of each column of the report, {column: {sweep: Runs}}: `paper`, `physical`, and if there is a document of
+    changed parameters and inputs `yours`, scene `paper` with them.
+    """
+    chosen = names or shipped_studies()
+    figures = [name for name in chosen if name not in BESIDE]
+    columns = {"paper": ("paper", chosen, None), "physical": ("physical", figures, None)}
+    if yours:
+        columns = {"paper": ("paper", figures, None), "yours": ("paper", figures, yours)}
+    return {
+        column: run_study(
+            model,
+            Path(folder) / column,
+            client,
+            sweeps,
+            repeats,
+            progress and (lambda name, *counts, column=column: progress(f"{column}: {name}", *counts)),
+            scene,
+            changed,
+        )
+        for column, (scene, sweeps, changed) in columns.items()
+        if sweeps
     }
 
 
@@ -177,11 +215,11 @@ def runs_of(rows):
         "F_a": rows["shaft.F_x"],
         "tilt": np.round(rows["shaft.tilt_z"] * DEG, 6),
         "preload": rows["joint.preload"],
-        "mu": rows["joint.mu"],
         "fit": np.round(rows["joint.fit"] * 1e6, 6),
         "pocket": np.round(rows["cage.pocket_clearance"] * 1e6, 3),
         "guide": np.round(rows["cage.guide_clearance"] * 1e6, 3),
-        "pocket_damping": rows["cage.lambda"],
+        "fretting": rows["fatigue.fretting"],
+        "tilt_mode": rows["ring.tilt_mode"],
         "centrifugal": rows["cage.centrifugal"],
         "impact": rows["pulse.F_r"],
         "width": np.round(rows["pulse.duration"] * 1e3, 6),
@@ -206,6 +244,9 @@ def runs_of(rows):
             for k in range(1, rivets + 1):
                 columns[f"{place}_damage_{k}"] = np.log10(rows[f"rivet[{k}].damage_{place}"] / counted * 3600.0)
             columns[f"{place}_damage"] = np.max([columns[f"{place}_damage_{k}"] for k in range(1, rivets + 1)], axis=0)
+    if "rms(cage.omega)" in rows:
+        mean, rms = rows["mean(cage.omega)"], rows["rms(cage.omega)"]
+        columns["unsteady"] = 100.0 * np.sqrt(np.maximum(rms**2 - mean**2, 0.0)) / mean
     columns["ratio"] = np.round(columns["pocket"] / columns["guide"], 2)
     if "p999(rivet[1].M)" in rows:  # stress of the worst rivet under its preload and only one of its loads
         # the moment's sign: as the centrifugal load has it
@@ -273,79 +314,87 @@ def canvas(rows, columns):
     return plt.subplots(rows, columns, figsize=(4.0 * columns, 0.4 + 2.9 * rows), layout="constrained", squeeze=False)
 
 
-def preload_picture(data):
+def rows_of(columns, width):
+    """A figure with a row of panels for each column: (figure, [(title, Runs by sweep, axes)])."""
+    figure, axes = canvas(len(columns), width)
+    for row, column in zip(axes, columns, strict=True):
+        row[0].annotate(
+            column,
+            (0.0, 1.13),
+            xycoords="axes fraction",
+            ha="left",
+            va="bottom",
+            fontweight="bold",
+            annotation_clip=False,
+        )
+    return figure, list(zip(columns, columns.values(), axes, strict=True))
+
+
+def preload_picture(columns):
     """Figs. 10 and 11."""
-    figure, axes = canvas(1, 4)
-    runs = data["preload"]
-    for name, label, style in (
-        ("dislocation_max", "largest", "-"),
-        ("dislocation", "mean", "--"),
-        ("slip", "range", ":"),
-    ):
-        band(axes[0, 0], runs, "preload", name, RING, label, style)
-    axes[0, 0].axhline(10.0, color=MUTED, lw=0.8)
-    axes[0, 0].set(title="Dislocation of the halves", ylabel="µm")
-    stress_panels(axes[0, 1:], runs, "preload")
-    finish(axes[0], "preload [N]")
+    figure, rows = rows_of(columns, 4)
+    for _, data, axes in rows:
+        runs = data["preload"]
+        for name, label, style in (
+            ("dislocation_max", "largest", "-"),
+            ("dislocation", "mean", "--"),
+            ("slip", "range", ":"),
+        ):
+            band(axes[0], runs, "preload", name, RING, label, style)
+        axes[0].axhline(10.0, color=MUTED, lw=0.8)
+        axes[0].set(title="Dislocation of the halves", ylabel="µm")
+        stress_panels(axes[1:], runs, "preload")
+        finish(axes, "preload [N]")
     return figure
 
 
-def fit_picture(data):
+def fit_picture(columns):
     """Fig. 12."""
-    figure, axes = canvas(1, 4)
-    stress_panels(axes[0], data["fit"], "fit")
-    band(axes[0, 3], data["fit"], "fit", "dislocation_max", RING)
-    axes[0, 3].set(title="Largest dislocation", ylabel="µm")
-    for ax in axes[0]:
-        ax.axvspan(-20.0, 0.0, color="#f3f4f6", zorder=0)
-    finish(axes[0], "fit, negative is clearance [µm]")
+    figure, rows = rows_of(columns, 4)
+    for _, data, axes in rows:
+        stress_panels(axes, data["fit"], "fit")
+        band(axes[3], data["fit"], "fit", "dislocation_max", RING)
+        axes[3].set(title="Largest dislocation", ylabel="µm")
+        for ax in axes:
+            ax.axvspan(-20.0, 0.0, color="#f3f4f6", zorder=0)
+        finish(axes, "fit, negative is clearance [µm]")
     return figure
 
 
-def speed_picture(data):
+def speed_picture(columns):
     """Fig. 13."""
-    scenes = {"R": "R: shaft misaligned", "F": "F: ring nearly free", "demo": "demo: ring held straight"}
     names = {
         "force": ("Mean ball–pocket force", "N"),
         "head": ("Head stress, mean", "MPa"),
         "head_peak": ("Head stress, 99.9 %", "MPa"),
         "head_range": ("Head stress, dynamic range", "MPa"),
     }
-    figure, axes = canvas(len(scenes), len(names))
-    for row, (scene, title) in zip(axes, scenes.items(), strict=True):
-        for ax, (name, (what, unit)) in zip(row, names.items(), strict=True):
+    figure, rows = rows_of(columns, len(names))
+    for _, data, axes in rows:
+        for ax, (name, (what, unit)) in zip(axes, names.items(), strict=True):
             for F_r, (label, colour) in LOADS.items():
-                band(
-                    ax,
-                    data["speed"].at(scene=scene, F_r=F_r),
-                    "speed",
-                    name,
-                    colour,
-                    label if name == "force" else None,
-                )
-            ax.set(title=f"{title}\n{what}", ylabel=unit, xticks=range(4000, 24001, 4000))
-        finish(row, "speed [r/min]")
+                band(ax, data["speed"].at(F_r=F_r), "speed", name, colour, label if name == "force" else None)
+            ax.set(title=what, ylabel=unit, xticks=range(4000, 24001, 4000))
+        finish(axes, "speed [r/min]")
     return figure
 
 
-def impact_picture(data):
+def impact_picture(columns):
     """Fig. 14."""
     names = {
         "head_peak": "Head stress, 99.9 %",
-        "head_range": "Head stress, dynamic range",
+        "head": "Head stress, mean",
         "mid_peak": "Middle stress, 99.9 %",
         "force": "Mean ball–pocket force",
     }
-    figure, axes = canvas(2, len(names))
-    for row, (scene, title) in zip(
-        axes, {"F": "F: ring nearly free", "demo": "demo: ring held straight"}.items(), strict=True
-    ):
-        for ax, (name, what) in zip(row, names.items(), strict=True):
+    figure, rows = rows_of(columns, len(names))
+    for _, data, axes in rows:
+        for ax, (name, what) in zip(axes, names.items(), strict=True):
             for width, colour in ((1, MIDDLE), (3, HEAD)):
-                runs = with_none(data["impact"].at(scene=scene), width)
-                band(ax, runs, "impact", name, colour, f"{width} ms" if ax is row[0] else None)
-            ax.set(title=f"{title}\n{what}", ylabel="N" if name == "force" else "MPa")
-        finish(row, "radial impact [N]")
+                runs = with_none(data["impact"], width)
+                band(ax, runs, "impact", name, colour, f"{width} ms" if name == "head_peak" else None)
+            ax.set(title=what, ylabel="N" if name == "force" else "MPa")
+        finish(axes, "radial impact [N]")
     return figure
 
 
@@ -355,61 +404,51 @@ def with_none(runs, width):
     return replace(runs, columns={name: values[chosen] for name, values in runs.columns.items()})
 
 
-def tilt_picture(data):
+def tilt_picture(columns):
     """Fig. 15."""
-    figure, axes = canvas(1, 4)
-    runs = data["tilt"]
-    stress_panels(axes[0], runs, "tilt")
-    band(axes[0, 3], runs, "tilt", "head_above", HEAD, "head")
-    band(axes[0, 3], runs, "tilt", "mid_above", MIDDLE, "middle")
-    axes[0, 3].set(title="Mean stress without the preload's share", ylabel="MPa")
-    for ax in axes[0]:
-        ax.axvspan(-0.2, 0.2, color="#f3f4f6", zorder=0)
-    finish(axes[0], "tilt: − opposes, + aids the tilt by the loads [deg]")
+    figure, rows = rows_of(columns, 4)
+    for _, data, axes in rows:
+        runs = data["tilt"]
+        stress_panels(axes, runs, "tilt")
+        band(axes[3], runs, "tilt", "head_above", HEAD, "head")
+        band(axes[3], runs, "tilt", "mid_above", MIDDLE, "middle")
+        axes[3].set(title="Mean stress without the preload's share", ylabel="MPa")
+        for ax in axes:
+            ax.axvspan(-0.2, 0.2, color="#f3f4f6", zorder=0)
+        finish(axes, "tilt: − opposes, + aids the tilt by the loads [deg]")
     return figure
 
 
-CLEARANCES = {"constant sum 0.4 mm": HEAD, "guide 0.2 mm": MIDDLE, "pocket 0.2 mm": RING}
+CLEARANCES = {"constant sum 0.3 mm": HEAD, "guide 0.2 mm": MIDDLE}
 
 
 def clearance_series(runs, label):
-    """Runs along one of the three ways to change the ratio; all share the ratio 1."""
+    """Runs along one of the two ways to change the ratio; both share the scene's own clearances."""
     holds = {
-        "constant sum 0.4 mm": np.isclose(runs["pocket"] + runs["guide"], 400.0, atol=0.01),
+        "constant sum 0.3 mm": np.isclose(runs["pocket"] + runs["guide"], 300.0, atol=0.01),
         "guide 0.2 mm": runs["guide"] == 200.0,
-        "pocket 0.2 mm": runs["pocket"] == 200.0,
     }
     return replace(runs, columns={name: values[holds[label]] for name, values in runs.columns.items()})
 
 
-def clearance_picture(data):
+def clearance_picture(columns):
     """Fig. 16."""
     names = {
         "force": ("Mean ball–pocket force", "N"),
-        "force_rms": ("RMS ball–pocket force", "N"),
+        "head": ("Head stress, mean", "MPa"),
         "head_peak": ("Head stress, 99.9 %", "MPa"),
-        "head_range": ("Head stress, dynamic range", "MPa"),
+        "unsteady": ("Deviation of the cage's speed", "%"),
     }
-    figure, axes = canvas(1, len(names))
-    for ax, (name, (title, unit)) in zip(axes[0], names.items(), strict=True):
-        for label, colour in CLEARANCES.items():
-            band(
-                ax,
-                clearance_series(data["clearance"], label),
-                "ratio",
-                name,
-                colour,
-                label if name == "force" else None,
-            )
-        ax.set(
-            title=title,
-            ylabel=unit,
-            xscale="log",
-            xticks=[0.3, 0.5, 1, 2, 3],
-            xticklabels=["0.3", "0.5", "1", "2", "3"],
-        )
-        ax.minorticks_off()
-    finish(axes[0], "clearance ratio pocket / guide")
+    figure, rows = rows_of(columns, len(names))
+    for _, data, axes in rows:
+        for ax, (name, (title, unit)) in zip(axes, names.items(), strict=True):
+            for label, colour in CLEARANCES.items():
+                runs = clearance_series(data["clearance"], label)
+                band(ax, runs, "ratio", name, colour, label if name == "force" else None)
+            ticks = [0.3, 0.5, 1, 2, 3]
+            ax.set(title=title, ylabel=unit, xscale="log", xticks=ticks, xticklabels=[f"{tick:g}" for tick in ticks])
+            ax.minorticks_off()
+        finish(axes, "clearance ratio pocket / guide")
     return figure
 
 
@@ -419,52 +458,25 @@ def damage(runs, place):
     return [runs.estimate(f"{place}_damage_{k}") for k in range(1, rivets + 1)]
 
 
-def failure_picture(data):
+def failure_picture(columns):
     """Figs. 17 and 18."""
-    figure, axes = canvas(1, 3)
-    for ax, (fit, title) in zip(
-        axes[0], {-90.0: "Clearance −0.09 mm", 40.0: "Interference +0.04 mm"}.items(), strict=False
-    ):
-        for place, colour, label, shift in (("head", HEAD, "head", -0.2), ("mid", MIDDLE, "middle", 0.2)):
-            estimates = damage(data["fit"].at(fit=fit), place)
-            x = np.arange(1, len(estimates) + 1) + shift
-            mean, low, high = (
-                10.0 ** np.array([getattr(e, end) for e in estimates]) for end in ("mean", "low", "high")
-            )
-            ax.bar(x, mean, width=0.38, color=colour, label=label)
-            ax.errorbar(x, mean, [mean - low, high - mean], fmt="none", color="black", lw=0.8)
-        ax.set(title=title, ylabel="damage per hour", xlabel="rivet", yscale="log", xticks=range(1, len(estimates) + 1))
-        ax.set_ylim(top=ax.get_ylim()[1] * 1e4)
-        ax.legend(ncols=2)
-    band(axes[0, 2], data["fit"], "fit", "axial_share", FORCE)
-    axes[0, 2].set(title="Axial share of the pocket force, RMS", ylabel="%", ylim=(0, None), xlabel="fit [µm]")
-    return figure
-
-
-GRIPS = {  # name: (conditions that differ from the first one, colour)
-    "as it is": ({}, FORCE),
-    "dry joints (μ 0.3)": ({"mu": 0.3}, MUTED),
-    "soft impacts (10 s/m)": ({"pocket_damping": 10.0}, MIDDLE),
-    "pockets of 0.1 mm": ({"pocket": 100.0}, RING),
-    "no axial load": ({"F_a": 0.0}, "#8e5aa8"),
-}
-
-
-def grip(runs, name):
-    """Runs of one of the changes."""
-    return runs.at(**{"mu": 0.15, "pocket_damping": 1.0, "pocket": 200.0, "F_a": 515.0} | GRIPS[name][0])
-
-
-def grip_picture(data):
-    """Conditions that hold the halves together."""
-    figure, axes = canvas(1, 2)
-    for ax, (column, title) in zip(
-        axes[0], {"dislocation_max": "Largest dislocation", "slip": "Range of the dislocation"}.items(), strict=True
-    ):
-        for name, (_, colour) in GRIPS.items():
-            band(ax, grip(data["grip"], name), "preload", column, colour, name if ax is axes[0, 0] else None)
-        ax.set(title=title, ylabel="µm")
-    finish(axes[0], "preload [N]")
+    figure, rows = rows_of(columns, 3)
+    titles = {-90.0: "Clearance −0.09 mm", 40.0: "Interference +0.04 mm"}
+    for _, data, axes in rows:
+        for ax, (fit, title) in zip(axes[:2], titles.items(), strict=True):
+            for place, colour, label, shift in (("head", HEAD, "head", -0.2), ("mid", MIDDLE, "middle", 0.2)):
+                estimates = damage(data["fit"].at(fit=fit), place)
+                x = np.arange(1, len(estimates) + 1) + shift
+                mean, low, high = (
+                    10.0 ** np.array([getattr(e, end) for e in estimates]) for end in ("mean", "low", "high")
+                )
+                ax.bar(x, mean, width=0.38, color=colour, label=label)
+                ax.errorbar(x, mean, [mean - low, high - mean], fmt="none", color="black", lw=0.8)
+            ax.set(title=title, ylabel="damage per hour", xlabel="rivet", yscale="log")
+            ax.set(xticks=range(1, len(estimates) + 1), ylim=(None, ax.get_ylim()[1] * 1e4))
+            ax.legend(ncols=2)
+        band(axes[2], data["fit"], "fit", "axial_share", FORCE)
+        axes[2].set(title="Axial share of the pocket force, RMS", ylabel="%", ylim=(0, None), xlabel="fit [µm]")
     return figure
 
 
@@ -480,17 +492,16 @@ PICTURES = {
     "tilt": (("tilt",), "Fig. 15: tilt of the inner ring", tilt_picture),
     "clearance": (("clearance",), "Fig. 16: clearance ratio", clearance_picture),
     "failure": (("fit",), "Figs. 17 and 18: damage rivet by rivet, axial pocket force", failure_picture),
-    "grip": (("grip",), "Beside Fig. 10: what holds the halves together", grip_picture),
 }
 
 
-def draw(data, folder):
-    """Write the pictures for which there are runs; returns {name: path}."""
+def draw(columns, folder):
+    """Write the pictures for which all columns {column: {sweep: Runs}} have runs; returns {name: path}."""
     paths = {}
     with plt.rc_context(STYLE | {"figure.dpi": 110}):
         for name, (needed, _, picture) in PICTURES.items():
-            if set(needed) <= set(data):
-                figure = picture(data)
+            if all(set(needed) <= set(data) for data in columns.values()):
+                figure = picture(columns)
                 paths[name] = Path(folder) / f"{name}.png"
                 write_atomically(paths[name], lambda temporary, figure=figure: figure.savefig(temporary))
                 plt.close(figure)

@@ -49,8 +49,9 @@
       label(s);
       scene();
       if (s.live) worker.postMessage({ inputs: { [s.name]: si(s) } });
+      if (s.tuned) worker.postMessage({ parameters: { [s.name]: si(s) } });
     });
-    if (!s.live) s.input.addEventListener("change", start);
+    if (!s.live && !s.tuned) s.input.addEventListener("change", start);
   }
   find("run").addEventListener("click", () => {
     showRunning(!running);

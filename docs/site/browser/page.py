@@ -71,7 +71,7 @@ FIGURES = (
 
 def sliders():
     """What the page knows of each slider: variable, label, unit and factor, range and start value in this unit, whether
-    it is an input.
+    it is an input, and whether a parameter that the running bearing takes (impacts in progress cannot change).
     """
     known = variables.INPUTS | variables.PARAMETERS
     for name, label, unit, low, high, step in SLIDERS:
@@ -86,6 +86,9 @@ def sliders():
             "step": step,
             "start": value,
             "live": name in variables.INPUTS,
+            "tuned": name in variables.PARAMETERS
+            and not variables.PARAMETERS[name].fixed
+            and not name.startswith("pulse."),
         }
 
 

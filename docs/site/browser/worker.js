@@ -2,6 +2,7 @@
 //
 // To the worker: {create: {core, channels, peaks, figures}}, names of variables by element ("ball[3].Q_i") for clips, curves and the table;
 //   {start: {values, types}}, values of all parameters and inputs that are not start values; {inputs: {name: value}} to which inputs go within RAMP;
+//   {parameters: {name: value}}, tunable ones, in force from the next step on;
 //   {clip: {frames, interval}}; {run: true or false}.
 // To the page: {created}, {started}, {clip: {time, shaft, rows}}, {curves: {time, rows}, figures, time, rate}, {text} for messages, {stopped} at a step that failed.
 "use strict";
@@ -73,6 +74,10 @@ function aim(inputs) {
   for (const [name, goal] of Object.entries(inputs)) ramps[name] = { at: place(name), slope: place(name, 1), goal, left: RAMP };
 }
 
+function tune(parameters) {
+  for (const [name, number] of Object.entries(parameters)) view().setFloat64(place(name).address, number, true);
+}
+
 // One communication step; inputs on their way go in a straight line.
 function step(h) {
   for (const [name, ramp] of Object.entries(ramps)) {
@@ -134,6 +139,7 @@ onmessage = ({ data }) => {
   try {
     if (data.create) create(data.create);
     if (data.inputs) aim(data.inputs);
+    if (data.parameters) tune(data.parameters);
     if (data.clip) clip = data.clip;
     if (data.start) start(data.start);
     if (data.run !== undefined) running = data.run && alive;

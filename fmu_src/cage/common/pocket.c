@@ -63,10 +63,10 @@ INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
     return wide_select(wide_above(delta, 0.0), own, delta);
 }
 
-// Forces in a packet of pockets, stored for the half and added to the balls.  wall: motion of the walls of an elastic
+// Forces in a packet of pockets, stored for the half and added to the balls; pressed: of those with contact.  wall: motion of the walls of an elastic
 // half, or NULL.
-INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bool mixed,
-                            const WallMotion *wall, ball_array on_wall[3])
+INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bits pressed,
+                            bool mixed, const WallMotion *wall, ball_array on_wall[3])
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -95,7 +95,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     // share of the half, contact load, and the energy's gradient across n
     const PocketShare share = pocket_share(d, h, n_x, gap->delta);
     const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
-    const wide Q = hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot);
+    const wide Q =
+        wide_select(pressed, hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot), wide_set(0.0));
     wide F_across = pocket_across(d, gap, share.slope);
     if (wall) F_across -= Q_0 * wide_load(&wall->tilt[j]);
     const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
@@ -110,7 +111,11 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const wide g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / wide_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
     const wide g_R = 0.5 * traction_inlet(wide_set(d->pocket_rolling), ln_U, Q, ln_Q) * inv_U;
     const vec F_s = vec_scale(-(g + g_R), slip), F_c = vec_scale(2.0 * g_R, slip);
-    const vec F = vec_add(F_n, vec_add(F_s, F_c)), M = vec_cross(arm, F_s);
+
+    // A pocket without contact beside others in its packet adds -0, which changes no sum, not even the sign of a zero: the
+    // same as in a packet that is left out.
+    const vec F = vec_where(pressed, vec_add(F_n, vec_add(F_s, F_c))),
+              M = vec_where(pressed, vec_cross(arm, F_s));
     const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(arm_p, F_half), M);
 
     if (wall) {
@@ -129,15 +134,18 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     }
 
     wide_store(&pocket->Q[j], Q);
-    wide_store(&pocket->F_x[j], vec_dot(F_half, a));
-    wide_store(&pocket->F_r[j], vec_dot(F_half, gap->b));
-    wide_store(&pocket->F_t[j], vec_dot(F_half, e_t));
+    const wide zero = wide_set(0.0);
+    wide_store(&pocket->F_x[j], wide_select(pressed, vec_dot(F_half, a), zero));
+    wide_store(&pocket->F_r[j], wide_select(pressed, vec_dot(F_half, gap->b), zero));
+    wide_store(&pocket->F_t[j], wide_select(pressed, vec_dot(F_half, e_t), zero));
     wide_store(&pocket->push_x[j], wide_fma(F_across, n_t, Q * n_x));
     wide_store(&pocket->push_t[j], wide_fma(-F_across, n_x, Q * n_t));
-    vec_to_global(F_half, cos_theta, sin_theta, &pocket->half_F_x[j], &pocket->half_F_y[j],
-                  &pocket->half_F_z[j]);
-    vec_to_global(M_half, cos_theta, sin_theta, &pocket->half_M_x[j], &pocket->half_M_y[j],
-                  &pocket->half_M_z[j]);
+    scalar *const global[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
+                               pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
+    vec_to_global(F_half, cos_theta, sin_theta, &global[0][j], &global[1][j], &global[2][j]);
+    vec_to_global(M_half, cos_theta, sin_theta, &global[3][j], &global[4][j], &global[5][j]);
+    for (int i = 0; i < 6; i++)
+        wide_store(&global[i][j], wide_select(pressed, wide_load(&global[i][j]), wide_set(0.0)));
 
     // on the balls: forces, stiff rates of friction in the tangent plane, dissipated power
     const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
@@ -145,7 +153,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    const wide dissipated = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
+    const wide lost = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
+    const wide dissipated = wide_select(pressed, lost, wide_set(-0.0));
     wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + dissipated);
     wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
 }
@@ -180,8 +189,9 @@ static void pocket_half(const Model *model, Work *w, int h, bool mixed)
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         const PocketGap gap = pocket_gap(model->d, w, half, j);
         wide_store(&w->delta_c[h][j], gap.delta);
-        if (wide_any(wide_above(gap.delta, 0.0))) {
-            pocket_contacts(model, w, h, j, &gap, mixed, NULL, NULL);
+        const bits pressed = wide_above(gap.delta, 0.0);
+        if (wide_any(pressed)) {
+            pocket_contacts(model, w, h, j, &gap, pressed, mixed, NULL, NULL);
             touched = true;
         } else
             pocket_clear(pocket, j);
@@ -202,13 +212,14 @@ void pocket_rigid(const Model *model, Work *w)
 // A packet of pockets of an elastic half in which walls are touched.
 typedef struct {
     int h, j, touched;  // bits of the balls
+    bits pressed;       // the same as a packet
     PocketGap gap;
 } TouchedPacket;
 
 // Bits of the balls of a packet that press on a wall, behind what the walls have moved; `near`: those that
 // can have reached it.
 static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
-                        WallPlaces *places)
+                        WallPlaces *places, bits *pressed)
 {
     const ElasticHalf *elastic = model->modes;
     const int side = 2 * h - 1;
@@ -220,8 +231,9 @@ static int find_touched(const Model *model, const Work *w, int h, int j, int nea
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here
-    const int loaded = wide_mask(wide_above(pocket_share(model->d, h, gap->n_x, gap->delta).load, 0.0));
-    return near & loaded & wide_mask(wide_above(gap->delta, 0.0));
+    const wide load = pocket_share(model->d, h, gap->n_x, gap->delta).load;
+    *pressed = wide_above(wide_min(load, gap->delta), 0.0);
+    return wide_mask(*pressed);
 }
 
 // No contact in a packet of walls.
@@ -251,7 +263,7 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
         if (at->touched >> i & 1)
             elastic_wall(elastic, side, j + i, places, w->elastic.q[h], w->elastic.q_dot[h], S[j + i], &wall,
                          &shape[i]);
-    pocket_contacts(model, w, h, j, &at->gap, mixed, &wall, on_wall);
+    pocket_contacts(model, w, h, j, &at->gap, at->pressed, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) continue;
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
@@ -269,9 +281,10 @@ void pocket_elastic(const Model *model, Work *w)
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
-            *at = (TouchedPacket){h, j, 0, pocket_gap(model->d, w, &w->half[h], j)};
+            *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
             const int near = wide_mask(wide_above(at->gap.delta + w->elastic.reach[h], 0.0));
-            if (near != 0) at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h]);
+            if (near != 0)
+                at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h], &at->pressed);
             if (at->touched != 0)
                 count++;
             else {
@@ -280,7 +293,8 @@ void pocket_elastic(const Model *model, Work *w)
             }
         }
     for (TouchedPacket *at = packets; at < packets + count; at++) {
-        at->gap.delta = pocket_approach(model, at->h, at->gap.n_x, at->gap.delta);
+        at->gap.delta = wide_select(at->pressed, pocket_approach(model, at->h, at->gap.n_x, at->gap.delta),
+                                    at->gap.delta);
         wide_store(&w->delta_c[at->h][at->j], at->gap.delta);
     }
     bool pressed[2] = {false, false};

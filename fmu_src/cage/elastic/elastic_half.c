@@ -8,7 +8,7 @@
 
 // Angle by which the fastest vibration of closed joints turns in a substep: velocity Verlet is stable up to
 // 2, and the law's rounding may make a joint stiffer by 30 %.
-static const double SUBSTEP_TURN = 1.6;
+static const double SUBSTEP_TURN = 1.64;
 
 enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
@@ -191,9 +191,18 @@ static void take_modes(const Parameters *p, ElasticHalf *half)
                 half->pair[i] = mode->parity == 0;
                 half->alike[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
-                half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
-                if (coordinate == 0) half->centrifugal[i] = cage_centrifugal(p) * unit * mode->spin;
             }
+    }
+}
+
+// Damping and centrifugal load of the modes, which may change in a run.
+static void take_forces(const Parameters *p, ElasticHalf *half)
+{
+    const double unit = sqrt(rivet_table.half.m);
+    for (int i = 0; i < half->n; i++) {
+        half->damping[i] = 2.0 * p->cage.modal_damping * sqrt(half->omega_2[i]);
+        if (i >= half->count[0]) continue;
+        half->centrifugal[i] = cage_centrifugal(p) * unit * rivet_table.modes.entry[half->entry[i]].spin;
     }
 }
 
@@ -270,7 +279,8 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
     return x[0];
 }
 
-void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+// What follows from the body alone.
+static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfPath *path = &rivet_table.half.path;
     const HalfModes *table = &rivet_table.modes;
@@ -284,11 +294,27 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     half->compliance = table->wall[WALL_NODE];
     take_modes(p, half);
     take_residual(&table->law, half);
+    find_reach(half);
+    half->of.m = p->cage.m, half->of.J_p = d->J_p, half->of.J_t = d->J_t;
+    half->of.friction = d->k_plate_t + d->k_head;
+    half->of.k_hole = -1.0;
+}
+
+void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
+{
+    const HalfModes *table = &rivet_table.modes;
+    const bool same = half->of.m == p->cage.m && half->of.J_p == d->J_p && half->of.J_t == d->J_t &&
+                      half->of.friction == d->k_plate_t + d->k_head;
+    if (!same) derive_body(p, d, half);
+    take_forces(p, half);
+
     // mean over r and t, of both halves
     const double shear = table->pad[PAD_R][PAD_R] + table->pad[PAD_T][PAD_T];
     half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
+    double k_hole = 0.0;
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
-
-    find_reach(half);
+    for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);
+    if (half->of.k_hole == k_hole) return;
     half->substep = longest_substep(p, d, half);
+    half->of.k_hole = k_hole;
 }

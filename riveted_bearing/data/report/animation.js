@@ -40,9 +40,11 @@
     }
     return { i: low, w: Math.min(1, Math.max(0, (t - time[low]) / (time[high] - time[low] || 1))) };
   }
+  const gone = film.gone || {};
   function reader(at) {
     const mix = (a, b) => a + at.w * (b - a), next = Math.min(at.i + 1, last);
     return {
+      gone: (k) => k in gone && now >= gone[k],
       angle: (name) => mix(turned[name][at.i], turned[name][next]),
       value: (name) => {
         const c = channels[name];

@@ -6,7 +6,8 @@
 //   range               largest race load, pocket force and stress and the least stress, to which arrows and colours belong: {race, pocket, stress, least}
 //   has(name)           whether a channel is known
 //
-// What is drawn comes from a reader `see` of one instant, with the channels' names of animation.py: see.angle(name), see.value(name), see.peak(name).
+// What is drawn comes from a reader `see` of one instant, with the channels' names of animation.py: see.angle(name), see.value(name), see.peak(name),
+// and see.gone(k), whether rivet k is broken, where there is one.
 "use strict";
 function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
   const colours = {};
@@ -134,7 +135,7 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
         g.fill();
         g.strokeStyle = colours.ink;
         g.stroke();
-        if (h === 1) {
+        if (h === 1 && !(see.gone && see.gone(k + 1))) {
           g.beginPath();
           g.arc(...at(h, pitch, c), rivet, 0, 2 * Math.PI);
           g.fillStyle = has("stress" + (k + 1)) ? heat(see.peak("stress" + (k + 1))) : colours.muted;
@@ -240,6 +241,7 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
       g.stroke();
     }
     for (let k = 1; k <= Z; k++) {
+      if (see.gone && see.gone(k)) continue;
       const s = k === Z ? length : k * step, place = shift(1, s), other = shift(0, s);
       for (const at of k === Z ? [0, length] : [s]) {
         const x = at + 0.5 * (place[0] + other[0]);

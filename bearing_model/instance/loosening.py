@@ -1,0 +1,42 @@
+"""Preload lost by wear of the joint's faces: twin of fmu_src/instance/loosening.c, equations in loosening.h."""
+
+import copy
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bearing_model.generated.variables import Z
+
+PRELOAD_SHARE = 1e-3
+
+
+@dataclass
+class Loosening:
+    """Preload lost by each rivet since the start, and what of it the constants have [N]."""
+
+    loss: np.ndarray = field(default_factory=lambda: np.zeros(Z))
+    in_force: np.ndarray = field(default_factory=lambda: np.zeros(Z))
+
+    def add(self, p, table, h, rubbing):
+        """Add steps of lengths h [s] with the rates of rubbing, force times slip [W], [steps, Z]."""
+        joint = table.joint
+        face = 0.25 * np.pi * joint["seat"] ** 2 - joint["A"]
+        self.loss = self.loss + p.joint.wear * joint["k_stack"] / face * np.sum(h[:, None] * rubbing, axis=0)
+
+    def apply(self, p):
+        """The Parameters p with the preloads that are left."""
+        if not np.any(self.in_force) or p.joint.preload == 0.0:
+            return p
+        p = copy.deepcopy(p)
+        p.rivet.preload_factor = np.maximum(p.rivet.preload_factor - self.in_force / p.joint.preload, 0.0)
+        return p
+
+    def update(self, p):
+        """Put the loss in force if that is worth it; returns whether it has been."""
+        off = np.any(
+            (self.loss - self.in_force > PRELOAD_SHARE * p.joint.preload)
+            & (self.in_force < p.joint.preload * p.rivet.preload_factor)
+        )
+        if off:
+            self.in_force = self.loss.copy()
+        return bool(off)

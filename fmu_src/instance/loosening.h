@@ -1,0 +1,32 @@
+// Loosening: preload lost by wear of the joint's faces, off while joint.wear = 0.
+//
+//   V' = K F s'                    Archard (1953): volume worn off per time, F normal force, s slip;  K = k/H = joint.wear
+//   P' = -k_stack V'/A             the faces press on A, the rivet's seat about its shank; the worn layer is strain that the
+//                                  rivet loses against the flanges, k_stack [N/m]
+//
+// F s' is summed over plates (F = N_plate) and heads (F = T): what their friction dissipates over mu, which holds under
+// partial slip too, for every point that slips is at mu times its pressure (cage_rubbing).  The loss grows with every accepted step; the preload follows it at communication points, once it is off
+// by PRELOAD_SHARE of joint.preload: a slow state.
+#pragma once
+
+#include "variables.h"
+
+#include <stdbool.h>
+
+// Plain bytes, part of the saved state.
+typedef struct {
+    double loss[Z];      // preload lost by each rivet since the start [N]
+    double in_force[Z];  // of it, what the constants have
+} Loosening;
+
+// Adds a step of length h [s] with the rates of rubbing, force times slip [W], of each joint.
+void loosening_add(const Parameters *p, double h, const double rubbing[Z], Loosening *loose);
+
+// Takes the loss in force from the preloads in p.
+void loosening_apply(const Loosening *loose, Parameters *p);
+
+// Puts the loss in force if that is worth it; returns whether it has.
+bool loosening_update(const Parameters *p, Loosening *loose);
+
+// Whether steps can have made it.
+bool loosening_is_valid(const Loosening *loose);

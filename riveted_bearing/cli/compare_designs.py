@@ -1,0 +1,84 @@
+"""riveted-bearing compare-designs: FMUs under one mission."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..results import make_folder
+from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text
+
+MOST_DIFFERENCES = 12  # on the terminal
+
+
+@command
+def compare_designs(
+    designs: Annotated[
+        list[str],
+        typer.Argument(
+            help='FMUs, each followed by its own parameters: a.fmu b.fmu, or a.fmu a.fmu joint.preload="40 N"',
+            metavar="FMU [NAME=VALUE ...] ...",
+        ),
+    ],
+    mission: Annotated[Path, typer.Option(help="mission file (TOML), see docs/life.md")],
+    out: Annotated[
+        Path | None, typer.Option(help="folder of runs, designs.json and page; default: results/MISSION_designs")
+    ] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """Designs under the same mission and seeds: ratios of lives and stresses with intervals, and what differs."""
+    from ..duty.designs import PAGE, compare_designs, read_designs, write_page, write_record
+    from ..errors import UserError
+    from ..units import hours_text
+
+    if not mission.is_file():
+        raise UserError(f"{mission}: no such mission file")
+    chosen = read_designs(designs, number_or_text)
+    folder = out or Path("results") / f"{mission.stem}_designs"
+    make_folder(folder)
+
+    def say(name):
+        if messages.is_terminal:
+            messages.print(f"[dim]{escape(name)}[/]")
+
+    with design_runs(mission.stem, folder, scheduler, workers) as (client, progress):
+        found = compare_designs(mission, chosen, folder, client, progress, say)
+    print_comparison(found, hours_text)
+    for label, path in (("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE))):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def print_comparison(found, hours_text):
+    """Lives, ratios and what differs."""
+    from ..duty.designs import ratio_text, verdict
+
+    table = Table(
+        "design",
+        Column("life", justify="right"),
+        Column(f"{100 * found.confidence:g} % interval", justify="right"),
+        "fails first",
+        Column("life/first", justify="right"),
+        "",
+        box=None,
+        pad_edge=False,
+    )
+    for outcome in found.outcomes:
+        e = outcome.estimate
+        table.add_row(
+            escape(outcome.design.name),
+            hours_text(e.life),
+            f"{hours_text(e.low)} – {hours_text(e.high)}",
+            outcome.place,
+            ratio_text(outcome.life),
+            verdict(outcome),
+        )
+    console.print(table)
+    differ = Table("differs", *(escape(outcome.design.name) for outcome in found.outcomes), box=None, pad_edge=False)
+    for name, texts in found.differences[:MOST_DIFFERENCES]:
+        differ.add_row(escape(name), *map(escape, texts))
+    console.print(differ)
+    if len(found.differences) > MOST_DIFFERENCES:
+        console.print(f"[dim]and {len(found.differences) - MOST_DIFFERENCES} more, on the page[/]")

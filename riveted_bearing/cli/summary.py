@@ -1,0 +1,94 @@
+"""riveted-bearing summary: one sheet of paper on a mission or a run."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+
+from ..errors import UserError
+from ..results import FORMATS, make_folder
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, number_or_text
+
+
+@command
+def summary(
+    source: Annotated[
+        Path,
+        typer.Argument(
+            help="mission file (TOML, see docs/life.md) or a result file of `run`", metavar="MISSION|RESULT"
+        ),
+    ],
+    fmu: FMU = None,
+    target: Annotated[str | None, typer.Option(help='life that is wanted, e.g. "10000 h"')] = None,
+    sensitivity: Annotated[
+        Path | None,
+        typer.Option(help="sensitivity.json of `sensitivity`, or its folder: names the assumptions that decide"),
+    ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="the page to write; default: summary.html in results/MISSION, or beside the result"),
+    ] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """One page for people who do not run the model: bearing, loads, verdict, assumptions, the worst rivet. It prints on
+    one A4 sheet.
+    """
+    from ..design.sensitivity import read_indices
+    from ..duty.sheet import result_sheet, write_sheet
+    from ..results import read_result
+
+    hours = target_hours(target)
+    decides = read_indices(sensitivity) if sensitivity else None
+    if source.suffix.removeprefix(".") in FORMATS:
+        result = read_result(source)
+        file = fmu or Path(result.about.get("fmu", ""))
+        sheet = result_sheet(result, source, file if file.is_file() else None, hours, decides)
+        path = out or source.with_name(f"{source.stem}_summary.html")
+    else:
+        sheet, folder = sheet_of_mission(source, fmu, hours, decides, out, scheduler, workers)
+        path = out or folder / "summary.html"
+    write_sheet(sheet, path)
+    console.print(f"[bold]{escape(sheet.verdict[1])}[/]  {escape(sheet.verdict[2])}", soft_wrap=True)
+    for check in sheet.checks:
+        use = "" if check.use is None else f"utilisation {check.use:.2g}"
+        console.print(f"{check.title:32} {escape(check.value)}  [dim]{escape(check.allowed)}  {use}[/]", soft_wrap=True)
+    for fault, text in sheet.limits:
+        console.print(f"[{'yellow' if fault else 'dim'}]{escape(text)}[/]", soft_wrap=True)
+    console.print(f"page  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def target_hours(target):
+    """Hours of the option --target."""
+    from ..duty.mission import HOURS
+    from ..units import to_si
+
+    if target is None:
+        return None
+    try:
+        hours = to_si(number_or_text(target), HOURS)
+    except UserError as problem:
+        raise UserError(f"--target {target}: {problem}") from None
+    if hours <= 0.0:
+        raise UserError(f"--target {target}: more than 0 h is needed")
+    return hours
+
+
+def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
+    """The Sheet of a mission, and the folder of its runs, of which a second call does only missing ones."""
+    from ..duty.assess import RECORD, Runs, assess, write_record
+    from ..duty.mission import load_mission
+    from ..duty.sheet import mission_sheet, of_mission
+    from ..fmu import Model
+
+    model = Model(fmu)
+    plan = load_mission(path, model)
+    folder = Path("results") / plan.name
+    make_folder(folder)
+    with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
+        runs = Runs(plan, model, folder, client, progress)
+        found = assess(plan, runs)
+        evidence = of_mission(found, runs, model, lambda done, total: progress(done, 0, total))
+    write_record(found, folder)
+    return mission_sheet(found, evidence, hours, decides, [model.path, path, folder / RECORD]), folder

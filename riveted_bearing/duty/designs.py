@@ -1,0 +1,437 @@
+"""Designs side by side under one mission: the same points, events and seeds for all, ratios of lives and stresses with
+intervals, and what differs between them.
+
+A design is an FMU, or an FMU with parameters of its own.  All designs have the same number of runs of each case, and
+run s of each has the same start.seed (common random numbers).  The interval of a ratio of lives is the bootstrap of
+confidence.py, in which a draw has the same runs of both designs.  Bearing motion is chaotic: where the designs differ
+at all, common seeds may correlate little; the correlation stands beside the result.
+"""
+
+import hashlib
+import json
+import math
+import zipfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import jinja2
+import numpy as np
+from matplotlib.ticker import NullFormatter
+from scipy.stats import t as student
+
+from ..errors import UserError, refusal, unknown
+from ..fmu import Model
+from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING
+from ..report import PARTS
+from ..results import write_atomically
+from ..scene import in_words, leaves, read_toml, section_of
+from ..sweep import columns_of
+from ..units import hours_text
+from .assess import Runs, assess, places
+from .confidence import Estimate, estimate, ratio_interval
+from .mission import plan_mission, tables
+
+RESPONSES = {  # column of a run: in words
+    "stat.sigma_head_p999": "head stress, p99.9",
+    "stat.sigma_mid_p999": "middle stress, p99.9",
+    "stat.Q_c_p999": "pocket force, p99.9",
+}
+TABLE_SOURCE = "sources/rivet_table.c"
+RECORD, PAGE = "designs.json", "designs.html"
+COLOURS = (FORCE, MIDDLE, HEAD, RING, MUTED)
+SAME_INPUTS = 1e-9
+
+
+@dataclass(frozen=True)
+class Design:
+    """An FMU and the parameters that are set in it, as the user wrote them."""
+
+    name: str
+    model: Model = field(repr=False)
+    settings: dict
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """Value of a design over that of the first one: ratio, ends of its interval, and the correlation of the logarithms
+    over the common seeds (nan without scatter).
+    """
+
+    ratio: float
+    low: float
+    high: float
+    correlation: float
+
+    @property
+    def differs(self):
+        """Whether the interval leaves 1 out."""
+        return self.low > 1.0 or self.high < 1.0
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What was found for one design: estimate of its life, place that fails first in words, Ratio of life to the first
+    design's (None for it), and of each part means of RESPONSES with their Ratios: {part: {response: (mean, Ratio)}}.
+    """
+
+    design: Design
+    estimate: Estimate = field(repr=False)
+    place: str
+    life: Ratio | None
+    responses: dict = field(repr=False)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Outcomes in the order of the designs; counts: runs of each case; differences: (name, [text of each design]);
+    basis: lines that all designs share.
+    """
+
+    name: str
+    description: str
+    confidence: float
+    counts: tuple
+    outcomes: tuple
+    differences: tuple
+    basis: dict
+
+
+def read_designs(words, number_or_text):
+    """The Designs of the command's words: FMUs, each followed by NAME=VALUE of its own."""
+    found = []
+    for word in words:
+        name, equals, value = word.partition("=")
+        if not equals:
+            found.append((Path(word), {}))
+        elif not found:
+            raise UserError(f"{word}: stands before the first FMU; a design is an FMU with NAME=VALUE behind it")
+        else:
+            found[-1][1][name.strip()] = number_or_text(value.strip().strip("\"'"))
+    if len(found) < 2:
+        raise UserError(f"{len(found)} design: at least two are needed, each an FMU with NAME=VALUE behind it")
+    models = {path: Model(path) for path, _ in found}
+    names = [" ".join([path.stem, *(f"{name}={value}" for name, value in own.items())]) for path, own in found]
+    if twice := sorted({str(path) for i, (path, _) in enumerate(found) if names.count(names[i]) > 1}):
+        raise UserError(f"{', '.join(twice)}: designs of one name; give files other names, or parameters that differ")
+    return [Design(name, models[path], own) for name, (path, own) in zip(names, found, strict=True)]
+
+
+def plan(path, design):
+    """The Mission of a file for a design: its parameters over the mission's, no part left out."""
+    document, model = read_toml(path), design.model
+    for name in design.settings:
+        if name not in model.parameters:
+            raise unknown(design.name, "parameter", name, model.parameters)
+        for kind in ("point", "event"):
+            for block in tables(path, document, kind):
+                if name in dict(leaves(section_of(path, block, "parameters"), model.parameters)):
+                    raise refusal(design.name, name, design.settings[name], f"{path}: a {kind} sets it too")
+    common = common_parameters(path, model)
+    document |= {
+        "parameters": common | design.settings,
+        "life": section_of(path, document, "life") | {"skip": 0.0},
+    }
+    return plan_mission(Path(path).stem, document, model, Path(path))
+
+
+def common_parameters(path, model):
+    """Parameters that a mission's file sets for all points and events, as written."""
+    return dict(leaves(section_of(path, read_toml(path), "parameters"), model.parameters))
+
+
+def check_same_inputs(missions, designs):
+    """UserError if a part does not have the same loads, speeds and temperatures in all designs."""
+    for parts in zip(*(mission.parts for mission in missions), strict=True):
+        for mission, part, design in zip(missions, parts, designs, strict=True):
+            for name in design.model.inputs:
+                first, own = parts[0].values.get(name), part.values.get(name)
+                if name not in designs[0].model.inputs or first is None or own is None:
+                    continue  # varies in time: from the mission's file, for all designs
+                if not math.isclose(first, own, rel_tol=SAME_INPUTS, abs_tol=1e-12):
+                    texts = (in_words(d.model, name, v) for d, v in ((designs[0], first), (design, own)))
+                    raise UserError(
+                        f"{mission.path}: {part.name}: {name} is {' in '.join((next(texts), designs[0].name))} and "
+                        f"{' in '.join((next(texts), design.name))}: each FMU has its own; set it under [inputs]"
+                    )
+
+
+def compare_designs(path, designs, folder, client, progress=None, say=lambda name: None):
+    """The Comparison of designs under the mission of a file; folder: for the runs, client and progress: as of Runs."""
+    missions = [plan(path, design) for design in designs]
+    check_same_inputs(missions, designs)
+    all_runs, counts = [], None
+    for k, (mission, design) in enumerate(zip(missions, designs, strict=True)):
+        say(design.name)
+        runs = Runs(mission, design.model, Path(folder) / f"design_{k + 1}", client, progress)
+        assess(mission, runs)
+        own = np.array([counted(runs, c) for c in range(len(mission.cases))])
+        counts = own if counts is None else np.maximum(counts, own)
+        all_runs.append(runs)
+    settings = missions[0].settings
+    samples = [[places(damage, settings["rivets"]) for damage in runs(counts)] for runs in all_runs]
+    found = [estimate(m.duty, s, settings["confidence"], settings["seed"]) for m, s in zip(missions, samples)]
+    rows = [responses_of(runs, counts) for runs in all_runs]
+    outcomes = [
+        Outcome(
+            design,
+            found[k],
+            place_text(found[k].place, settings["rivets"]),
+            life_ratio([missions[0].duty, missions[k].duty], [samples[0], samples[k]], [found[0], found[k]], settings)
+            if k
+            else None,
+            {
+                part: {
+                    name: (values.mean(), ratio_of(rows[0][part][name], values, settings["confidence"]) if k else None)
+                    for name, values in of_part.items()
+                }
+                for part, of_part in rows[k].items()
+            },
+        )
+        for k, design in enumerate(designs)
+    ]
+    first = dict(missions[0].basis)
+    return Comparison(
+        Path(path).stem,
+        missions[0].description,
+        settings["confidence"],
+        tuple(counts.tolist()),
+        tuple(outcomes),
+        tuple(differences(designs, common_parameters(path, designs[0].model))),
+        {key: first[key] for key in ("loads", "speed", "temperatures") if key in first},
+    )
+
+
+def counted(runs, c):
+    """Number of runs of case c that have been asked for."""
+    return sum(runs.keys[c, s] in runs.damages for s in range(runs.mission.settings["max_seeds"]))
+
+
+def place_text(place, rivets):
+    """A place in words."""
+    k, end = divmod(place, 2)
+    where = ("head", "middle")[end]
+    return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
+
+
+def life_ratio(duties, samples, found, settings):
+    """Ratio of the lives of two Estimates, the second over the first."""
+    if not all(math.isfinite(one.life) for one in found):
+        return Ratio(math.nan, 0.0, math.inf, math.nan)
+    low, high, r = ratio_interval(duties, samples, found, settings["confidence"], settings["seed"])
+    return Ratio(found[1].life / found[0].life, math.exp(low), math.exp(high), r)
+
+
+def ratio_of(a, b, confidence):
+    """Ratio of the geometric means of a positive response over common seeds, by Student's interval of the pairs."""
+    if np.min(a) <= 0.0 or np.min(b) <= 0.0:
+        return Ratio(math.nan, 0.0, math.inf, math.nan)
+    difference = np.log(b) - np.log(a)
+    middle, error = difference.mean(), difference.std(ddof=1) / math.sqrt(len(difference))
+    half = float(student.ppf(0.5 + 0.5 * confidence, len(difference) - 1)) * error
+    scatter = np.std(np.log(a)) * np.std(np.log(b))
+    correlation = float(np.cov(np.log([a, b]), bias=True)[0, 1] / scatter) if scatter > 1e-12 else math.nan
+    return Ratio(*(math.exp(x) for x in (middle, middle - half, middle + half)), correlation)
+
+
+def responses_of(runs, counts):
+    """{part: {response: values of its runs, by seed}} of the parts as they are at the start of the mission."""
+    rows, mission, found = columns_of(runs.folder), runs.mission, {}
+    places_of = {key: i for i, key in enumerate(rows["key"])}
+    for c, n in enumerate(counts):
+        name = mission.parts[mission.cases[c].part].name
+        if n and name not in found:
+            chosen = [places_of[runs.keys[c, s]] for s in range(n)]
+            found[name] = {response: np.asarray(rows[response], float)[chosen] for response in RESPONSES}
+    return found
+
+
+# What differs ---------------------------------------------------------------------------------------------------------
+
+
+def differences(designs, common):
+    """(name, [text of each design]) of all that differs: the bearing's description, parameters, the rivet table, the
+    modes of a half; common: parameters that the mission sets for all.
+    """
+    models = [design.model for design in designs]
+    yield from differing("bearing", [model.bearing for model in models])
+    names = dict.fromkeys(name for model in models for name in model.parameters)
+    for name in names:
+        yield from differing(name, [own_value(design, name, common) for design in designs])
+    yield from differing("table of the rivets (SHA-256)", [member_digest(model) for model in models])
+    yield from differing("lowest mode of a free half", [lowest_mode(model) for model in models])
+    yield from differing("FMU (SHA-256)", [model.digest[:12] for model in models])
+
+
+def differing(name, texts):
+    """The row of a name if its texts are not all one."""
+    if len(set(texts)) > 1:
+        yield name, texts
+
+
+def own_value(design, name, common):
+    """A parameter of a design in words; – if its FMU has none."""
+    variable = design.model.parameters.get(name)
+    if variable is None:
+        return "–"
+    value = design.settings.get(name, common.get(name))
+    return in_words(design.model, name, None if value is None else design.model.parameter_value(value, variable))
+
+
+def member_digest(model):
+    """Digest of the rivet table among the FMU's sources."""
+    with zipfile.ZipFile(model.path) as archive:
+        if TABLE_SOURCE not in archive.namelist():
+            return "not listed"
+        return hashlib.sha256(archive.read(TABLE_SOURCE)).hexdigest()[:12]
+
+
+def lowest_mode(model):
+    """Frequency of the lowest vibration mode of a free half in words."""
+    frequencies = (model.cage_modes or {}).get("frequency")
+    return f"{min(frequencies):.4g} Hz" if frequencies else "none"
+
+
+# What is written ------------------------------------------------------------------------------------------------------
+
+
+def ratio_text(ratio):
+    """A Ratio with its interval; – where there is none."""
+    if ratio is None:
+        return ""
+    if math.isnan(ratio.ratio):
+        return "–"
+    return f"{ratio.ratio:.3g} ({ratio.low:.3g} … {ratio.high:.3g})"
+
+
+def verdict(outcome):
+    """A sentence on a design against the first one."""
+    ratio = outcome.life
+    if ratio is None or math.isnan(ratio.ratio):
+        return ""
+    if ratio.low == ratio.high == 1.0:
+        return "the same"
+    if not ratio.differs:
+        return "no difference that the runs show"
+    return "lives longer" if ratio.ratio > 1.0 else "lives shorter"
+
+
+def record(found):
+    """designs.json's content."""
+    return {
+        "mission": found.name,
+        "confidence": found.confidence,
+        "runs_of_cases": list(found.counts),
+        "designs": [
+            {
+                "name": outcome.design.name,
+                "fmu": str(outcome.design.model.path),
+                "fmu_sha256": outcome.design.model.digest,
+                "settings": outcome.design.settings,
+                "life_h": finite(outcome.estimate.life),
+                "low_h": finite(outcome.estimate.low),
+                "high_h": finite(outcome.estimate.high),
+                "place": outcome.place,
+                "life_ratio": ratio_record(outcome.life),
+                "responses": {
+                    part: {
+                        name: {"mean": float(mean), "ratio": ratio_record(ratio)}
+                        for name, (mean, ratio) in values.items()
+                    }
+                    for part, values in outcome.responses.items()
+                },
+            }
+            for outcome in found.outcomes
+        ],
+        "differences": [{"name": name, "values": list(texts)} for name, texts in found.differences],
+    }
+
+
+def finite(value):
+    """A number, None for infinity and nan."""
+    return float(value) if math.isfinite(value) else None
+
+
+def ratio_record(ratio):
+    """A Ratio for JSON."""
+    if ratio is None:
+        return None
+    return {key: finite(getattr(ratio, key)) for key in ("ratio", "low", "high", "correlation")}
+
+
+def write_record(found, folder):
+    """Write designs.json, whole or not at all; returns its path."""
+    path, text = Path(folder) / RECORD, json.dumps(record(found), indent=1) + "\n"
+    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return path
+
+
+def life_chart(fig, found):
+    """Life of each design with its interval."""
+    ax = fig.subplots()
+    for k, outcome in enumerate(found.outcomes):
+        e = outcome.estimate
+        if math.isfinite(e.life):
+            ax.plot([e.low, e.high], [k, k], color=COLOURS[k % len(COLOURS)], lw=3, solid_capstyle="butt")
+            ax.plot(e.life, k, "o", color=COLOURS[k % len(COLOURS)], ms=7)
+    ends = [x for o in found.outcomes for x in (o.estimate.low, o.estimate.high) if math.isfinite(x) and x > 0.0]
+    ax.set_xscale("log")
+    if ends and max(ends) < 10.0 * min(ends):
+        ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])
+        ax.set_xticks(ticks, [f"{x:,.0f}" if 1e2 <= x < 1e7 else f"{x:.3g}" for x in ticks])
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    ax.set_yticks(range(len(found.outcomes)), [short(outcome.design.name) for outcome in found.outcomes])
+    ax.set(xlabel="life [h]", ylim=(len(found.outcomes) - 0.5, -0.5))
+    ax.grid(axis="y", visible=False)
+
+
+def short(name, length=26):
+    """A design's name for an axis."""
+    return name if len(name) <= length else f"{name[: length - 1]}…"
+
+
+def ratio_chart(fig, found):
+    """Ratio of the head stress to the first design's, part by part."""
+    ax, response = fig.subplots(), next(iter(RESPONSES))
+    names = list(found.outcomes[0].responses)
+    for k, outcome in enumerate(found.outcomes[1:], 1):
+        for i, part in enumerate(names):
+            ratio = outcome.responses[part][response][1]
+            if not math.isnan(ratio.ratio):
+                y = i + 0.16 * (k - 0.5 * len(found.outcomes))
+                ax.plot([ratio.low, ratio.high], [y, y], color=COLOURS[k % len(COLOURS)], lw=2.4)
+                ax.plot(ratio.ratio, y, "o", color=COLOURS[k % len(COLOURS)], ms=5)
+    ax.axvline(1.0, color=MUTED, lw=1.0, ls="--")
+    ax.set_yticks(range(len(names)), [short(name) for name in names])
+    ax.set(xlabel=f"{RESPONSES[response]}, over the first design's", ylim=(len(names) - 0.5, -0.5))
+    ax.grid(axis="y", visible=False)
+
+
+def write_page(found, path):
+    """Write the page, whole or not at all; returns its path."""
+    from .. import charts
+
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    height = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
+    text = environment.from_string((PARTS / "designs.html").read_text(encoding="utf-8")).render(
+        found=found,
+        style=(PARTS / "style.css").read_text(encoding="utf-8"),
+        responses=RESPONSES,
+        units={
+            "stat.sigma_head_p999": (1e-6, "MPa"),
+            "stat.sigma_mid_p999": (1e-6, "MPa"),
+            "stat.Q_c_p999": (1.0, "N"),
+        },
+        hours_text=hours_text,
+        ratio_text=ratio_text,
+        verdict=verdict,
+        charts={
+            "life": charts.svg(lambda fig: life_chart(fig, found), (4.9, max(1.8, height[0])), "Life of the designs"),
+            "ratios": charts.svg(
+                lambda fig: ratio_chart(fig, found), (4.9, max(1.8, height[1])), "Head stress of the designs"
+            ),
+        },
+    )
+    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return Path(path)

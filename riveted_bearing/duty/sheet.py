@@ -1,0 +1,585 @@
+"""One sheet of paper for people who do not run the model: bearing, loads, verdict, the assumptions that move it, the
+worst rivet, and digests of all files.
+
+A mission is judged by its runs and, for peaks, pressures and films, by one more run of each point and event: of the one
+that does most damage with its worst seed.  A result of `run` is judged as if it went on like that.  Utilisation is
+
+    life                  target/life
+    fatigue, per place    1/x; with all stresses x times as large (preload's share included) the place just reaches the
+                          target.  Without a target: largest amplitude over that of the S-N curve's knee
+    contact pressure      largest pressure over bearing.p_limit
+"""
+
+import functools
+import hashlib
+import math
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from bearing_model.instance.fatigue import fully_reversed
+
+from .. import charts
+from ..design.bench import display_of
+from ..errors import UserError, shortlist
+from ..life import CHANNELS, cycle_damages, fatigue_law_at
+from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
+from ..report import PARTS, curve, figure
+from ..results import write_atomically
+from ..runner import simulate
+from ..summary import assumed_rows, columns, flag_note, has_statistics, life_is_known, rivet_rows, settled, table_note
+from ..units import hours_text
+from ..version import __version__
+from .assess import part_duty, places, used_cases
+from .cycles import rainflow_columns, stored_cycles
+from .miner import lives
+from .page import interval_text, mission_text, part_rows, share_text
+from .sn import damage_of_matrix
+
+MIXED = 1.0  # film over roughness: below it asperities carry
+SCALES = (0.05, 20.0)  # of stress, between which the target is looked for
+HALVINGS = 12  # of the logarithm of their ratio: to 0.15 % of stress
+OF_PLACE = ("Head, fatigue", "Middle, fatigue")
+MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 3, 5, 4, 2
+LINES, CHARACTERS = 11, 90  # of all texts of the basis together; of a line
+
+STATES = {"good": "✓", "bad": "✗", "open": "?", "": ""}
+LIMITS = {  # event.* -> in words
+    "overpressure": "contact pressure beyond bearing.p_limit",
+    "joint_open": "plates of a joint apart",
+    "rivet_yield": "rivet beyond its yield stress",
+    "no_clearance": "bearing without clearance",
+    "ellipse_cut": "contact ellipse over the shoulder",
+    "pocket_exit": "ball outside its pocket",
+    "land_contact": "cage's land touches the ring",
+}
+ORDINARY = ("land_contact",)  # crossed in ordinary operation: told, but no fault
+
+
+@dataclass(frozen=True)
+class Check:
+    """One line of the verdict; use: utilisation, None without a limit; state: of STATES."""
+
+    title: str
+    value: str
+    allowed: str = ""
+    use: float | None = None
+    state: str = ""
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a sheet judges.
+
+    life, low, high [h], None where nothing is known, with place and interval in words; scaled(x): shortest lives [h] of
+    heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
+    [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
+    one that decides; rivet: number of the one that fails first.
+    """
+
+    life: float | None
+    low: float | None
+    high: float | None
+    place: str
+    interval: str
+    scaled: object = field(repr=False)
+    amplitudes: tuple
+    knees: tuple
+    results: dict = field(repr=False)
+    worst: str
+    rivet: int
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Everything that stands on the sheet."""
+
+    name: str
+    description: str
+    basis: dict
+    verdict: tuple
+    checks: tuple
+    limits: tuple
+    assumed: tuple
+    assumed_from: str
+    pictures: dict = field(repr=False)
+    worst: str = ""
+    parts: tuple = ()
+    remarks: tuple = ()
+    files: tuple = ()
+
+
+# What a sheet rests on ------------------------------------------------------------------------------------------------
+
+
+def of_mission(life, runs, model, progress=lambda done, total: None):
+    """Evidence of a mission's Life and its Runs; simulates each point and event once more, with all outputs."""
+    mission, duty = life.mission, life.mission.duty
+    used = used_cases(duty, list(life.kept)).tolist()
+    share = dict(zip(life.kept, life.estimate.shares, strict=True))
+    worst = max(share, key=share.get)
+    results, rivet = {}, None
+    chosen = [(i, c) for i in life.kept if (c := first_case(mission, i)) in used]
+    for done, (i, c) in enumerate(chosen):
+        progress(done, len(chosen))
+        damage = np.array(damages_of(runs, c)).reshape(-1, runs.damages[runs.keys[c, 0]].size)
+        if mission.settings["rivets"] == "each":
+            damage = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
+        most = np.unravel_index(np.argmax(damage), damage.shape)
+        seed = mission.settings["seed"] + int(most[0])
+        if i == worst or rivet is None:
+            rivet = int(most[1]) // 2 + 1
+        scene = mission.cases[c].scene
+        results[mission.parts[i].name] = simulate(
+            model, replace(scene, parameters=scene.parameters | {"start.seed": seed})
+        )
+    if mission.parts[worst].name not in results:  # interpolated: from the simulated part with the largest share
+        worst = max((i for i, _ in chosen), key=lambda i: share[i])
+    matrices = [runs.matrices[key] for key in runs.damages]
+    strength = next(iter(runs.strengths.values()), None)
+    laws = matrices[0][1]
+    found = life.estimate
+    return Evidence(
+        found.life,
+        life.low,
+        found.high,
+        life.place,
+        f"{100 * mission.settings['confidence']:g} %: {interval_text(life)}",
+        functools.cache(lambda x: scaled_lives(life, runs, used, x)),
+        largest_amplitudes((matrix, laws) for matrix, laws, _ in matrices),
+        knees_of(strength, laws),
+        results,
+        mission.parts[worst].name,
+        rivet,
+    )
+
+
+def first_case(mission, i):
+    """Number of the case that is part i itself at the start of the mission; None if it is interpolated."""
+    if mission.parts[i].scene is None:
+        return None
+    return int(np.flatnonzero(mission.duty.blends[0, i])[0])
+
+
+def damages_of(runs, c):
+    """Damages of the runs of a case that were asked for."""
+    keys = (runs.keys[c, s] for s in range(runs.mission.settings["max_seeds"]))
+    return [runs.damages[key] for key in keys if key in runs.damages]
+
+
+def scaled_lives(life, runs, used, x):
+    """Shortest lives [h] of head and middle with all stresses x times as large: cycles of the rainflow matrices, scaled
+    so that they give the counted damage at x = 1.
+    """
+    mission, means = life.mission, []
+    for c in used:
+        keys = [key for s in range(mission.settings["max_seeds"]) if (key := runs.keys[c, s]) in runs.damages]
+        means.append(
+            places(np.array([scaled_damage(runs, key, x) for key in keys]), mission.settings["rivets"]).mean(axis=0)
+        )
+    hours, _ = lives(part_duty(mission.duty, list(life.kept)), np.array(means))
+    return float(hours[0::2].min()), float(hours[1::2].min())
+
+
+def scaled_damage(runs, key, x):
+    """Damage of a run's rivets [Z, 2] at x times its stress."""
+    matrix, laws, own = runs.matrices[key]
+    strength = runs.strengths.get(laws[0])
+    plain, scaled = (damage_by(strength, laws, matrix, scale) for scale in (1.0, x))
+    counted = runs.damages[key].reshape(-1)
+    whole = counted.sum() / plain.sum() if plain.sum() > 0.0 else 0.0
+    factor = np.where(plain > 0.0, counted / np.where(plain > 0.0, plain, 1.0), whole)
+    return (scaled * factor).reshape(own.shape)
+
+
+def damage_by(strength, laws, matrix, scale):
+    """Miner's sum of each channel of a matrix at a scale of its stresses; strength: of [sn], None for the FMU's laws of
+    the channels.
+    """
+    channel, span, mean, count = matrix
+    span, mean = scale * span, scale * mean
+    if strength is not None:
+        return damage_of_matrix(strength, (channel, span, mean, count), len(laws))
+    damage = np.zeros(len(laws))
+    for law in dict.fromkeys(laws):
+        mine = np.isin(channel, [c for c, own in enumerate(laws) if own == law])
+        of_cycles = count[mine] * cycle_damages(law, span[mine], mean[mine])
+        damage += np.bincount(channel[mine], of_cycles, minlength=len(laws))
+    return damage
+
+
+def largest_amplitudes(pairs):
+    """Largest fully reversed amplitudes of heads and middles [Pa] in pairs (matrix, laws of the channels)."""
+    largest = [0.0, 0.0]
+    for (channel, span, mean, _), laws in pairs:
+        for place in (0, 1):
+            mine = channel % 2 == place
+            cycles = zip(span[mine].tolist(), mean[mine].tolist())
+            largest[place] = max(
+                largest[place], max((fully_reversed(laws[place], 0.5 * s, m) for s, m in cycles), default=0.0)
+            )
+    return tuple(largest)
+
+
+def knees_of(strength, laws):
+    """Lowest amplitudes at the knees of the S-N curves of heads and middles [Pa], None for a table."""
+    if strength is None:
+        return tuple(min(law.sigma_D for law in laws[place::2]) for place in (0, 1))
+    return (None if strength.table is not None else strength.factor * strength.law.sigma_D,) * 2
+
+
+def of_result(result, name):
+    """Evidence of one run that is taken to go on as it did."""
+    if not has_statistics(result) or result.parameters.get("scene.stress") == "off":
+        raise UserError(f"{name}: no stress after start.settle: a summary needs a longer run, with stress")
+    if not columns(result, "rivet[", "].sigma_head"):
+        raise UserError(
+            f'{name}: rivet[1].sigma_head was not recorded: a summary needs it of each rivet (outputs = ["*"])'
+        )
+    rows = rainflow_columns(result)
+    matrix = stored_cycles({key: [column] for key, column in rows.items()}, 0)
+    Z = len(columns(result, "rivet[", "].sigma_head"))
+    laws = [fatigue_law_at(result.parameters, k, place) for k in range(1, Z + 1) for place in CHANNELS]
+    t = result.data["time"][settled(result)]
+    hours = (t[-1] - t[0]) / 3600.0
+
+    def scaled(x):
+        damage = damage_by(None, laws, matrix, x)
+        with np.errstate(divide="ignore"):
+            life = hours / damage
+        return float(life[0::2].min()), float(life[1::2].min())
+
+    damage = damage_by(None, laws, matrix, 1.0)
+    k, place = divmod(int(damage.argmax()), 2)
+    life = min(scaled(1.0)) if life_is_known(result) else None
+    scene = result.about.get("scene") or "run"
+    return Evidence(
+        life,
+        None,
+        None,
+        f"rivet {k + 1}, {('head', 'middle')[place]}",
+        "of one run: more seeds or a mission give its interval",
+        scaled,
+        largest_amplitudes([(matrix, laws)]),
+        knees_of(None, laws),
+        {scene: result},
+        scene,
+        k + 1,
+    )
+
+
+# Verdict --------------------------------------------------------------------------------------------------------------
+
+
+def judged(evidence, target):
+    """State, headline and reason; target: hours or None."""
+    if evidence.life is None:
+        return "open", "No life can be told", "the rivets' stress rests on closed forms"
+    life = hours_text(evidence.life)
+    if target is None:
+        return "", f"Life {life}", "no target was given (--target)"
+    wanted, low, high = (hours_text(x) for x in (target, evidence.low or evidence.life, evidence.high or evidence.life))
+    if evidence.life < target:
+        sure = evidence.high is not None and evidence.high < target
+        reason = f"even the upper end of the interval, {high}, is below it" if sure else f"life {life}"
+        return "bad", f"Misses the target of {wanted}", reason
+    if evidence.low is not None and evidence.low < target:
+        return "open", f"Target of {wanted} not safe", f"life {life}, but the interval begins at {low}"
+    return "good", f"Meets the target of {wanted}", f"life {life}" + (f", at least {low}" if evidence.low else "")
+
+
+def reserve(evidence, place, target):
+    """Factor of all stresses at which the head (0) or the middle (1) just reaches the target; an end of SCALES if it is
+    beyond.
+    """
+    low, high = SCALES
+    for _ in range(HALVINGS):
+        middle = math.sqrt(low * high)
+        if evidence.scaled(middle)[place] >= target:
+            low = middle
+        else:
+            high = middle
+    return math.sqrt(low * high)
+
+
+def checks(evidence, target):
+    """The lines of the verdict."""
+    if evidence.life is not None:
+        use = target / evidence.life if target and math.isfinite(evidence.life) and evidence.life > 0.0 else None
+        state, _, _ = judged(evidence, target)
+        yield Check(
+            "First rivet to fail",
+            f"{hours_text(evidence.life)} ({evidence.interval}), {evidence.place}",
+            f"at least {hours_text(target)}" if target else "",
+            0.0 if target and math.isinf(evidence.life) else use,
+            state,
+        )
+    for place, title in enumerate(OF_PLACE):
+        yield fatigue_check(evidence, place, title, target)
+    yield from pressure_checks(evidence.results)
+    yield from film_checks(evidence.results)
+
+
+def fatigue_check(evidence, place, title, target):
+    """Utilisation of a place by fatigue."""
+    amplitude = f"amplitude up to {1e-6 * evidence.amplitudes[place]:.3g} MPa (R = −1)"
+    if target and evidence.life is not None:
+        x = reserve(evidence, place, target)
+        text = (
+            f"{x:.3g} times the stress" if SCALES[0] * 1.01 < x < SCALES[1] / 1.01 else f"over {x:.2g} times the stress"
+        )
+        return Check(title, amplitude, f"{text} at the target", 1.0 / x, "good" if x >= 1.0 else "bad")
+    if evidence.knees[place] is None:
+        return Check(title, amplitude)
+    return Check(
+        title,
+        amplitude,
+        f"S–N curve's knee {1e-6 * evidence.knees[place]:.3g} MPa",
+        evidence.amplitudes[place] / evidence.knees[place],
+    )
+
+
+def pressure_checks(results):
+    """Largest pressure of each race against the FMU's limit."""
+    for name, title in (("p_i", "Pressure, inner race"), ("p_e", "Pressure, outer race")):
+        found = {
+            part: max(float(result.data[key][settled(result)].max()) for key in keys)
+            for part, result in results.items()
+            if (keys := columns(result, "ball[", f"].{name}"))
+        }
+        if found:
+            part = max(found, key=found.get)
+            limit, value = results[part].parameters["bearing.p_limit"], found[part]
+            state = "good" if value <= limit else "bad"
+            where = f" ({clipped(part, 24)})" if len(results) > 1 else ""
+            yield Check(title, f"{1e-6 * value:,.0f} MPa{where}", f"{1e-6 * limit:,.0f} MPa", value / limit, state)
+
+
+def film_checks(results):
+    """Mean film over roughness of the contacts that carry, in the race and the part where it is thinnest."""
+    found = {}
+    for part, result in results.items():
+        late = settled(result)
+        for side, race in (("i", "inner"), ("e", "outer")):
+            films, loads = (columns(result, "ball[", f"].{name}_{side}") for name in ("Lambda", "Q"))
+            if films and len(films) == len(loads):
+                film, load = (np.concatenate([result.data[n][late] for n in names]) for names in (films, loads))
+                if np.any(load > 0.0):
+                    found[part, race] = float(film[load > 0.0].mean())
+    if found:
+        part, race = min(found, key=found.get)
+        value = found[part, race]
+        where = f", {clipped(part, 18)}" if len(results) > 1 else ""
+        state = "good" if value >= MIXED else "open"
+        yield Check(
+            "Oil film/roughness",
+            f"{value:.2g} ({race} race{where})",
+            f"at least {MIXED:g}, below it asperities carry",
+            None,
+            state,
+        )
+
+
+def limits_crossed(results):
+    """Which limits were crossed, where: (whether it is a fault, text)."""
+    found = {}
+    for part, result in results.items():
+        for event, words in LIMITS.items():
+            count = result.data.get(f"event.{event}_onsets", np.zeros(1))[-1]
+            if count:
+                found.setdefault((event not in ORDINARY, words), []).append(f"{part} {count:,.0f} ×")
+        if flags := flag_note(result).partition(": ")[2]:
+            found.setdefault((True, flags), []).append(part)
+        if result.stopped:
+            found.setdefault((True, f"run stopped early: {clipped(result.stopped, 90)}"), []).append(part)
+    for (fault, words), parts in sorted(found.items(), key=lambda item: not item[0][0]):
+        yield fault, clipped(f"{words}: {shortlist(parts, 3)}", CHARACTERS)
+
+
+def assumptions(result, decides=None):
+    """The strongest assumptions with their range and effect, and where that is from; decides: a Sensitivity."""
+    if decides:
+        name = decides.responses[0]
+        unit, factor, _ = display_of(name)
+        indices, rows = decides.morris[name], []
+        for k in decides.ranked[:MOST_ASSUMED]:
+            factor_name = decides.factors[k]
+            own_unit, scale, offset = display_of(factor_name)
+            ends = decides.ranges.get(factor_name)
+            span = " … ".join(f"{scale * end + offset:.3g}" for end in ends) if ends else "–"
+            value = result.parameters.get(factor_name)
+            shown = f"{scale * value + offset:.3g}" if isinstance(value, float) else "–"
+            effect = f"{factor * indices['mu_star'][k]:.2g} {unit}".strip()
+            rows.append((factor_name, f"{shown} {own_unit}".strip(), f"{span} {own_unit}".strip(), effect))
+        return tuple(rows), f"mean change of {name} over the range, by the study {decides.name}"
+    rows = sorted(assumed_rows(result), key=lambda row: -row[5])[:MOST_ASSUMED]
+    return tuple(
+        (name, f"{value:.3g} {unit}", f"{low:.2g} … {high:.2g} {unit}", f"{100 * stress:.0f} % of stress")
+        for name, value, low, high, unit, stress, _ in rows
+    ), "change of the worst head's stress over the usual range, at the working point of the 6207"
+
+
+# The sheet ------------------------------------------------------------------------------------------------------------
+
+
+def make_sheet(name, description, basis, evidence, target=None, decides=None, parts=(), remarks=(), files=()):
+    """The Sheet of some Evidence; target: life [h] or None; files: paths whose digests stand on it."""
+    worst = evidence.results[evidence.worst]
+    rows, source = assumptions(worst, decides)
+    limits = list(limits_crossed(evidence.results))
+    if len(limits) > MOST_LIMITS:
+        limits = [*limits[: MOST_LIMITS - 1], (True, f"{len(limits) - MOST_LIMITS + 1} others")]
+    return Sheet(
+        clipped(name, 60),
+        clipped(description, CHARACTERS),
+        fitted({key: text for key, text in basis.items() if key not in ("FMU", "scene")}),
+        judged(evidence, target),
+        tuple(checks(evidence, target)),
+        tuple(limits),
+        rows,
+        source,
+        {
+            "where": charts.svg(
+                lambda fig: rivets_chart(fig, worst, evidence.rivet), (2.5, 2.0), "Stress of the rivets on the circle"
+            ),
+            "when": charts.svg(
+                lambda fig: history_chart(fig, worst, evidence.rivet),
+                (4.9, 2.0),
+                "Stress of the worst rivet over time",
+            ),
+        },
+        f"rivet {evidence.rivet}" + (f", {clipped(evidence.worst, 28)}" if len(evidence.results) > 1 else ""),
+        tuple(parts[:MOST_PARTS]),
+        tuple(clipped(text, 150) for text in [*filter(None, [table_note(worst)]), *remarks][:MOST_REMARKS]),
+        tuple(
+            (clipped(path.name, 40), hashlib.sha256(path.read_bytes()).hexdigest()[:16]) for path in map(Path, files)
+        ),
+    )
+
+
+def clipped(text, length):
+    """A text of at most this length."""
+    text = str(text)
+    return text if len(text) <= length else f"{text[: length - 1].rstrip(' ,;')}…"
+
+
+def fitted(texts):
+    """Texts of the basis, the longest ones clipped line by line until all of them fit their place."""
+    texts = dict(texts)
+    lines = {key: -(-len(text) // CHARACTERS) for key, text in texts.items()}
+    while sum(lines.values()) > max(LINES, len(lines)):
+        longest = max(lines, key=lines.get)
+        lines[longest] -= 1
+        texts[longest] = clipped(texts[longest], lines[longest] * CHARACTERS)
+    return texts
+
+
+def rivets_chart(fig, result, rivet):
+    """The circle of rivets at the start, seen from +X, coloured by the 99.9 % quantile of the head stress, the one
+    that fails first marked.
+    """
+    ax, rows = fig.subplots(), rivet_rows(result)
+    if rows:
+        stress = np.array([row[1].p999 for row in rows])
+    else:  # without the FMU's own statistics
+        names = columns(result, "rivet[", "].sigma_head")
+        stress = np.array([1e-6 * np.quantile(result.data[name][settled(result)], 0.999) for name in names])
+    angle = 2.0 * np.pi * (np.arange(len(stress)) + 0.5) / len(stress)
+    y, z, k = np.cos(angle), np.sin(angle), rivet - 1
+    ax.add_patch(plt.Circle((0, 0), 1.0, fill=False, color=MUTED, lw=6, alpha=0.35))
+    dots = ax.scatter(y, z, s=70, c=stress, cmap="viridis", edgecolor=FORCE, lw=0.5, zorder=3)
+    ax.scatter(y[k], z[k], s=170, facecolor="none", edgecolor=HEAD, lw=1.6, zorder=4)
+    for j in range(len(stress)):
+        ax.text(0.72 * y[j], 0.72 * z[j], str(j + 1), ha="center", va="center", fontsize=8)
+    ax.set(aspect="equal", xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), xticks=[], yticks=[])
+    ax.grid(False)
+    for side in ax.spines.values():
+        side.set_visible(False)
+    fig.colorbar(dots, ax=ax, label="MPa", pad=0.02, shrink=0.85).outline.set_visible(False)
+
+
+def history_chart(fig, result, rivet):
+    """Stress of head and middle of a rivet after settling: largest and smallest value in each stretch."""
+    ax, k = fig.subplots(), rivet
+    late = settled(result)
+    names = {"head": f"rivet[{k}].sigma_head", "mid": f"rivet[{k}].sigma_mid"}
+    data = {"time": result.data["time"][late]} | {
+        key: 1e-6 * np.maximum(result.data[name], result.data.get(f"{name}_peak", result.data[name]))[late]
+        for key, name in names.items()
+        if name in result.data
+    }
+    few = charts.thinned(replace(result, data=data), 300).data
+    for key, colour, label in (("head", HEAD, "head fillet"), ("mid", MIDDLE, "middle")):
+        if key in few:
+            ax.plot(1e3 * few["time"], few[key], color=colour, lw=0.6, label=label)
+    ax.set(xlabel="time [ms]", ylabel="MPa")
+    ax.margins(x=0.0)
+    ax.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def part_lines(life):
+    """Points and events by their share in the damage: (name, load, speed, in the mission, share)."""
+    share = dict(zip(life.kept, life.estimate.shares, strict=True))
+    order = sorted(range(len(life.mission.parts)), key=lambda i: -share.get(i, 0.0))
+    rows = list(part_rows(life))
+    shown = [rows[i] for i in order]
+    lines = [(clipped(row[0], 24), clipped(row[1], 44), row[2], row[3], row[7]) for row in shown]
+    if len(lines) > MOST_PARTS:
+        rest = sum(share.get(i, 0.0) for i in order[MOST_PARTS - 1 :])
+        lines = [*lines[: MOST_PARTS - 1], (f"{len(lines) - MOST_PARTS + 1} others", "", "", "", share_text(rest))]
+    return lines
+
+
+def mission_sheet(life, evidence, target=None, decides=None, files=()):
+    """The Sheet of a mission."""
+    mission = life.mission
+    hours, passes = mission_text(life)
+    return make_sheet(
+        mission.name,
+        mission.description,
+        dict(mission.basis) | {"mission": f"{hours}, {passes}"},
+        evidence,
+        target,
+        decides,
+        part_lines(life),
+        (),
+        files,
+    )
+
+
+def write_sheet(sheet, path):
+    """Write the page, whole or not at all; returns its path."""
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    text = environment.from_string((PARTS / "sheet.html").read_text(encoding="utf-8")).render(
+        sheet=sheet,
+        style=(PARTS / "sheet.css").read_text(encoding="utf-8"),
+        states=STATES,
+        figure=figure,
+        version=__version__,
+        date=datetime.now(UTC).isoformat(timespec="minutes").replace("+00:00", " UTC"),
+    )
+    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return Path(path)
+
+
+def result_sheet(result, path, fmu=None, target=None, decides=None):
+    """The Sheet of a file of results; fmu: path of the FMU for its digest, None if it is not there."""
+    about = result.about
+    basis = dict(about.get("basis", {}))
+    if "S-N curve" not in basis:
+        basis["S-N curve"] = curve(result)
+    evidence = of_result(result, path)
+    return make_sheet(
+        about.get("scene") or Path(path).stem,
+        about.get("description", ""),
+        basis,
+        evidence,
+        target,
+        decides,
+        files=[*filter(None, [fmu]), path],
+    )

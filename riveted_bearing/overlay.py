@@ -1,0 +1,263 @@
+"""A measured series beside a run's: statistics, spectra and both over time, side by side.
+
+    time [ms],housing.F_y [kN]        # a line of names, units in brackets; a name without a unit is SI
+    0.0,2.98
+
+A column is that of the channel it is named after, or of the one that `columns` says.  The motion of a bearing is chaotic
+and a measurement has no common start with a run: no point of one is compared with a point of the other.
+"""
+
+import csv
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.signal import welch
+
+from bearing_model.generated import variables
+
+from .errors import UserError, refusal, unknown
+from .plot import FORCE, HEAD, MUTED
+from .summary import settled
+from .units import SECONDS, canonical, scale, scales_of, suffix
+from .variable_list import KNOWN
+
+UNEVEN = 0.01  # of the mean step: times beyond it have no spectrum
+FEWEST = 16
+TIME = "time"
+BUCKETS = 300
+
+
+@dataclass(frozen=True)
+class Series:
+    """A channel of the run with the measured one: times [s] and values in the unit shown; column: as the file names it."""
+
+    channel: str
+    column: str
+    unit: str
+    t_run: np.ndarray = field(repr=False)
+    run: np.ndarray = field(repr=False)
+    t_measured: np.ndarray = field(repr=False)
+    measured: np.ndarray = field(repr=False)
+
+
+def split_name(text):
+    """Name and unit ("" for none) of a header; an index is no unit."""
+    match = re.fullmatch(r"(.*\S)\s+\[([^][]*)\]", text.strip())
+    return (match[1], match[2].strip()) if match else (text.strip(), "")
+
+
+def read_table(path):
+    """Headers and columns of a CSV file; lines with # in front are skipped, and so is a mark of the byte order."""
+    path = Path(path)
+    if not path.is_file():
+        raise UserError(f"{path}: no such file")
+    try:
+        lines = [line for line in path.read_text(encoding="utf-8-sig").splitlines() if line and line[0] != "#"]
+        rows = list(csv.reader(lines))
+    except (OSError, UnicodeDecodeError, csv.Error) as problem:
+        raise UserError(f"{path}: not a CSV table: {problem}") from None
+    if len(rows) < 2:
+        raise UserError(f"{path}: a line of names and rows of numbers with commas between are needed")
+    names = [name.strip() for name in rows[0]]
+    if twice := {name for name in names if names.count(name) > 1}:
+        raise UserError(f"{path}: {', '.join(sorted(twice))}: two columns have this name")
+    for number, row in enumerate(rows[1:], 2):
+        if len(row) != len(names):
+            raise UserError(f"{path}: row {number} has {len(row)} entries, the line of names has {len(names)}")
+    return names, list(zip(*rows[1:], strict=True))
+
+
+def numbers(path, name, column):
+    """A column as floats."""
+    try:
+        values = np.array(column, float)
+    except ValueError:
+        bad = next(text for text in column if not is_float(text))
+        raise refusal(path, f'column "{name}"', bad, "not a number") from None
+    if not np.all(np.isfinite(values)):
+        raise UserError(f'{path}: column "{name}" has entries that are not finite')
+    return values
+
+
+def is_float(text):
+    """Whether a text is a number."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def assigned(options):
+    """{channel: column} of texts CHANNEL=COLUMN."""
+    found = {}
+    for text in options:
+        channel, equals, column = text.partition("=")
+        if not equals or not column.strip():
+            raise UserError(f'--column {text}: not of the form CHANNEL=COLUMN, e.g. housing.F_y="Fy [kN]"')
+        found[channel.strip()] = column.strip().strip("\"'")
+    return found
+
+
+def find_column(path, names, wanted):
+    """Place and unit of a column given as "name" or "name [unit]"."""
+    name, unit = split_name(wanted)
+    for i, header in enumerate(names):
+        own, own_unit = split_name(header)
+        if header == wanted or own == wanted or own == name:
+            if unit and own_unit and unit != own_unit:
+                raise UserError(f'{path}: column "{header}": its unit is {own_unit}, but [{unit}] was asked for')
+            return i, unit or own_unit
+    raise unknown(path, "column", wanted, names)
+
+
+def read_measured(path, result, columns=None):
+    """The Series of a CSV file beside a Result; columns: {channel: column} where names differ, "time" among them.
+
+    Raises UserError if nothing fits, or naming file, column and value that cannot be used.
+    """
+    names, table = read_table(path)
+    columns, recorded = dict(columns or {}), [name for name in result.data if name != TIME]
+    i, unit = find_column(path, names, columns.pop(TIME, TIME))
+    t = in_si(path, names[i], numbers(path, names[i], table[i]), unit, SECONDS)
+    if len(t) < FEWEST or np.any(np.diff(t) <= 0.0):
+        raise UserError(f'{path}: column "{names[i]}": at least {FEWEST} times that increase are needed')
+    if not columns:
+        columns = {own: header for header in names if (own := split_name(header)[0]) in recorded}
+        if not columns:
+            raise UserError(
+                f"{path}: no column has the name of a recorded channel ({', '.join(names)}); --column housing.F_y=NAME assigns one"
+            )
+    late = settled(result)
+    found = []
+    for channel, wanted in columns.items():
+        if channel not in recorded:
+            raise unknown(f"{path}: --column", "recorded channel", channel, recorded)
+        i, unit = find_column(path, names, wanted)
+        variable = KNOWN.get(re.sub(r"\[\d+\]", "[j]" if channel.startswith("ball") else "[k]", channel))
+        own = result.units.get(channel, "1")
+        displays = variables.UNITS.get(own, {})
+        values = in_si(path, names[i], numbers(path, names[i], table[i]), unit, scales_of(own, displays))
+        shown = unit_shown(unit, variable, own, displays)
+        factor, offset = scale(shown, scales_of(own, displays)) if shown != own else (1.0, 0.0)
+        found.append(
+            Series(
+                channel,
+                names[i],
+                suffix(shown).strip(),
+                result.data["time"][late],
+                factor * result.data[channel][late] + offset,
+                t,
+                factor * values + offset,
+            )
+        )
+    return found
+
+
+def unit_shown(unit, variable, own, displays):
+    """The unit of the file, else the one in which people read the channel."""
+    if unit:
+        return canonical(unit)
+    return variable.display if variable is not None and variable.display in displays else own
+
+
+def in_si(path, name, values, unit, scales):
+    """A column in SI units."""
+    if not unit:
+        return values
+    try:
+        factor, offset = scale(unit, scales)
+    except UserError as problem:
+        raise UserError(f'{path}: column "{name}": {problem}') from None
+    return (values - offset) / factor
+
+
+def statistics(t, values):
+    """(name, value) of one series: its length and rate, and figures in its unit."""
+    yield "samples", float(len(values))
+    yield "length [s]", float(t[-1] - t[0])
+    yield "samples per ms", 1e-3 * (len(t) - 1) / (t[-1] - t[0])
+    yield "mean", float(values.mean())
+    yield "standard deviation", float(values.std())
+    yield "RMS", float(np.sqrt(np.mean(values**2)))
+    for share in (0.001, 0.5, 0.999):
+        yield f"{100 * share:g} % quantile", float(np.quantile(values, share))
+    yield "smallest", float(values.min())
+    yield "largest", float(values.max())
+
+
+def spectrum(t, values):
+    """Frequencies [Hz] and amplitude density [unit/√Hz] by Welch; None where times are not equally spaced."""
+    steps = np.diff(t)
+    if np.abs(steps / steps.mean() - 1.0).max() > UNEVEN or len(t) < FEWEST:
+        return None
+    f, power = welch(values, 1.0 / steps.mean(), nperseg=min(len(t), 1024), detrend="constant")
+    return f[1:], np.sqrt(power[1:])
+
+
+def table_rows(series):
+    """(name, figure of the run, figure of the measurement)."""
+    pairs = zip(statistics(series.t_run, series.run), statistics(series.t_measured, series.measured), strict=True)
+    return [(name, a, b) for (name, a), (_, b) in pairs]
+
+
+def spectrum_note(series):
+    """Why a spectrum is missing, "" if both are there."""
+    lacking = [
+        who
+        for who, t, values in (("run", series.t_run, series.run), ("measurement", series.t_measured, series.measured))
+        if spectrum(t, values) is None
+    ]
+    return f"No spectrum of the {' and of the '.join(lacking)}: its times are not equally spaced." if lacking else ""
+
+
+def time_chart(fig, series):
+    """Both over their own time, on one scale of values."""
+    panels = fig.subplots(1, 2, sharey=True)
+    for ax, title, t, values, colour in (
+        (panels[0], "run", series.t_run, series.run, FORCE),
+        (panels[1], "measured", series.t_measured, series.measured, HEAD),
+    ):
+        first = np.unique(np.linspace(0, len(t), BUCKETS, endpoint=False).astype(int))
+        low, high = (reduce.reduceat(values, first) for reduce in (np.minimum, np.maximum))
+        ax.fill_between(1e3 * t[first], low, high, color=colour, lw=0.4, step="post")
+        ax.axhline(values.mean(), color=MUTED, lw=0.9, ls="--")
+        ax.set_title(title)
+        ax.set_xlabel("time [ms]")
+    panels[0].set_ylabel(series.unit)
+
+
+def spectrum_chart(fig, series):
+    """Both spectra, each to half its own rate."""
+    ax = fig.subplots()
+    for label, t, values, colour in (
+        ("run", series.t_run, series.run, FORCE),
+        ("measured", series.t_measured, series.measured, HEAD),
+    ):
+        if (found := spectrum(t, values)) is not None and np.any(found[1] > 0.0):
+            ax.loglog(*found, color=colour, lw=0.8, label=label)
+    ax.set(xlabel="frequency [Hz]", ylabel=f"{series.unit or '1'}/√Hz")
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def views(found):
+    """What the report's page shows of each Series."""
+    from . import charts
+
+    return [
+        {
+            "channel": series.channel,
+            "column": series.column,
+            "unit": series.unit,
+            "rows": table_rows(series),
+            "note": spectrum_note(series),
+            "time": charts.svg(lambda fig, s=series: time_chart(fig, s), (4.9, 2.7), f"{series.channel} over time"),
+            "spectrum": charts.svg(
+                lambda fig, s=series: spectrum_chart(fig, s), (4.9, 2.7), f"{series.channel}, spectra"
+            ),
+        }
+        for series in found
+    ]

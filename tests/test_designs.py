@@ -1,0 +1,172 @@
+"""Designs side by side: how often the interval contains the true ratio of lives, what common seeds do, what differs,
+and what is refused.
+"""
+
+import json
+import math
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from commands import command
+
+from riveted_bearing import UserError
+from riveted_bearing.duty import designs
+from riveted_bearing.duty.confidence import estimate, ratio_interval
+from riveted_bearing.duty.miner import simple_duty
+from riveted_bearing.fmu import Model
+
+MISSION = """
+scene = "demo"
+[simulation]
+t_end = "12 ms"
+[parameters]
+start.settle = "4 ms"
+fatigue.sigma_D = "1 GPa"
+[inputs]
+shaft.F_y = "2.5 kN"
+[[point]]
+name = "calm"
+hours = 3
+[[event]]
+name = "shock"
+count = 2
+inputs.impact.F_r = { t = [0.006, 0.007, 0.008], value = [0, 3000, 0] }
+[life]
+min_seeds = 3
+max_seeds = 3
+"""
+
+
+def drawn(rng, n, common, ratio=2.5, spread=0.6):
+    """Damages of two designs at one place in two cases [n, 1]: log-normal, the second design's `ratio` times smaller,
+    the share `common` of the variance from the seed.
+    """
+    pairs = []
+    for rate in (1e-4, 3e-4):
+        seed = rng.normal(size=(n, 1))
+        own = [math.sqrt(common) * seed + math.sqrt(1.0 - common) * rng.normal(size=(n, 1)) for _ in range(2)]
+        pairs.append([rate * f * np.exp(spread * x - 0.5 * spread**2) for f, x in zip((1.0, 1.0 / ratio), own)])
+    return [list(samples) for samples in zip(*pairs)]
+
+
+def interval(samples, confidence=0.9):
+    duty = simple_duty([0.6, 0.4])
+    found = [estimate(duty, one, confidence, 1) for one in samples]
+    return ratio_interval([duty, duty], samples, found, confidence, 1)
+
+
+@pytest.mark.parametrize("common", [0.0, 0.8])
+def test_the_interval_contains_the_true_ratio(common):
+    """Expected of a 90 % interval from 8 runs: 82 to 96 % of 150 studies (the binomial scatter of 150 is 2.5 %)."""
+    rng, hits, widths = np.random.default_rng(7), 0, []
+    for _ in range(150):
+        low, high, _ = interval(drawn(rng, 8, common))
+        hits += low <= math.log(2.5) <= high
+        widths.append(high - low)
+    assert 0.82 <= hits / 150 <= 0.96, hits / 150
+
+
+def test_common_seeds_narrow_the_interval():
+    """By about sqrt(1 - r): with four fifths of the variance from the seed by more than a third; the correlation is
+    found."""
+    rng = np.random.default_rng(3)
+    found = {common: [interval(drawn(rng, 16, common)) for _ in range(20)] for common in (0.0, 0.8)}
+    width = {common: np.mean([high - low for low, high, _ in several]) for common, several in found.items()}
+    assert width[0.8] < 0.66 * width[0.0]
+    assert np.mean([r for *_, r in found[0.8]]) == pytest.approx(0.8, abs=0.1)
+    assert np.mean([r for *_, r in found[0.0]]) == pytest.approx(0.0, abs=0.2)
+
+
+def test_a_design_against_itself_is_exactly_one():
+    a, _ = drawn(np.random.default_rng(1), 6, 0.0)
+    assert interval([a, a]) == (0.0, 0.0, 1.0)
+
+
+def test_ratio_of_a_response_is_students_interval():
+    """Closed form: logarithms of 3, 4, 5 % apart in pairs: mean 4 %, s = 1 %, t(2, 95 %) = 2.919986."""
+    a = np.array([1.0, 7.0, 3.0])
+    found = designs.ratio_of(a, a * np.exp([0.03, 0.04, 0.05]), 0.9)
+    half = 2.919986 * 0.01 / math.sqrt(3)
+    assert [math.log(x) for x in (found.ratio, found.low, found.high)] == pytest.approx(
+        [0.04, 0.04 - half, 0.04 + half], rel=1e-6
+    )
+    assert found.differs and found.correlation == pytest.approx(1.0, abs=1e-3)
+
+
+def test_designs_are_fmus_with_settings(fmu, own):
+    found = designs.read_designs([str(fmu), str(own), "joint.preload=40 N", "cage.mu=0.1"], lambda text: text)
+    assert [design.settings for design in found] == [{}, {"joint.preload": "40 N", "cage.mu": "0.1"}]
+    assert found[1].name == "mine joint.preload=40 N cage.mu=0.1"
+    for words, message in (
+        ([str(fmu)], "at least two are needed"),
+        (["joint.preload=3 N", str(fmu)], "before the first FMU"),
+        ([str(fmu), str(fmu)], "designs of one name"),
+    ):
+        with pytest.raises(UserError, match=message):
+            designs.read_designs(words, str)
+
+
+def test_loads_that_the_mission_leaves_to_the_fmus_are_refused(fmu, own, tmp_path):
+    """The second FMU has 4100 N of its own: lives at different loads would be no comparison."""
+    path = tmp_path / "trial.toml"
+    path.write_text(MISSION.replace('scene = "demo"', "").replace('shaft.F_y = "2.5 kN"', ""))
+    chosen = designs.read_designs([str(fmu), str(own)], str)
+    missions = [designs.plan(path, design) for design in chosen]
+    with pytest.raises(UserError, match=r"calm: shaft.F_y is 2994 N in RivetedBearing and 4100 N in mine"):
+        designs.check_same_inputs(missions, chosen)
+    path.write_text(MISSION)
+    designs.check_same_inputs([designs.plan(path, design) for design in chosen], chosen)
+
+
+def test_a_parameter_of_a_point_is_not_overwritten_in_silence(fmu, tmp_path):
+    path = tmp_path / "trial.toml"
+    path.write_text(MISSION.replace("hours = 3", "hours = 3\nparameters.joint.preload = 10.0"))
+    design = designs.Design("b", Model(fmu), {"joint.preload": "40 N"})
+    with pytest.raises(UserError, match=r"joint.preload = '40 N'.*a point sets it too"):
+        designs.plan(path, design)
+    with pytest.raises(UserError, match=r'unknown parameter "joint.prelaod"; did you mean "joint.preload"'):
+        designs.plan(path, SimpleNamespace(name="b", model=design.model, settings={"joint.prelaod": 1.0}))
+
+
+def test_two_designs_of_one_fmu(fmu, tmp_path, browser):
+    """The same design twice (a copy of the file) is the same to the last digit.  One with twice the fatigue strength
+    moves alike, as seeds are common, and lives 2^k_2 = 2^15 times longer, since all amplitudes lie below both knees.
+    """
+    (tmp_path / "trial.toml").write_text(MISSION)
+    for name in ("a.fmu", "b.fmu"):
+        (tmp_path / name).write_bytes(fmu.read_bytes())
+    done = command(
+        *(
+            "compare-designs",
+            "a.fmu",
+            "b.fmu",
+            "a.fmu",
+            "fatigue.sigma_D=2 GPa",
+            "--mission",
+            "trial.toml",
+            "--workers",
+            1,
+        ),
+        folder=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / "results" / "trial_designs"
+    found = json.loads((folder / "designs.json").read_text())
+    first, copy, strong = found["designs"]
+    assert copy["life_ratio"] == {"ratio": 1.0, "low": 1.0, "high": 1.0, "correlation": 1.0}
+    assert copy["life_h"] == first["life_h"] and copy["responses"]["calm"]["stat.Q_c_p999"]["ratio"]["ratio"] == 1.0
+    assert found["differences"] == [{"name": "fatigue.sigma_D", "values": ["1000 MPa", "1000 MPa", "2000 MPa"]}]
+    ratio = strong["life_ratio"]
+    assert [ratio[key] for key in ("ratio", "low", "high")] == pytest.approx([2.0**15] * 3, rel=1e-6)
+    assert strong["responses"]["shock"]["stat.sigma_head_p999"] == first["responses"]["shock"][
+        "stat.sigma_head_p999"
+    ] | {"ratio": {"ratio": 1.0, "low": 1.0, "high": 1.0, "correlation": pytest.approx(1.0)}}
+    assert "the same" in done.stdout and "lives longer" in done.stdout and "fatigue.sigma_D" in done.stdout
+    text = (folder / "designs.html").read_text(encoding="utf-8")
+    assert not re.findall(r"""(?:src|href)=["'](?!#|data:)[^"']*""", text)
+    tab = browser.new_page(viewport={"width": 390, "height": 900})
+    tab.goto((folder / "designs.html").as_uri())
+    assert tab.evaluate("document.documentElement.scrollWidth") == 390
+    tab.close()
