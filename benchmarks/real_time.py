@@ -91,7 +91,7 @@ def main():
         rows = record["instructions"][cage.name.lower()] = {}
         for name in ("demo", "slow", "tilt", "impact", "jam"):
             scene = Scene(name)
-            row = rows[name] = {"title": scene.title} | instructions(core, scene, cage, 4 if short else 40)
+            row = rows[name] = {"title": scene.title} | instructions(core, scene, cage, 4 if short else 12)
             say(
                 f"{cage.name.lower()}, {name}: {row['median']:.3g} instructions, most {row['most'] / row['median']:.3f} times"
             )
