@@ -35,7 +35,7 @@ from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, oil, rivet_heads, scaling
 from .errors import UserError, unknown
-from .origin import EXAMPLE
+from .origin import EXAMPLE, SOURCE
 from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
@@ -308,9 +308,7 @@ def check_boundary(path, document, data, entry):
         if entry and key in data and not math.isclose(data[key], entry.data[key], rel_tol=1e-6):
             written = document["catalogue"][key]
             allowed = shown(f"catalogue.{key}", entry.data[key], written)
-            reason = (
-                f"{allowed} is allowed, of the {entry.designation} ({catalogue.SOURCE}); leave designation or {key} out"
-            )
+            reason = f"{allowed} is allowed, of the {entry.designation} ({SOURCE}); leave designation or {key} out"
             raise refusal(path, f"catalogue.{key}", written, reason)
 
 
@@ -434,7 +432,7 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
         for name, value in flat(document.get(section, {}), f"{section}.")
     }
     written |= dict(flat(document.get("parameters", {}))) | {key: document[key] for key in ("Z",) if key in document}
-    own = [name for name in written if name in values and name not in broken.keys]
+    own = [name for name in written if name in values and name not in broken.keys and not name.startswith("oil.")]
     keys = [*(key for key in broken.keys if key in written), *own, *(key for key in broken.keys if key not in written)]
     for key in keys:
         allowed = limits.bound(broken, values[key], lambda value, key=key: limited_values(*changed(parts, key, value)))

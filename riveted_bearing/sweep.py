@@ -52,7 +52,7 @@ from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
 from .results import KEY, make_folder, one_line, read_table, write_atomically, write_table
 from .runner import closing_names, simulate
 from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
-from .summary import settled
+from .summary import has_statistics, settled
 from .units import SECONDS, to_si
 from .version import __version__
 
@@ -75,7 +75,7 @@ KINDS = {
     "p001": lambda x: np.quantile(x, 0.001),
     "p999": lambda x: np.quantile(x, 0.999),
 }
-ROW_VERSION = 1
+ROW_VERSION = 2
 MOST_RUNS = 1_000_000  # of a design, all of which is in memory
 RUN_MEMORY = 7e3  # of a run in a design [B], measured
 RUN_PLANNING = 0.01  # time to read and check a run's scene [s], measured
@@ -322,7 +322,10 @@ def perform(scene, fmu, measure=None):
         "date": started,
         "whole_cpu_time": time.thread_time() - cpu,
     }
-    return about | result.summary | sampled | (measure(result) if measure else {})
+    summary = result.summary
+    if not has_statistics(result):  # those of a single step, at start.settle, would look like some
+        summary = {name: math.nan if name.startswith("stat.") else value for name, value in summary.items()}
+    return about | summary | sampled | (measure(result) if measure else {})
 
 
 def unpacked(fmu):

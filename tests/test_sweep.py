@@ -12,6 +12,7 @@ from pathlib import Path
 import cloudpickle
 import numpy as np
 import pytest
+from commands import command
 
 from riveted_bearing import UserError, run
 from riveted_bearing import sweep as engine
@@ -362,3 +363,15 @@ def test_rows_that_arrive_fast_share_files(tmp_path, model):
     store.write()
     keys = [read_rows(path)["key"].to_pylist() for path in (tmp_path / "out").iterdir()]
     assert sorted(map(len, keys)) == [1, 9, 20] and sorted(itertools.chain(*keys)) == sorted(sweep.scenes)
+
+
+def test_runs_that_end_at_settling_have_no_statistics(tmp_path, fmu):
+    """The FMU's own statistics are then those of one step: mean and quantile of nothing."""
+    path = tmp_path / "early.toml"
+    path.write_text(
+        '[simulation]\nt_end = 2e-3\n[parameters]\nstart.settle = 2e-3\n[[vary]]\njoint.preload = ["20 N"]\n'
+    )
+    done = command("sweep", str(path), "--fmu", fmu, folder=tmp_path)
+    assert done.returncode == 0 and "1 runs have no statistics" in done.stdout + done.stderr
+    rows = columns_of(tmp_path / "results" / "early")
+    assert np.isnan(rows["stat.sigma_head_p999"]).all() and np.isfinite(rows["solver.steps"]).all()

@@ -48,6 +48,12 @@ def sweep(
             f"page     [cyan]{escape(str(write_page(table, plan.description, folder / 'sweep.html')))}[/]",
             soft_wrap=True,
         )
+    early = sum(status == "done" and time != time for status, time in zip(rows["status"], rows["stat.time"]))
+    if early:
+        messages.print(
+            f"[yellow]{early} runs have no statistics: they end at or before start.settle; set simulation.t_end higher[/]",
+            soft_wrap=True,
+        )
     for text in dict.fromkeys(failures):
         messages.print(f"[bold red]failed:[/] {escape(text)}", soft_wrap=True)
     if len(failures):

@@ -167,7 +167,8 @@ def complete(study, values):
     """The values, if all runs have reached their end; UserError otherwise, because indices need every point."""
     if bad := np.argwhere(np.isnan(values).any(axis=(1, 2))).ravel().tolist():
         raise UserError(
-            f"{study.path}: {len(bad)} points were stopped by the FMU: narrow the ranges (the rows in the folder say why)"
+            f"{study.path}: {len(bad)} points were stopped by the FMU, or end at or before start.settle and have no "
+            "statistics: narrow the ranges, or set simulation.t_end higher (the rows in the folder say which)"
         )
     return values
 
