@@ -258,7 +258,7 @@ MARGINS = {  # claim: picture, places, columns at them, the condition that decid
     ),
     "140 MPa": (
         "preload", [60], {"head": [158.0]}, "$head[60] within 140..160", "$head[60] within 140..157",
-        "4.1 (1), Fig. 11: At 60 N the head stress is just over 140 MPa", ("reproduced", "not"),
+        "4.1 (1), Fig. 11: At 60 N the head stress exceeds 140 MPa", ("reproduced", "not"),
     ),
     "0.0 mm": (
         "preload", [40], {"dislocation_max": [4.5]}, "dislocation_max[40] < 5", "dislocation_max[40] < 4",

@@ -1,5 +1,6 @@
 """docs/paper.md: the page about the paper's study, which `riveted-bearing study` makes from the runs."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -57,7 +58,7 @@ def write_paper(columns, folder, settings=()):
     parts = [
         INTRODUCTION + (f"\nYours: scene `paper` with {', '.join(f'`{s}`' for s in settings)}.\n" if settings else "")
     ]
-    parts += [summary_text(judged), flips_text(judged), numbers_text(columns)]
+    parts += [summary_text(judged), seeds_text(columns), flips_text(judged), numbers_text(columns)]
     data = columns.get("paper", {})
     parts += (
         [conflicts_text(data)] if {"rings_speed", "rings_clearance", "speed", "clearance", "tilt"} <= set(data) else []
@@ -141,6 +142,48 @@ def summary_text(judged):
             marks += [MARKS[claim.verdict_before]] if i % len(MEASURES) == 0 else []
             marks += [MARKS[claim.verdict]]
         lines.append(f"| {claims[0].where} | {claims[0].said} | " + " | ".join(marks) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def half_of(runs, half):
+    """The runs of the first (0) or second (1) half of the seeds; a middle one of an odd number is in neither."""
+    seeds = np.unique(runs["seed"])
+    size = len(seeds) // 2
+    chosen = np.isin(runs["seed"], seeds[:size] if half == 0 else seeds[-size:])
+    return replace(runs, columns={name: values[chosen] for name, values in runs.columns.items()})
+
+
+def depending_on_seeds(data):
+    """Claims of a column whose verdict in mean stress differs between the two halves of the seeds: [(said, verdict of
+    the first half, of the second, of all)]; None if a half is a single seed and so has no confidence.
+    """
+    if min(len(np.unique(runs["seed"])) for runs in data.values()) < 4:
+        return None
+    halves = [every(all_claims({name: half_of(runs, half) for name, runs in data.items()}, "mean")) for half in (0, 1)]
+    return [
+        (both.said, first.verdict, second.verdict, both.verdict)
+        for first, second, both in zip(*halves, every(all_claims(data, "mean")), strict=True)
+        if first.verdict != second.verdict
+    ]
+
+
+def seeds_text(columns):
+    """The claims whose verdict depends on the seeds, a sentence each."""
+    found = {column: depending_on_seeds(data) for column, data in columns.items() if data}
+    lines = ["## Which verdicts depend on the seeds", ""]
+    if None in found.values():
+        return "\n".join([*lines, "Fewer than four seeds: their halves have no confidence of their own."]) + "\n"
+    lines += [
+        "Each claim is also judged in mean stress by the first and by the second half of its seeds alone, which have wider intervals than all seeds together. "
+        "The verdict that counts is that of all seeds.",
+        "",
+    ]
+    for column, claims in found.items():
+        lines += [
+            f'- `{column}`: "{said}" depends on the seeds: {first} with the first half, {second} with the second, {both} with all.'
+            for said, first, second, both in claims
+        ]
+        lines += [] if claims else [f"- `{column}`: no verdict depends on the seeds."]
     return "\n".join(lines) + "\n"
 
 
