@@ -8,7 +8,19 @@ from scipy.stats import norm
 
 from ..results import write_atomically
 from .claims import MEASURES, all_claims, numbers
-from .study import CLEARANCES, LOADS, PICTURES, SCATTER, T_S, clearance_series, draw, estimate, ratio, shipped_studies
+from .study import (
+    BESIDE,
+    CLEARANCES,
+    LOADS,
+    PICTURES,
+    SCATTER,
+    T_S,
+    clearance_series,
+    draw,
+    estimate,
+    ratio,
+    shipped_studies,
+)
 
 INTRODUCTION = """# The paper's study, again
 
@@ -154,8 +166,8 @@ def half_of(runs, half):
 
 
 def seeds_of(data):
-    """Number of seeds of each point, in the sweep that has the fewest."""
-    return min(len(np.unique(runs["seed"])) for runs in data.values())
+    """Number of seeds of each point, in the figure's sweep that has the fewest."""
+    return min(len(np.unique(runs["seed"])) for name, runs in data.items() if name not in BESIDE)
 
 
 def depending_on_seeds(data):
@@ -181,11 +193,11 @@ def seeds_text(columns):
     ]
     words = {verdict: "reproduced" if verdict == "reproduced" else f"{verdict} reproduced" for verdict in MARKS}
     for column, data in columns.items():
-        if not data:
+        if not set(data) - set(BESIDE):
             continue
         seeds = seeds_of(data)
         if seeds < 8:
-            lines.append(f"- `{column}`: not judged, because there are {seeds} seeds and each half needs four.")
+            lines.append(f"- `{column}`: not judged, because there are {seeds} seeds a point and each half needs four.")
             continue
         found = depending_on_seeds(data)
         lines += [
