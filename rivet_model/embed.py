@@ -66,7 +66,7 @@ def uniform_coefficients(law):
     """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the
     same function.
     """
-    energy = law.energy if isinstance(law, joint_law.LawBehind) else np.zeros(law.coefficients.shape[:-1])
+    energy = law.energy if isinstance(law, joint_law.LawOfModes) else np.zeros(law.coefficients.shape[:-1])
     values = np.insert(law.coefficients, 3, energy, axis=-1)
     for axis, name in enumerate(joint_law.AXES):
         knots = law.knots[name]
@@ -82,12 +82,12 @@ def uniform_coefficients(law):
     return np.append(values, np.zeros((*values.shape[:-1], 1)), axis=-1)
 
 
-def alike_rows(alike):
-    """Rows of fmu_src/cage/common/joint_law.h's ALIKE_WIDTH."""
+def uniform_rows(uniform):
+    """Rows of fmu_src/cage/common/joint_law.h's UNIFORM_WIDTH."""
     even = [0, 2, 3, 5]  # u, phi_t, T, m_t, over N, M_t, P
-    slopes = alike.slopes[:, even][:, :, [0, 2, 3]].reshape(len(alike.x), -1)
+    slopes = uniform.slopes[:, even][:, :, [0, 2, 3]].reshape(len(uniform.x), -1)
     return np.column_stack(
-        [alike.load[:, [0, 2]], alike.values[:, even], slopes, alike.slopes[:, 1, 1], alike.slopes[:, 4, 1]]
+        [uniform.load[:, [0, 2]], uniform.values[:, even], slopes, uniform.slopes[:, 1, 1], uniform.slopes[:, 4, 1]]
     )
 
 
@@ -113,7 +113,7 @@ def _half_source(half):
         f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
         f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",
         f"static const double law_K_slip[{law.Z}][2][2] = {_braces(law.slip_stiffness)};\n",
-        f"static const double law_alike[{len(law.alike.x)}][ALIKE_WIDTH] = {_braces(alike_rows(law.alike))};\n",
+        f"static const double law_uniform[{len(law.uniform.x)}][UNIFORM_WIDTH] = {_braces(uniform_rows(law.uniform))};\n",
     ]
     text = f"""{{
         .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
@@ -121,7 +121,7 @@ def _half_source(half):
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
-                .alike_count = {len(law.alike.x)}, .alike = law_alike}}}}"""
+                .uniform_count = {len(law.uniform.x)}, .uniform = law_uniform}}}}"""
     return arrays, text
 
 

@@ -15,7 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawBehind, joint_law, law_load
+from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawOfModes, joint_law, law_load
 from bearing_model.rivet.rivet_table import HalfData
 
 from . import half_lands, half_shape, splines
@@ -66,7 +66,7 @@ class JointAlone:
         self.shortening = 1.0 / self.solve(np.zeros(3), 1.0)[1][0]
 
     def solve(self, load, P, active=None):
-        """Move [3], rivet's loads (T, m_r, m_t), active set under L* = load and preload P."""
+        """Move [3], rivet's loads (T, m_r, m_t), active set under L_0 = load and preload P."""
         a = np.linalg.solve(self.K_0, load)
         free_head = a + [self.shortening * P, 0.0, 0.0]
         solution = self.contact.solve(self.lever @ a - self.pull @ free_head, np.zeros(1), active)
@@ -86,26 +86,26 @@ class JointAlone:
             columns.append(self._follow(load, a, p)[0])
         return np.stack(columns, axis=1)
 
-    def solve_behind(self, K, behind, P, near=None):
-        """Loads (N, M_r, M_t) of joint and rivet [6], and L*, where L^ = L + K delta is given in place of L* = L + K_0
+    def solve_at_modes(self, K, L_K, P, near=None):
+        """Loads (N, M_r, M_t) of joint and rivet [6], and L_0, where L_K = L + K delta is given in place of L_0 = L + K_0
         delta, by Newton's method.
 
-        near: L* of a similar case, and its active set.  Raises ArithmeticError if no solution is found.
+        near: L_0 of a similar case, and its active set.  Raises ArithmeticError if no solution is found.
         """
         length = law_length(self.elastic.g)
         more, unit = K - self.K_0, np.array([1.0, length, length])
-        load, active = (behind, None) if near is None else near
-        small = 1e-9 * (P + np.sum(np.abs(behind / unit)))
+        load, active = (L_K, None) if near is None else near
+        small = 1e-9 * (P + np.sum(np.abs(L_K / unit)))
 
         def residual(load, active):
             move, rivet, active = self.solve(load, P, active)
-            return load + more @ move - behind, move, rivet, active
+            return load + more @ move - L_K, move, rivet, active
 
         rest, move, rivet, active = residual(load, active)
         for _ in range(NEWTON):
             size = np.sum(np.abs(rest / unit))
             if size <= small:
-                return np.concatenate([behind - K @ move, rivet]), (load, active)
+                return np.concatenate([L_K - K @ move, rivet]), (load, active)
             change = np.linalg.solve(np.eye(3) + more @ self.slope(active), -rest)
             part = 1.0
             while True:  # halved until the residual falls
@@ -115,7 +115,7 @@ class JointAlone:
                 part *= 0.5
             load = load + part * change
             rest, move, rivet, active = found
-        raise ArithmeticError(f"joint's law: no load L* gives L^ = {behind} at P = {P}")
+        raise ArithmeticError(f"joint's law: no load L_0 gives L_K = {L_K} at P = {P}")
 
     def rivet_rows(self, waves, loads):
         """dP, dm_r, dm_t [waves, 3] for free motions of the heads with all pads held `waves` [waves, 3] and the bonded
@@ -208,7 +208,7 @@ def centrifugal(elastic):
     return column
 
 
-def alike_rows(elastic, alone, column):
+def uniform_rows(elastic, alone, column):
     """Rows [8] of any joint if every pitch has the mirrored patterns `column`."""
     _, reactions, held = elastic.mirrored
     M = (reactions[:1] @ column).real @ alone.lever
@@ -248,22 +248,22 @@ def make_law(elastic, alone):
     return JointLaw(length, KNOTS, law_coefficients(KNOTS, len(NUMBERS), length, answer), K, slip)
 
 
-def make_law_behind(alone, K):
-    """LawBehind of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of
+def make_law_of_modes(alone, K):
+    """LawOfModes of pads around which the half has the stiffness K [3, 3], from contact solutions at the sites of
     KNOTS_BEHIND.
     """
 
     def answer(load, P, near):
-        return alone.solve_behind(K, load, P, near)
+        return alone.solve_at_modes(K, load, P, near)
 
     length = law_length(alone.elastic.g)
     carried = law_coefficients(KNOTS_BEHIND, len(CARRIED), length, answer)
-    return with_energy(LawBehind(length, KNOTS_BEHIND, carried, None, K))
+    return with_energy(LawOfModes(length, KNOTS_BEHIND, carried, None, K))
 
 
 def with_energy(law):
-    """LawBehind with the coefficients of U(L^) = integral of delta dL^, from 0 along the ray of L^, where delta = K^-1
-    (L^ - L).
+    """LawOfModes with the coefficients of U(L_K) = integral of delta dL_K, from 0 along the ray of L_K, where delta = K^-1
+    (L_K - L).
     """
     knots = [law.knots[name] for name in AXES]
     places = [splines.sites(k) for k in knots]
@@ -302,7 +302,7 @@ def make_half(elastic, alone, progress=lambda done, total: None):
     """HalfData of a condensed half (elastic_half) with its pads (JointAlone)."""
     law = make_law(elastic, alone)
     progress(1, 2)
-    spin = alike_rows(elastic, alone, centrifugal(elastic))
+    spin = uniform_rows(elastic, alone, centrifugal(elastic))
     law.sign = np.sign(spin[4])
     path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, alone.rivet, alike=True))

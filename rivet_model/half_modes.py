@@ -260,7 +260,7 @@ def with_law(modes, alone):
     # the other elements are 0: mirroring in the rivet's plane changes their sign
     even = np.multiply.outer(EVEN[OUT], EVEN[OUT]) > 0.0
     stiffness = np.linalg.inv(np.where(even, 0.5 * (R + R.T), 0.0))
-    modes = replace(modes, law=half_loads.make_law_behind(alone, stiffness))
+    modes = replace(modes, law=half_loads.make_law_of_modes(alone, stiffness))
     return replace(modes, land_residual=half_lands.land_residual(modes, alone, alone.elastic))
 
 

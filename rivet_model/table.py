@@ -110,7 +110,7 @@ def _law_section(law):
 
 def _modes_section(modes):
     """Shapes to seven digits, as the softest modes' share of the flexibility is some thousand times the residual; the
-    residual to five.  The energy U to seven: of open joints it is nearly all of e L^/2.
+    residual to five.  The energy U to seven: of open joints it is nearly all of e L_K/2.
     """
     shapes = {
         name: rounded(tidy(getattr(modes, name)), 7).tolist()

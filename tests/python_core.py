@@ -140,7 +140,7 @@ class PythonModel:
             for name, value in changes.items():
                 group, member = name.replace("[j]", "").replace("[k]", "").split(".")
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
-        self.p.mark_given()
+        self.p.mark_given(variables.PARAMETERS)
         self.p = temperature_apply(self.p, self.u, derived.default_table())
         self.d = derive(self.p, Members())
         self.modes = cage_derive(self.p, self.d, derived.default_table())

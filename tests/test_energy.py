@@ -147,7 +147,7 @@ def test_loss_outputs_add_up(core, cage):
 
 def residual(core, tolerance, parameters, t):
     """|energy now - at the start - net work| after t [J], and the power loss at the end [W]."""
-    bearing = Instance(core, parameters, tolerance=tolerance)
+    bearing = Instance(core, {"solver.max_steps": 10_000_000} | parameters, tolerance=tolerance)
     bearing.step(t)
     return abs(bearing.output("bearing.energy_residual")), bearing.output("bearing.power_loss"), bearing
 

@@ -182,7 +182,7 @@ def test_cyclic_half_equals_the_whole_half():
     )
     rows = half_loads.path_at(elastic, alone, 0)
     rows[:, :3] += np.moveaxis(half_loads.rigid_rows(elastic, elastic.point_places()[0]), 0, -1)
-    spin = half_loads.alike_rows(elastic, alone, np.eye(elastic.loads.shape[1])[cage_half.SPIN])
+    spin = half_loads.uniform_rows(elastic, alone, np.eye(elastic.loads.shape[1])[cage_half.SPIN])
     rows = np.concatenate([rows, np.tile(spin, (Z, 1))[:, :, None]], axis=2)
     for chosen, held, lever in (((0, 3, 4), p.pad, alone.lever), ((1, 2), p.plane, np.eye(2))):
         B = sp.hstack([sp.csr_matrix(T @ elastic.loads[:, held]) for T in to_whole]).tocsc()
@@ -287,7 +287,7 @@ def test_shipped_path_on_finer_elements():
     error = np.abs(np.stack([half_path.path_rows(t.chi, t.path, t.path_slope, at) for at in STEPS]) - direct)
     for rows in ([0], [1, 2], [3, 4]):
         assert error[:, :, rows].max() < 0.01 * np.abs(direct[:, :, rows]).max()
-    spin = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic))
+    spin = half_loads.uniform_rows(elastic, alone, half_loads.centrifugal(elastic))
     assert t.spin[4] == pytest.approx(spin[4], rel=0.002)
 
 
@@ -316,7 +316,7 @@ def test_centrifugal_load_beside_statics(coarse):
     -93.2 N.mm at 754 rad/s.
     """
     elastic, alone = coarse
-    spin = half_loads.alike_rows(elastic, alone, half_loads.centrifugal(elastic))
+    spin = half_loads.uniform_rows(elastic, alone, half_loads.centrifugal(elastic))
     assert np.abs(spin[[0, 3]]).max() < 1e-6 * abs(spin[4])
     inertia = half_shape.half_inertia(G)
     pull = inertia.m / G.Z * np.sqrt(inertia.J_p / inertia.m)  # per pitch and (rad/s)2
@@ -324,5 +324,5 @@ def test_centrifugal_load_beside_statics(coarse):
     assert -pull * lever < spin[4] < -0.5 * pull * lever
     column = half_loads.centrifugal(elastic)
     column[elastic.patterns.head] = 0.0
-    bare = half_loads.alike_rows(elastic, alone, column)
+    bare = half_loads.uniform_rows(elastic, alone, column)
     assert bare[4] * 754.0**2 == pytest.approx(-93.2e-3, rel=0.01)  # guards against change; finer elements: -93.28

@@ -318,7 +318,8 @@ def test_other_units(core, scene, record_property):
     Heating and starvation of the inlets are off: SKF's formulas hold in r/min, mm and mm2/s.  The cage's centrifugal
     load is off: it stands in the rivet table.
 
-    The joint's stiffnesses come from the rivet table in SI and are converted here.  Observed 1e-11.
+    The joint's stiffnesses come from the rivet table in SI and are converted here; loads by the lands' films are the
+    table's at the land's place.  Observed 1e-11.
     """
     parameters = scene | SUPPORTED | {"scene.heating": Switch.OFF, "oil.K_rs": 0.0, "cage.centrifugal": Switch.OFF}
     here = core.model(parameters=parameters, inputs=INPUTS)
@@ -333,6 +334,7 @@ def test_other_units(core, scene, record_property):
     for name in ("k_rivet", "k_plate", "k_plate_t", "k_head"):
         setattr(there.d, name, getattr(here.d, name) * factor("N/m"))
     there.d.c_joint = here.d.c_joint * factor("N.s/m")
+    there.d.land_path = here.d.land_path
     for name, unit in (("k_hole", "N/m"), ("hole_gap", "m")):
         view(core, getattr(there.d, name))[:] = view(core, getattr(here.d, name)) * factor(unit)
     for name in ("rivet_y", "rivet_z"):

@@ -30,7 +30,7 @@ class Chain:
         self.direct_half = self.elastic if direct_size == size else half_loads.elastic_half(G, direct_size, points)
         self.contact = joint_contact.JointContact(self.direct_half, self.rivet)
         self.law = half_loads.make_law(self.elastic, self.alone)
-        self.spin = half_loads.alike_rows(self.elastic, self.alone, half_loads.centrifugal(self.elastic))
+        self.spin = half_loads.uniform_rows(self.elastic, self.alone, half_loads.centrifugal(self.elastic))
         self.law.sign = np.sign(self.spin[4])
         self.nodes = len(half_loads.CHI)
         self.path = np.stack([half_loads.path_at(self.elastic, self.alone, i) for i in range(self.nodes)])
@@ -442,12 +442,12 @@ def test_with_one_joint_gone_its_neighbours_carry_what_the_finite_elements_say(c
     assert np.all(rivet[broken] == 0.0)
 
 
-def test_law_behind_the_residual_at_the_same_loads():
+def test_law_of_modes_the_residual_at_the_same_loads():
     """Rivets by the table's law behind the residual, beside the contact of one pad, under drawn loads: tension to 0.5 %
     RMS (observed 0.35 %).
 
-    Joints balance what the halves give them, so that their loads are given: at each load the contact gives L^, Newton's
-    method the law's own L^ for it.
+    Joints balance what the halves give them, so that their loads are given: at each load the contact gives L_K, Newton's
+    method the law's own L_K for it.
     """
     alone, law, P = (
         half_loads.JointAlone(half_loads.elastic_half(G)),
@@ -492,7 +492,7 @@ def test_law_is_around_the_stiffness_that_the_modes_leave():
 
 
 def test_slope_of_the_energy_is_the_move():
-    """U over L^ by central differences, beside K^-1 (L^ - L): splines of their own, of the largest move 2 % (observed 0.2
+    """U over L_K by central differences, beside K^-1 (L_K - L): splines of their own, of the largest move 2 % (observed 0.2
     % of u, 1.3 and 0.9 % of the rotations).
     """
     law, rng, P = rivet_table.read(rivet_table.DEFAULT_TABLE).modes.law, np.random.default_rng(8), 20.0

@@ -369,7 +369,7 @@ def test_stiffness_and_centrifugal_load_go_with_E_and_density(coarse_halves):
     plain, stiff, dense = (coarse_halves[name] for name in ("plain", "stiff", "dense"))
     np.testing.assert_allclose(stiff[1].K_0, 2.0 * plain[1].K_0, rtol=1e-6)
     np.testing.assert_allclose(dense[1].K_0, plain[1].K_0, rtol=1e-9)
-    moment = [half_loads.alike_rows(*half_, half_loads.centrifugal(half_[0]))[4] for half_ in (plain, stiff, dense)]
+    moment = [half_loads.uniform_rows(*half_, half_loads.centrifugal(half_[0]))[4] for half_ in (plain, stiff, dense)]
     np.testing.assert_allclose(moment, np.array([1.0, 1.0, 2.0]) * moment[0], rtol=1e-6)
 
 

@@ -220,7 +220,7 @@ def test_rivet_of_a_turning_cage_by_full_elements(bearing, material):
         half_loads.centrifugal(elastic),
     )
     alone = half_loads.JointAlone(elastic)
-    law, row = half_loads.make_law(elastic, alone), half_loads.alike_rows(elastic, alone, spin)
+    law, row = half_loads.make_law(elastic, alone), half_loads.uniform_rows(elastic, alone, spin)
     law.sign = np.sign(row[4])
     direct = [contact.solve(hand.P, contact.loads((), omega**2 * spin)).rivet[0, [0, 2]] for omega in hand.omega]
     for name, rivets, allowed_T, allowed_head in (

@@ -255,7 +255,7 @@ def test_sizes(rivets, tmp_path):
         3 * sum(len(k) for k in rivets.shank.knots.values())
         + 4 * len(rivets.fit_a)
         + half.law.stiffness.size
-        + 26 * len(half.law.alike.x)
+        + 26 * len(half.law.uniform.x)
     )
     doubles += 10 * len(modes.omega) + 2 * modes.pocket.size + modes.residual.pad[0].size + modes.residual.wall.size
     doubles += sum(embed.uniform_coefficients(law).size for law in (half.law, modes.law))

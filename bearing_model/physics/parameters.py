@@ -61,6 +61,17 @@ class Values:
                 setattr(self, group, SimpleNamespace())
             setattr(getattr(self, group), member, value)
         require(not values, f"{', '.join(values)}: unknown; variables are listed in docs/parameters.md")
+        self.mark_given(table)
+
+    def mark_given(self, table):
+        """Mark the values whose start value stands for one that follows from others, where they differ from it."""
+        own = {n.replace(".", "_"): self.value(n) != v.start for n, v in table.items() if v.derives}
+        self.given = SimpleNamespace(**own)
+
+    def value(self, name):
+        """A value by its name in the table."""
+        group, member = place(name)
+        return getattr(getattr(self, group), member)
 
 
 class Parameters(Values):
@@ -73,18 +84,7 @@ class Parameters(Values):
 
     def __init__(self, values=None):
         super().__init__(PARAMETERS, values)
-        self.mark_given()
         check_geometry(self)
-
-    def mark_given(self):
-        """Mark the parameters whose start value stands for one that follows from others, where they differ from it."""
-        own = {n.replace(".", "_"): self.value(n) != v.start for n, v in PARAMETERS.items() if v.derives}
-        self.given = SimpleNamespace(**own)
-
-    def value(self, name):
-        """Value of a parameter by its name in the table."""
-        group, member = place(name)
-        return getattr(getattr(self, group), member)
 
     def changed(self, values):
         """These parameters with values {name: value} that are set in a run: "joint.mu", "rivet[3].intact", "rivet[k].intact".

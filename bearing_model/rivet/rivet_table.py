@@ -274,7 +274,7 @@ def _read_modes(path, section, Z, chi):
         f"modes.law: {energy.size} coefficients of the energy; {coefficients.size // len(joint_law.CARRIED)} are needed",
     )
     energy = energy.reshape(coefficients.shape[:-1])
-    law = joint_law.LawBehind(law.number("length"), knots, coefficients, energy, stiffness)
+    law = joint_law.LawOfModes(law.number("length"), knots, coefficients, energy, stiffness)
     shapes = {
         "pocket": (len(chi), 3, 2),
         "pad": (len(PAD),),

@@ -5,12 +5,12 @@ opens moves, by delta = (u, phi_r, phi_t) of one pad against its bonded place, a
 half's stiffness K, a circulant matrix:
 
     L_k = L_b,k - sum_j K_(k-j) delta_j
-    L*_k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j,      (delta, T, m_r, m_t)_k = law(L*_k, P_k)
+    L_0,k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j,      (delta, T, m_r, m_t)_k = law(L_0,k, P_k)
 
-L* is the load that the joint would carry if it too were bonded.  The law is the contact of one pad with its rivet while
+L_0 is the load that the joint would carry if it too were bonded.  The law is the contact of one pad with its rivet while
 the neighbours are at rest (joint_contact.py): the compliance of the half around the joint is in the law, that of the
 rest in K, and nothing is in both.  Rigid motions of the half relieve nothing, so that a load which equilibrium imposes
-remains.  The law is positively homogeneous of degree 1 in (L*, P), so that with a length l
+remains.  The law is positively homogeneous of degree 1 in (L_0, P), so that with a length l
 
     M = |(M_r, M_t)|/l,   W = |(N, M)|,   s = P + W,   tau = W/s,   q = N/(|N| + M),   psi = M_t/(|M_t| + |M_r|)
     (u, |phi_r|, phi_t, T, |m_r|, m_t) = s S(tau, q, psi);      phi_r and m_r have the sign of M_r
@@ -29,7 +29,7 @@ from bearing_model.rivet.rivet_splines import cell_weights
 AXES = ("tau", "q", "psi")
 NUMBERS = ("u", "phi_r", "phi_t", "T", "m_r", "m_t")
 CARRIED = ("N", "M_r", "M_t", "T", "m_r", "m_t")
-NEAR = 0.05  # part of s over which the differences of AlikeStates are taken
+NEAR = 0.05  # part of s over which the differences of UniformStates are taken
 FELT = 0.005  # part of K_0 below which the stiffness between two joints is dropped
 
 
@@ -76,23 +76,23 @@ class JointLaw:
         return np.array([1.0, 1.0 / self.length, 1.0 / self.length])
 
     @cached_property
-    def alike(self):
+    def uniform(self):
         """States of joints that are all alike."""
-        return alike_states(self)
+        return uniform_states(self)
 
 
 @dataclass
-class LawBehind:
-    """The law over L^ = L + K delta, where K is what vibration modes leave of the stiffness around a joint.
+class LawOfModes:
+    """The law over L_K = L + K delta, where K is what vibration modes leave of the stiffness around a joint.
 
-    K is a hundred times K_0, so that L = L^ - K delta is a small difference: the law gives L, and the moves follow from
+    K is a hundred times K_0, so that L = L_K - K delta is a small difference: the law gives L, and the moves follow from
     it.
     """
 
     length: float  # l [m]
     knots: dict  # AXES -> knots
     coefficients: np.ndarray  # [tau, q, psi, CARRIED], per newton
-    energy: np.ndarray  # of U [tau, q, psi], whose slope over L^ is delta, per newton squared
+    energy: np.ndarray  # of U [tau, q, psi], whose slope over L_K is delta, per newton squared
     stiffness: np.ndarray  # K [3, 3] of (u, phi_r, phi_t); N/m, N/rad, N.m/rad
 
 
@@ -151,7 +151,7 @@ def law_sum(coefficients, places):
 
 def law_answer(law, places, M_r):
     """Moves (u, phi_r, phi_t) [..., 3] of the pads and loads (T, m_r, m_t) [..., 3] of the rivets at their places, M_r
-    [...]: moments of the joints about r.  A LawBehind has the joints' loads (N, M_r, M_t) in place of the moves.
+    [...]: moments of the joints about r.  A LawOfModes has the joints' loads (N, M_r, M_t) in place of the moves.
     """
     result = places[0][..., None] * law_sum(law.coefficients, places)
     across = np.where(np.real(M_r) < 0.0, -1.0, 1.0)[..., None] * [0.0, 1.0, 0.0] + [1.0, 0.0, 1.0]
@@ -171,19 +171,19 @@ def relief(stiffness, moves):
 
 
 @dataclass
-class AlikeStates:
+class UniformStates:
     """Joints under the same bonded M_t = sign c l and preload P of c + P = 1 N, at equal steps of c, and how one of
     them answers to a change.
     """
 
     x: np.ndarray  # c
-    load: np.ndarray  # L* [x, 3]
+    load: np.ndarray  # L_0 [x, 3]
     values: np.ndarray  # (u, phi_r, phi_t, T, m_r, m_t) [x, 6]
     slopes: np.ndarray  # of the values over (N, M_r, M_t, P) of one joint, differences over NEAR [x, 6, 4]
 
     @cached_property
     def table(self):
-        """L*, values and slopes side by side [x, 3 + 6 + 24]."""
+        """L_0, values and slopes side by side [x, 3 + 6 + 24]."""
         return np.concatenate([self.load, self.values, self.slopes.reshape(len(self.x), -1)], axis=1)
 
     @cached_property
@@ -193,26 +193,26 @@ class AlikeStates:
         return np.concatenate([[2.0 * table[0] - table[1]], table, [2.0 * table[-1] - table[-2]]])
 
     def at(self, c, P):
-        """L* [..., 3], values [..., 6] and slopes [..., 6, 4] for c >= 0 and P >= 0 [...] in newtons, by Catmull-Rom
+        """L_0 [..., 3], values [..., 6] and slopes [..., 6, 4] for c >= 0 and P >= 0 [...] in newtons, by Catmull-Rom
         splines: the friction of the joints has this tension, and must have no kink over the speed.
         """
         s, last = c + P, len(self.x) - 1
         x = ratio(c, s) * last
         i = np.minimum(np.real(x), last - 1.0).astype(int)
         t = (x - i)[..., None]
-        before, here, there, behind = (self.straight_on[i + n] for n in range(4))
+        before, here, there, beyond = (self.straight_on[i + n] for n in range(4))
         row = (
             0.5 * t * (t * (2.0 - t) - 1.0) * before
             + 0.5 * (t * t * (3.0 * t - 5.0) + 2.0) * here
             + 0.5 * t * (t * (4.0 - 3.0 * t) + 1.0) * there
-            + 0.5 * t * t * (t - 1.0) * behind
+            + 0.5 * t * t * (t - 1.0) * beyond
         )
         slopes = row[..., 9:].reshape(*np.shape(x), *self.slopes.shape[1:])
         return s[..., None] * row[..., :3], s[..., None] * row[..., 3:9], slopes
 
 
-def alike_states(law, knots=129, sweeps=400):
-    """AlikeStates of a law: the fixed point by plain sweeps."""
+def uniform_states(law, knots=129, sweeps=400):
+    """UniformStates of a law: the fixed point by plain sweeps."""
     c = np.linspace(0.0, 1.0, knots)
     P, bonded, move = 1.0 - c, np.outer(c, [0.0, 0.0, law.sign * law.length]), np.zeros((knots, 3))
     in_plane = np.array([1.0, 0.0, 1.0])  # by symmetry no move and no load about r, unless by M_r
@@ -231,7 +231,7 @@ def alike_states(law, knots=129, sweeps=400):
     slopes[:, :, 3] = (values(load, P + NEAR) - values(load, P - less)) / (NEAR + less)[:, None]
     both = np.tile(in_plane, 2)
     slopes *= np.stack([both, 1.0 - both, both, both], axis=-1)
-    return AlikeStates(c, load * in_plane, values(load, P) * both, slopes)
+    return UniformStates(c, load * in_plane, values(load, P) * both, slopes)
 
 
 def single_joint(law, P, N=0.0, M_r=0.0, M_t=0.0):

@@ -17,9 +17,9 @@ sin(n theta) for the first mode of a pair and a sin(n theta), b cos(n theta) for
 Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the
 static compliance that the modes leave between the pads of one joint,
 
-    L^ = K e,    (L, T, m_r, m_t) = law(L^, P)
+    L_K = K e,    (L, T, m_r, m_t) = law(L_K, P)
 
-with the joint's law over K (joint_law.py, LawBehind): its pads move by delta, L = K (e - delta).  So each joint follows
+with the joint's law over K (joint_law.py, LawOfModes): its pads move by delta, L = K (e - delta).  So each joint follows
 from its own pads; the motion by the loads of other joints, beside the modes, is left out.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do
 not hold each other about x.
@@ -72,7 +72,7 @@ def cage_elastic_kinematics(model, y, w):
     half, e = model.modes, w.elastic
     S, D, S_dot, D_dot = (y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     e.q, e.q_dot = ([(s - d)[..., None, :] / ROOT, (s + d)[..., None, :] / ROOT] for s, d in ((S, D), (S_dot, D_dot)))
-    others = np.where(half.alike, 0.0, half.omega)
+    others = np.where(half.uniform, 0.0, half.omega)
     e.reach = [
         np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) + np.sum(half.widest * np.abs(q), axis=-1)
         for q in map(np.real, e.q)
@@ -99,17 +99,17 @@ def move_pads(model, w):
     )
 
 
-def broken_answer(K, behind):
-    """Loads (N, M_r, M_t) [..., 3] of joints without a rivet at L^ = behind: the pads press on each other in their
+def broken_answer(K, L_K):
+    """Loads (N, M_r, M_t) [..., 3] of joints without a rivet at the trial loads L_K: the pads press on each other in their
     middles or carry nothing.
     """
-    N = minimum(behind[..., 0] - behind[..., 1:] @ np.linalg.solve(K[1:, 1:], K[1:, 0]), 0.0)
+    N = minimum(L_K[..., 0] - L_K[..., 1:] @ np.linalg.solve(K[1:, 1:], K[1:, 0]), 0.0)
     return N[..., None] * [1.0, 0.0, 0.0]
 
 
 def cage_elastic_loads(model, P, j):
     """Loads of the joints j out of the plane and of their rivets for the motions e [3, ..., Z] and preloads P [..., Z]: sets
-    trial loads L^, load (N, M_r, M_t), rivet (T, m_r, m_t) [3, ..., Z], N_plate and the energy U of the law [J], [..., Z].
+    trial loads L_K, load (N, M_r, M_t), rivet (T, m_r, m_t) [3, ..., Z], N_plate and the energy U of the law [J], [..., Z].
     """
     intact, half, law, e = model.d.intact, model.modes, model.modes.law, np.moveaxis(j.e, 0, -1)
     trial = e @ law.stiffness.T

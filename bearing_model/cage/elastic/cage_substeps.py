@@ -73,7 +73,7 @@ def relative_inertia(model):
     return np.array([m, 2.0 / d.J_t, 2.0 / d.J_t, across, across, 2.0 / d.J_p]), m / across, d.com_x[1] / d.J_t / across
 
 
-def give(model, h0, relative):
+def to_halves(model, h0, relative):
     """What relative motions at the joints [6] give to both halves: x, y, z, beta, gamma, s [6, 2]."""
     _, part, tilt = relative_inertia(model)
     axes = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]])  # rows: b_y, b_z
@@ -83,7 +83,7 @@ def give(model, h0, relative):
     return rows
 
 
-def take(model, h0, rows):
+def between_halves(model, h0, rows):
     """The relative motions at the joints [6] by such rows [6, 2]."""
     axes, c_x = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]]), model.d.com_x[1]
     d, common = rows[:, 1] - rows[:, 0], axes @ rows[3:5].sum(axis=1)
@@ -119,7 +119,7 @@ def cage_substeps_split(model, y, w, f):
         np.array([y[block][: half.n] for block in blocks]) for blocks in ((MODE_S, MODE_D), (MODE_S_DOT, MODE_D_DOT))
     )
     modes, rigid = fast_accelerations(model, q, j.load, j.F)
-    for block, change in zip(CAGE_RATES, give(model, w.half[0], rigid), strict=True):
+    for block, change in zip(CAGE_RATES, to_halves(model, w.half[0], rigid), strict=True):
         f[block] -= change
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
@@ -171,15 +171,15 @@ def turn_out(phi, relative):
     return turned
 
 
-def turn_in(spin, t, middle, slow, moved, relative):
+def add_spin(spin, t, middle, slow, moved, relative):
     """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way
     since the middle turn back.
     """
-    back, seen = moved + t * (2.0 * middle + relative + 0.5 * t * slow), relative.copy()
+    back, turned = moved + t * (2.0 * middle + relative + 0.5 * t * slow), relative.copy()
     for y, z in TURNING:
-        seen[y] += spin * back[z]
-        seen[z] -= spin * back[y]
-    return seen
+        turned[y] += spin * back[z]
+        turned[z] -= spin * back[y]
+    return turned
 
 
 def cage_substeps_advance(model, h, fast, f, y, w):
@@ -196,7 +196,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         np.array([x[block][: half.n] for block in blocks])
         for x, blocks in ((y, (MODE_S, MODE_D)), (y, (MODE_S_DOT, MODE_D_DOT)), (f, (MODE_S_DOT, MODE_D_DOT)))
     )
-    slow, speed, moved = take(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
+    slow, speed, moved = between_halves(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
     touches, held, modes = Touches(model, fast, q), slow_modes, fast.modes
     gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
     P, k_in = cage_elastic_preload(model, fast.omega_2), cage_elastic_stiffness(model)
@@ -222,7 +222,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         speed = speed + 0.5 * sub * rigid
         turn(0.5 * gyro * sub, speed)
         halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
-        relative = turn_in(spin, time, middle, slow, halfway, speed + time * slow)
+        relative = add_spin(spin, time, middle, slow, halfway, speed + time * slow)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
         joints.e = joints.e + 0.5 * sub * (middle_out + by_out)
@@ -242,12 +242,12 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
     for blocks, change in ((CAGE_PLACES, moved), (CAGE_RATES, speed)):
-        for block, rows in zip(blocks, give(model, h0, change), strict=True):
+        for block, rows in zip(blocks, to_halves(model, h0, change), strict=True):
             y[block] += rows
     for blocks, x in (((MODE_S, MODE_D), q), ((MODE_S_DOT, MODE_D_DOT), v)):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
-    return sub, held, give(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0]))
+    return sub, held, to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0]))
 
 
 def cage_substeps_finish(model, w, substep, fast, before, y):
@@ -258,7 +258,7 @@ def cage_substeps_finish(model, w, substep, fast, before, y):
     if before is not None:
         modes, rigid = modes - before.modes, rigid - before.rigid
     add_rates(model, 0.5 * substep * modes, y)
-    for block, change in zip(CAGE_RATES, give(model, w.half[0], 0.5 * substep * rigid), strict=True):
+    for block, change in zip(CAGE_RATES, to_halves(model, w.half[0], 0.5 * substep * rigid), strict=True):
         y[block] += change
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearing_model.cage.common.centrifugal import cage_centrifugal
-from bearing_model.cage.common.joint_law import LawBehind, joint_law
+from bearing_model.cage.common.joint_law import LawOfModes, joint_law
 from bearing_model.cage.elastic.half_modes import (
     OUT,
     PAD,
@@ -33,7 +33,7 @@ class ElasticHalf:
     n: int
     omega: np.ndarray  # [n] rad/s
     damping: np.ndarray  # 2 zeta omega [n]
-    alike: np.ndarray  # whether a mode moves all joints alike and does not twist them [n]
+    uniform: np.ndarray  # whether a mode moves all joints alike and does not twist them [n]
     pad: np.ndarray  # motions of the pads [n, 6, Z]
     wave: np.ndarray  # Re and Im of the wave at the pockets [n, 2, Z]
     chi: np.ndarray  # nodes of the wall's angle
@@ -49,7 +49,7 @@ class ElasticHalf:
     # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     mirrored: np.ndarray
     substep: float  # of the default method, at most [s]
-    law: LawBehind
+    law: LawOfModes
 
 
 def mode_order(modes):
@@ -80,7 +80,7 @@ def elastic_half_derive(p, d, table):
     pad = unit * np.moveaxis(rivet_shapes(modes)[order][:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
     held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
-    alike = (modes.harmonic[entry] == 0) & (part == 0.0)
+    uniform = (modes.harmonic[entry] == 0) & (part == 0.0)
     # [chi, n], at the nodes; between them a quarter farther at most
     u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))
     mirrored = frequencies_2(
@@ -96,7 +96,7 @@ def elastic_half_derive(p, d, table):
     return ElasticHalf(
         n=len(omega),
         omega=omega,
-        alike=alike,
+        uniform=uniform,
         damping=2.0 * p.cage.modal_damping * omega,
         pad=pad,
         wave=wave,
@@ -105,8 +105,8 @@ def elastic_half_derive(p, d, table):
         slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
         centrifugal=cage_centrifugal(p, table) * np.sqrt(table.half.m) * spin_load(table.modes)[order],
         reach_2=1.5625
-        * np.max(np.sum(np.where(alike, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
-        widest=np.where(alike, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
+        * np.max(np.sum(np.where(uniform, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
+        widest=np.where(uniform, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
         R=np.linalg.inv(law.stiffness),
         series=series,
         k_hole=k_hole,
@@ -156,7 +156,7 @@ def elastic_half_rest(half, m, omega_2, P):
     at = half.pad[:, OUT, 0]  # x, phi_r, phi_t
 
     def off(x):
-        S = ROOT * (half.centrifugal * omega_2 - np.where(half.alike, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
+        S = ROOT * (half.centrifugal * omega_2 - np.where(half.uniform, Z * at[:, 2] * x[1], 0.0)) / (m * half.omega**2)
         e = 0.5 * x[0] * np.array([1.0, 0.0, 0.0]) + S @ at / ROOT * [1.0, 0.0, 1.0]
         N, _, M_t = joint_law(half.law, e @ half.law.stiffness.T, P)[0]
         return np.array([N, (M_t - x[1]) / half.law.length]), S

@@ -29,7 +29,7 @@ from functools import cached_property
 
 import numpy as np
 
-from bearing_model.cage.common.joint_law import LawBehind
+from bearing_model.cage.common.joint_law import LawOfModes
 from bearing_model.cage.two_half.half_path import cubic_slopes, land_harmonics
 
 PAD = ("x", "r", "t", "phi_x", "phi_r", "phi_t")
@@ -71,7 +71,7 @@ class HalfModes:
     land: np.ndarray
     spin: np.ndarray  # [entries] force per (rad/s)^2 at mass m
     residual: Residual
-    law: LawBehind  # of the joints, around the stiffness that these modes leave
+    law: LawOfModes  # of the joints, around the stiffness that these modes leave
     # [waves, harmonic, 1 and x, (x, phi_r, phi_t)] motions of the pads beside those of the modes by G_p = 1 on one half
     land_residual: np.ndarray
 

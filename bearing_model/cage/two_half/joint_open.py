@@ -3,10 +3,10 @@
 The equations of all joints are solved by sweeps (Jacobi's iteration), from the state under the centrifugal load alone,
 where all joints are alike,
 
-    delta = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + c            (AlikeStates; linear between its knots)
+    delta = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + c            (UniformStates; linear between its knots)
 
-A joint whose L* and P differ from that state by less than NEAR s answers by its tangent there; another one by the law
-if its L* has changed by more than CHANGE s since its last answer.  The sweeps end when there are none.  A joint is
+A joint whose L_0 and P differ from that state by less than NEAR s answers by its tangent there; another one by the law
+if its L_0 has changed by more than CHANGE s since its last answer.  The sweeps end when there are none.  A joint is
 hardly felt beyond its second neighbour.
 
 In the plane a joint slips, by s along V: of the bonded V the part that friction and hole do not take is relieved
@@ -29,15 +29,15 @@ def joint_size(law, load):
     return absolute(load) @ law.unit
 
 
-def ask_law(law, alone, P, standing, wanted, moves, rivet):
+def ask_law(law, trial, P, standing, wanted, moves, rivet):
     """Answers of the joints that are wanted [..., Z] in place of those before: by the law, or free without a rivet."""
     moves, rivet = moves.copy(), rivet.copy()
     intact = wanted & standing
     if np.any(intact):
-        moves[intact], rivet[intact] = joint_law(law, alone[intact], P[intact])
+        moves[intact], rivet[intact] = joint_law(law, trial[intact], P[intact])
     broken = wanted & ~standing
     if np.any(broken):
-        moves[broken], rivet[broken] = np.linalg.solve(law.stiffness[0], alone[broken].T).T, 0.0
+        moves[broken], rivet[broken] = np.linalg.solve(law.stiffness[0], trial[broken].T).T, 0.0
     return moves, rivet
 
 
@@ -45,26 +45,26 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS, intact=True):
     """Loads of joints that open, from the bonded loads.
 
     bonded [..., Z, 3] = (N, M_r, M_t), P [..., Z] >= 0; spin_M, spin_P [...]: bonded M_t and preload of all joints
-    under the centrifugal load alone. intact [Z]: False for a joint that carries nothing, whose move takes all of L*.
+    under the centrifugal load alone. intact [Z]: False for a joint that carries nothing, whose move takes all of L_0.
     Returns (N, M_r, M_t), (T, m_r, m_t), moves, each [..., Z, 3].
     """
     P = np.broadcast_to(P, np.shape(bonded)[:-1])
     standing = np.broadcast_to(intact, P.shape)
-    load, values, slopes = law.alike.at(absolute(np.asarray(spin_M)) / law.length, np.asarray(spin_P))
+    load, values, slopes = law.uniform.at(absolute(np.asarray(spin_M)) / law.length, np.asarray(spin_P))
     load, values, slopes = load[..., None, :], values[..., None, :], np.swapaxes(slopes, -1, -2)
     change_P, size = P - np.asarray(spin_P)[..., None], np.real(P + joint_size(law, bonded))
 
-    def near(alone):
+    def near(trial):
         """Moves and loads of rivets by the tangent at the state where all joints are alike, and which joints are too
         far from it.
         """
-        change = alone - load
+        change = trial - load
         found = values + np.concatenate([change, change_P[..., None]], axis=-1) @ slopes
         far = (np.real(joint_size(law, change) + absolute(change_P)) > NEAR * size) | ~standing
         return found[..., :3], found[..., 3:], far
 
-    alone = bonded - values[..., :3] @ law.others.sum(axis=0).T
-    moves, rivet, wanted = near(alone)
+    trial = bonded - values[..., :3] @ law.others.sum(axis=0).T
+    moves, rivet, wanted = near(trial)
     for sweep in range(sweeps):
         going = np.any(wanted, axis=-1, keepdims=True)
         if not np.any(going):
@@ -72,12 +72,12 @@ def joints_open(law, bonded, P, spin_M, spin_P, sweeps=SWEEPS, intact=True):
         if sweep > 0:
             at = bonded - (moves.reshape(*moves.shape[:-2], -1) @ law.among.T).reshape(moves.shape)
             *found, far = near(at)
-            wanted = going & far & (np.real(joint_size(law, at - alone)) > CHANGE * size)
+            wanted = going & far & (np.real(joint_size(law, at - trial)) > CHANGE * size)
             changed = (going & (wanted | ~far))[..., None]
-            alone = np.where(changed, at, alone)
+            trial = np.where(changed, at, trial)
             moves, rivet = (np.where(changed, new, old) for new, old in zip(found, (moves, rivet), strict=True))
-        moves, rivet = ask_law(law, alone, P, standing, wanted, moves, rivet)
-    return alone - moves @ law.stiffness[0].T, rivet, moves
+        moves, rivet = ask_law(law, trial, P, standing, wanted, moves, rivet)
+    return trial - moves @ law.stiffness[0].T, rivet, moves
 
 
 def joint_slip(V, K, gap, plate, head, k_head, k_hole):
@@ -103,12 +103,12 @@ def joints_slip(law, bonded, gap, plate, head, k_head, k_hole, sweeps=SLIP_SWEEP
     K_0 = law.slip_stiffness[0]
     slip = np.zeros_like(bonded)
     for _ in range(sweeps):
-        alone = bonded - relief(others, slip)
-        V = np.hypot(alone[..., 0], alone[..., 1])
-        e = ratio(alone, V[..., None])
+        trial = bonded - relief(others, slip)
+        V = np.hypot(trial[..., 0], trial[..., 1])
+        e = ratio(trial, V[..., None])
         K = np.einsum("...a,ab,...b->...", e, K_0, e) + np.where(V > 0.0, 0.0, K_0[0, 0])
         along, H, B = joint_slip(V, K, gap, plate, head, k_head, k_hole)
         slip = along[..., None] * e
-    total = alone - slip @ K_0.T
+    total = trial - slip @ K_0.T
     H, B = H[..., None] * e, B[..., None] * e
     return total - H - B, H, B, slip

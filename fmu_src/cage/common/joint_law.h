@@ -5,14 +5,14 @@
 // stiffness K, a circulant matrix:
 //
 //     L_k = L_b,k - sum_j K_(k-j) delta_j
-//     L*_k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j,      (delta, T, m_r, m_t)_k = law(L*_k, P_k)
+//     L_0,k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j,      (delta, T, m_r, m_t)_k = law(L_0,k, P_k)
 //
-// L* is the load that the joint would carry if it too were bonded.  The law is the unilateral contact of one pad
+// L_0 is the load that the joint would carry if it too were bonded.  The law is the unilateral contact of one pad
 // with its rivet while the neighbours are held (rivet_model/half_loads.py): the compliance of the half around
 // the joint is in the law, that of the rest in K, and nothing is in both.  Rigid motions of the half relieve
 // nothing, so that a load which equilibrium imposes, as the centrifugal moment, remains.
 //
-// The law is positively homogeneous of degree 1 in (L*, P), so that with a length l
+// The law is positively homogeneous of degree 1 in (L_0, P), so that with a length l
 //
 //     M = |(M_r, M_t)|/l,   W = |(N, M)|,   s = P + W
 //     (u, |phi_r|, phi_t, T, |m_r|, m_t) = s S(tau, q, psi)
@@ -29,19 +29,19 @@ enum { AXIS_TAU, AXIS_Q, AXIS_PSI, LAW_AXES };
 
 enum { LAW_ENERGY = 3, LAW_WIDTH = 8 };  // u, phi_r, phi_t, energy (elastic_half.h; else 0), T, m_r, m_t, -
 
-// Joints that are all alike: L* and what pad and rivet do, per newton of s = P + c; then how one of them answers
+// Joints that are all alike: L_0 and what pad and rivet do, per newton of s = P + c; then how one of them answers
 // to a change of its N, M_t, P (rows u, phi_t, T, m_t) and of its M_r.
 enum {
-    ALIKE_N,
-    ALIKE_M_T,
-    ALIKE_U,
-    ALIKE_PHI_T,
-    ALIKE_T,
-    ALIKE_M_T_RIVET,
-    ALIKE_SLOPES,
-    ALIKE_PHI_R = ALIKE_SLOPES + 12,
-    ALIKE_M_R_RIVET,
-    ALIKE_WIDTH
+    UNIFORM_N,
+    UNIFORM_M_T,
+    UNIFORM_U,
+    UNIFORM_PHI_T,
+    UNIFORM_T,
+    UNIFORM_M_T_RIVET,
+    UNIFORM_SLOPES,
+    UNIFORM_PHI_R = UNIFORM_SLOPES + 12,
+    UNIFORM_M_R_RIVET,
+    UNIFORM_WIDTH
 };
 
 typedef struct {
@@ -55,8 +55,9 @@ typedef struct {
     const int *neighbour;          // k - j mod Z of the other joints that are felt
     const double (*K)[3][3];       // their blocks
     const double (*K_slip)[2][2];  // load (V_r, V_t) relieved by slip, by k - j mod Z [N/m]
-    int alike_count;
-    const double (*alike)[ALIKE_WIDTH];  // joints under the same load, at equal steps of |c|/s from 0 to 1
+    int uniform_count;
+    const double (
+        *uniform)[UNIFORM_WIDTH];  // joints under the same load, at equal steps of |c|/s from 0 to 1
 } JointLaw;
 
 // The numbers S of the law in the cell `place`, the weights of its splines given.

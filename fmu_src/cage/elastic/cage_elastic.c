@@ -13,7 +13,7 @@
 // Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the
 // inverse of the static compliance that the modes leave between the pads of one joint,
 //
-//     L^ = K e,     (L, T, m_r, m_t) = law(L^, P)
+//     L_K = K e,     (L, T, m_r, m_t) = law(L_K, P)
 //
 // with the rivet table's law over K: its pads move by delta, L = K (e - delta).  So each joint
 // follows from its own pads; what the loads of other joints move them by beside the modes is left out: with

@@ -45,8 +45,8 @@ static const double ROUNDING = 1e-9;         // part of a substep by which the l
 enum { X, ABOUT_Y, ABOUT_Z, ACROSS_Y, ACROSS_Z, SPIN };  // relative rigid motions
 
 // Adds h times the relative motions to rows of both halves, from row `first` on.
-static void give(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
-                 int first, double *y)
+static void to_halves(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
+                      int first, double *y)
 {
     const RelativeInertia *inertia = &model->d->relative;
     const double *b_y = h0->b_y, *b_z = h0->b_z;
@@ -69,8 +69,9 @@ static void give(const Model *model, const Rotor *h0, double h, const double rel
     }
 }
 
-// The relative motions at the joints by rates f of both halves: the inverse of `give`.
-static void take(const Model *model, const Rotor *h0, const double *f, double relative[RELATIVE_MOTIONS])
+// The relative motions at the joints by rates f of both halves: the inverse of to_halves.
+static void between_halves(const Model *model, const Rotor *h0, const double *f,
+                           double relative[RELATIVE_MOTIONS])
 {
     const double *b_y = h0->b_y, *b_z = h0->b_z, c_x = model->d->com_x[1];
     double d[6];
@@ -133,7 +134,7 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
     memcpy(fast->u_z, joints->u_z, sizeof fast->u_z);
     memcpy(fast->T, joints->rivet[0], sizeof fast->T);
     memcpy(fast->N_plate, joints->N_plate, sizeof fast->N_plate);
-    give(model, &w->half[0], -1.0, fast->rigid, Y_CAGE_V_X, f);
+    to_halves(model, &w->half[0], -1.0, fast->rigid, Y_CAGE_V_X, f);
     for (int i = 0; i < N_MODES; i++) {
         f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
         f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
@@ -186,8 +187,8 @@ static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
 // Adds to velocities in the frame of the middle what the joints, which turn at the rate s, see beside them at
 // the time t after it: those velocities turn back, and so does the way since the middle.  moved: the part of
 // that way by the fast accelerations.
-static void turn_in(double s, double t, const JointVelocities *middle, const double slow[RELATIVE_MOTIONS],
-                    const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
+static void add_spin(double s, double t, const JointVelocities *middle, const double slow[RELATIVE_MOTIONS],
+                     const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
 {
     double back[RELATIVE_MOTIONS];
     for (int i = ABOUT_Y; i <= ACROSS_Z; i++)
@@ -223,9 +224,9 @@ static void move_joints(const Model *model, double h, const JointVelocities *v,
     }
 }
 
-// The modes' damping over half a substep: 1/(1 + d/2 c) before its middle, 1 - d/2 c behind it.
+// The modes' damping over half a substep: 1/(1 + d/2 c) before its middle, 1 - d/2 c after it.
 typedef struct {
-    double before[N_MODES], behind[N_MODES];
+    double before[N_MODES], after[N_MODES];
 } HalfDamping;
 
 static void half_damping(const ElasticHalf *half, double h, HalfDamping *damping)
@@ -233,11 +234,11 @@ static void half_damping(const ElasticHalf *half, double h, HalfDamping *damping
     for (int i = 0; i < N_MODES; i++) {
         const double damped = 0.5 * h * half->damping[i];
         damping->before[i] = 1.0 / (1.0 + damped);
-        damping->behind[i] = 1.0 - damped;
+        damping->after[i] = 1.0 - damped;
     }
 }
 
-// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, behind the damping, to v.
+// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, after the damping, to v.
 static void move_modes(const HalfDamping *damping, double h, const double *fast, const double *slow,
                        double *q, double *v, double *v_m)
 {
@@ -246,7 +247,7 @@ static void move_modes(const HalfDamping *damping, double h, const double *fast,
             const int k = first + i;
             v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) * damping->before[i];
             q[k] += h * v_m[k];
-            v[k] = v_m[k] * damping->behind[i];
+            v[k] = v_m[k] * damping->after[i];
         }
 }
 
@@ -359,7 +360,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     turn_out(-0.5 * s * h, rigid);
     cage_elastic_preload(model, fast->omega_2, P);
     rigid_velocities(model, w, &middle);
-    take(model, &w->half[0], f, slow);
+    between_halves(model, &w->half[0], f, slow);
     half_damping(half, sub, &damping);
     const int count = find_touches(half, fast, q, touches);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
@@ -377,7 +378,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
             moved[i] += sub * speed[i];
             relative[i] = speed[i] + time * slow[i];
         }
-        turn_in(s, time, &middle, slow, halfway, relative);
+        add_spin(s, time, &middle, slow, halfway, relative);
         ball_array out[3], in[2];
         cage_elastic_out(half, v_m, out);
         cage_elastic_in(half, v_m + N_MODES, in);
@@ -398,9 +399,9 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     const double moment[RELATIVE_MOTIONS] = {[ABOUT_Y] = -gyro * speed[ABOUT_Z],
                                              [ABOUT_Z] = gyro * speed[ABOUT_Y]};
     memset(foreseen->halves, 0, sizeof foreseen->halves);
-    give(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
-    give(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
-    give(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
+    to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
+    to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
+    to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
     return sub;
 }
 
@@ -411,5 +412,5 @@ void cage_substeps_finish(const Model *model, const Work *w, double substep, con
     for (int i = 0; i < 2 * N_MODES; i++)
         y[Y_MODE_S_DOT + i] += 0.5 * substep * (fast->modes[i] - (before ? before->modes[i] : 0.0));
     for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = fast->rigid[i] - (before ? before->rigid[i] : 0.0);
-    give(model, &w->half[0], 0.5 * substep, rigid, Y_CAGE_V_X, y);
+    to_halves(model, &w->half[0], 0.5 * substep, rigid, Y_CAGE_V_X, y);
 }

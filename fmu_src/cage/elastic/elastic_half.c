@@ -189,7 +189,7 @@ static void take_modes(const Parameters *p, ElasticHalf *half)
                 const int i = coordinate * half->count[0] + e;
                 take_mode(table, entry, coordinate, unit, half, e++);
                 half->pair[i] = mode->parity == 0;
-                half->alike[i] = mode->harmonic == 0 && coordinate == 0;
+                half->uniform[i] = mode->harmonic == 0 && coordinate == 0;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
             }
     }
@@ -210,13 +210,13 @@ static void take_forces(const Parameters *p, ElasticHalf *half)
 static void find_reach(ElasticHalf *half)
 {
     const double unit_2 = rivet_table.half.m;
-    for (int i = 0; i < half->n; i++) half->weight[i] = half->alike[i] ? 0.0 : half->omega_2[i];
+    for (int i = 0; i < half->n; i++) half->weight[i] = half->uniform[i] ? 0.0 : half->omega_2[i];
     for (int node = 0; node < half->nodes; node++) {
         double sum = 0.0;
         for (int i = 0; i < half->n; i++) {
             const double *U = wall_of(&rivet_table.modes, half, half->entry[i]) + 12 * node;
             const double u_2 = unit_2 * (U[0] * U[0] + U[1] * U[1] + U[4] * U[4] + U[5] * U[5]);  // x and t
-            if (half->alike[i])
+            if (half->uniform[i])
                 half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
             else
                 sum += (half->pair[i] ? 0.5 : 1.0) * u_2 / half->omega_2[i];
@@ -232,19 +232,19 @@ static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_
                      const double x[2], double *S, double off[2])
 {
     const double root = sqrt(2.0);
-    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, behind[PAD_OUT], load[PAD_OUT], rivet[3], U;
+    double e[PAD_OUT] = {0.5 * x[0], 0.0, 0.0}, L_K[PAD_OUT], load[PAD_OUT], rivet[3], U;
     for (int i = 0; i < half->n; i++) {
-        const double moment = half->alike[i] ? Z * half->out[i][2 * FIRST] * x[1] : 0.0;
+        const double moment = half->uniform[i] ? Z * half->out[i][2 * FIRST] * x[1] : 0.0;
         S[i] = (root * half->centrifugal[i] * omega_2 - moment) / (p->cage.m * half->omega_2[i]);
         e[0] += 0.5 * S[i] * half->out[i][0];
         e[2] += 0.5 * S[i] * half->out[i][2 * FIRST];
     }
     for (int a = 0; a < PAD_OUT; a++)
-        behind[a] = half->K[a][0] * e[0] + half->K[a][1] * e[1] + half->K[a][2] * e[2];
+        L_K[a] = half->K[a][0] * e[0] + half->K[a][1] * e[1] + half->K[a][2] * e[2];
     LawPlaces at;
-    const wide trial[PAD_OUT] = {wide_set(behind[0]), wide_set(behind[1]), wide_set(behind[2])};
+    const wide trial[PAD_OUT] = {wide_set(L_K[0]), wide_set(L_K[1]), wide_set(L_K[2])};
     law_places(half->law, trial, wide_set(P), 0, &at);
-    law_answer(half->law, &at, 0, behind[1], load, rivet, &U);
+    law_answer(half->law, &at, 0, L_K[1], load, rivet, &U);
     off[0] = load[0];
     off[1] = (load[2] - x[1]) / half->law->length;
 }

@@ -43,7 +43,7 @@ struct ElasticHalf {
     int entry[MODES];                                // of the table, of each coordinate
     double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
     double centrifugal[MODES];                       // modal force per (rad/s)^2
-    bool alike[MODES];                               // moves all joints alike and does not twist them
+    bool uniform[MODES];                             // moves all joints alike and does not twist them
     bool pair[MODES];                                // one of two modes of the same frequency
     _Alignas(64) double out[MODES][8 * OUT_OCTETS];  // motions of the pads against each other by S, in rows
     _Alignas(64) double in[MODES][8 * IN_OCTETS];    // and by D
@@ -72,7 +72,7 @@ struct ElasticHalf {
         double m, J_p, J_t, friction, k_hole;
     } of;
 
-    // the joints' law over L^ = L + K delta, which gives L; the fourth number is U, whose slope is delta
+    // the joints' law over L_K = L + K delta, which gives L; the fourth number is U, whose slope is delta
     const JointLaw *law;
 };
 

@@ -17,7 +17,7 @@ typedef struct {
     // half of the pads' motion against each other out of the plane (x, about r, about t); offset and velocity in it
     ball_array e[3], u_y, u_z, v_y, v_z;
 
-    // trial loads L^, loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of their rivets, energy U of the law, force
+    // trial loads L_K, loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of their rivets, energy U of the law, force
     // between the plates
     ball_array trial[3], load[3], rivet[3], U, N_plate;
 

@@ -30,7 +30,7 @@ typedef struct {
     const double *pocket;   // [entries][chi][value, slope][x, r, t][U', U''] at the pocket's wall, side t > 0
     double pad[PADS][PADS];  // residual: displacements of a pad by unit loads on it, less those of the modes
     const double *wall;      // [chi] of the wall under the contact, along its normal [m/N]
-    // over L^ = L + K_0 delta, K_0 the stiffness that the modes leave around a joint: gives L in place of delta,
-    // because L^ - K_0 delta is a small difference, and U, whose slope is delta; without neighbours
+    // over L_K = L + K_0 delta, K_0 the stiffness that the modes leave around a joint: gives L in place of delta,
+    // because L_K - K_0 delta is a small difference, and U, whose slope is delta; without neighbours
     JointLaw law;
 } HalfModes;

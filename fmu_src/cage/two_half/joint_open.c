@@ -14,54 +14,54 @@ INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
 
 // What all joints have in common, of the table's `alike` for c and P, in newtons: by Catmull-Rom splines, because the
 // friction of the joints has this tension, and a kink at every knot would be one of the friction over the speed.
-ONCE void find_alike(const JointLaw *law, scalar c, scalar P, scalar at[ALIKE_WIDTH])
+ONCE void find_uniform(const JointLaw *law, scalar c, scalar P, scalar at[UNIFORM_WIDTH])
 {
-    const int last = law->alike_count - 2;
+    const int last = law->uniform_count - 2;
     const scalar s = c + P, x = scalar_value(s) > 0.0 ? c / s * (last + 1.0) : 0.0;
     const int i = (int)scalar_min(scalar_max(scalar_value(x), 0.0), last);
     const scalar t = x - i;
     scalar weight[4] = {0.5 * t * (t * (2.0 - t) - 1.0), 0.5 * (t * t * (3.0 * t - 5.0) + 2.0),
                         0.5 * t * (t * (4.0 - 3.0 * t) + 1.0), 0.5 * t * t * (t - 1.0)};
-    const double *row[4] = {law->alike[i - (i > 0)], law->alike[i], law->alike[i + 1],
-                            law->alike[i + 1 + (i < last)]};
+    const double *row[4] = {law->uniform[i - (i > 0)], law->uniform[i], law->uniform[i + 1],
+                            law->uniform[i + 1 + (i < last)]};
     // beyond both ends the table goes on straight
     if (i == 0) weight[1] += weight[0], weight[2] -= weight[0];
     if (i == last) weight[2] += weight[3], weight[1] -= weight[3];
-    for (int n = 0; n < ALIKE_WIDTH; n++)
+    for (int n = 0; n < UNIFORM_WIDTH; n++)
         at[n] = weight[0] * row[0][n] + weight[1] * row[1][n] + weight[2] * row[2][n] + weight[3] * row[3][n];
-    for (int n = 0; n < ALIKE_SLOPES; n++) at[n] *= s;
+    for (int n = 0; n < UNIFORM_SLOPES; n++) at[n] *= s;
 }
 
 // Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
 typedef scalar JointMoves[3][2 * Z + LANES];
 
-// L* of all joints by the moves of their neighbours.
-INLINE void find_alone(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide alone[PACKETS][3])
+// L_0 of all joints by the moves of their neighbours.
+INLINE void find_trial(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide trial[PACKETS][3])
 {
     for (int p = 0; p < PACKETS; p++)
-        for (int i = 0; i < 3; i++) alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+        for (int i = 0; i < 3; i++) trial[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
     for (int n = 0; n < law->neighbours; n++)
         for (int m = 0; m < 3; m++) {
             const scalar *move = &moves[m][Z - law->neighbour[n]];
             for (int i = 0; i < 3; i++) {
                 const wide K = wide_set(-law->K[n][i][m]);
                 for (int p = 0; p < PACKETS; p++)
-                    alone[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), alone[p][i]);
+                    trial[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), trial[p][i]);
             }
         }
 }
 
-// The move of a joint that carries nothing: K_0 move = L*.
+// The move of a joint that carries nothing: K_0 move = L_0.
 ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
 {
     for (int i = 0; i < 3; i++) move[i] = load[i];
     solve_3(K[0], move);
 }
 
-// What is sought: moves of all joints, L* that the joints have answered to, loads of the rivets.
+// What is sought: moves of all joints, L_0 that the joints have answered to, loads of the rivets.
 typedef struct {
     JointMoves move;
-    ball_array alone[3], *rivet;
+    ball_array trial[3], *rivet;
 } Opening;
 
 // The joints to be found by the law.
@@ -77,42 +77,42 @@ INLINE void want(Wanted *wanted, int k, int mask)
 }
 
 // The same where all joints move alike.
-static void find_alone_alike(const JointLaw *law, ball_array bonded[3], const scalar at[ALIKE_WIDTH],
-                             wide alone[PACKETS][3])
+static void find_trial_uniform(const JointLaw *law, ball_array bonded[3], const scalar at[UNIFORM_WIDTH],
+                               wide trial[PACKETS][3])
 {
     for (int i = 0; i < 3; i++) {
-        const scalar relieved = law->K_others[i][0] * at[ALIKE_U] + law->K_others[i][2] * at[ALIKE_PHI_T];
+        const scalar relieved = law->K_others[i][0] * at[UNIFORM_U] + law->K_others[i][2] * at[UNIFORM_PHI_T];
         for (int p = 0; p < PACKETS; p++)
-            alone[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]) - wide_set(relieved);
+            trial[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]) - wide_set(relieved);
     }
 }
 
-// Joints near the state where all are alike answer to L* by their tangent there, unless they are broken.  The
-// others keep their last answer, and those of them are wanted whose L* has changed since; in the first sweep
+// Joints near the state where all are alike answer to L_0 by their tangent there, unless they are broken.  The
+// others keep their last answer, and those of them are wanted whose L_0 has changed since; in the first sweep
 // all others are.
 static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                        scalar spin_P, const scalar at[ALIKE_WIDTH], bool first, wide alone[PACKETS][3],
+                        scalar spin_P, const scalar at[UNIFORM_WIDTH], bool first, wide trial[PACKETS][3],
                         Opening *o, Wanted *wanted)
 {
     wide move[PACKETS][3];
     wanted->count = 0;
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
-        const wide *L = alone[p];
-        const wide N = L[0] - at[ALIKE_N], M_r = L[1], M_t = L[2] - at[ALIKE_M_T],
+        const wide *L = trial[p];
+        const wide N = L[0] - at[UNIFORM_N], M_r = L[1], M_t = L[2] - at[UNIFORM_M_T],
                    more_P = wide_load(&P[k]) - spin_P;
         wide value[4];  // u, phi_t, T, m_t
         for (int n = 0; n < 4; n++) {
-            const scalar *slope = &at[ALIKE_SLOPES + 3 * n];
+            const scalar *slope = &at[UNIFORM_SLOPES + 3 * n];
             value[n] = wide_fma(wide_set(slope[2]), more_P,
                                 wide_fma(wide_set(slope[1]), M_t,
-                                         wide_fma(wide_set(slope[0]), N, wide_set(at[ALIKE_U + n]))));
+                                         wide_fma(wide_set(slope[0]), N, wide_set(at[UNIFORM_U + n]))));
         }
         wide near[9] = {value[0],
-                        at[ALIKE_PHI_R] * M_r,
+                        at[UNIFORM_PHI_R] * M_r,
                         value[1],
                         value[2],
-                        at[ALIKE_M_R_RIVET] * M_r,
+                        at[UNIFORM_M_R_RIVET] * M_r,
                         value[3],
                         L[0],
                         L[1],
@@ -128,7 +128,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             for (int i = 0; i < 3; i++) {
                 before[i] = wide_load(&o->move[i][k]);
                 before[3 + i] = wide_load(&o->rivet[i][k]);
-                before[6 + i] = wide_load(&o->alone[i][k]);
+                before[6 + i] = wide_load(&o->trial[i][k]);
             }
             const bits changed = wide_above(
                 joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
@@ -140,7 +140,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
         for (int i = 0; i < 3; i++) {
             move[p][i] = near[i];
             wide_store(&o->rivet[i][k], near[3 + i]);
-            wide_store(&o->alone[i][k], near[6 + i]);
+            wide_store(&o->trial[i][k], near[6 + i]);
         }
     }
     for (int turn = 0; turn < 2; turn++)
@@ -160,13 +160,13 @@ static void ask_law(const JointLaw *law, const ball_array P, const constants int
         if (intact[k] > 0.0) {
             for (; placed <= k; placed += LANE_WIDTH) {
                 if (placed + LANE_WIDTH <= k) continue;
-                const wide L[3] = {wide_load(&o->alone[0][placed]), wide_load(&o->alone[1][placed]),
-                                   wide_load(&o->alone[2][placed])};
+                const wide L[3] = {wide_load(&o->trial[0][placed]), wide_load(&o->trial[1][placed]),
+                                   wide_load(&o->trial[2][placed])};
                 law_places(law, L, wide_load(&P[placed]), placed, &at);
             }
-            law_answer(law, &at, k, o->alone[1][k], move, carried, &energy);
+            law_answer(law, &at, k, o->trial[1][k], move, carried, &energy);
         } else {
-            const scalar load[3] = {o->alone[0][k], o->alone[1][k], o->alone[2][k]};
+            const scalar load[3] = {o->trial[0][k], o->trial[1][k], o->trial[2][k]};
             joint_free(law->K_0, load, move);
         }
         for (int i = 0; i < 3; i++) {
@@ -179,17 +179,17 @@ static void ask_law(const JointLaw *law, const ball_array P, const constants int
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                  scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3])
 {
-    scalar at[ALIKE_WIDTH];
+    scalar at[UNIFORM_WIDTH];
     wide L[PACKETS][3];
     Opening o;
     Wanted wanted;
     o.rivet = rivet;
-    find_alike(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
-    find_alone_alike(law, bonded, at, L);
+    find_uniform(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
+    find_trial_uniform(law, bonded, at, L);
     answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, &wanted);
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
         if (sweep > 0) {
-            find_alone(law, bonded, o.move, L);
+            find_trial(law, bonded, o.move, L);
             answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
         ask_law(law, P, intact, &wanted, &o);
@@ -197,7 +197,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     for (int i = 0; i < 3; i++) {
         const wide K[3] = {wide_set(-law->K_0[i][0]), wide_set(-law->K_0[i][1]), wide_set(-law->K_0[i][2])};
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-            wide left = wide_load(&o.alone[i][k]);
+            wide left = wide_load(&o.trial[i][k]);
             for (int m = 0; m < 3; m++) left = wide_fma(K[m], wide_load(&o.move[m][Z + k]), left);
             wide_store(&load[i][k], left);
         }
@@ -253,22 +253,22 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
     scalar slip[2][2 * Z + LANES] = {{0.0}};  // once more behind the last one
     for (int sweep = 0; sweep < SLIP_SWEEPS; sweep++) {
         ball_array next[2];
-        wide alone[PACKETS][2];
+        wide trial[PACKETS][2];
         for (int p = 0; p < PACKETS; p++) {
-            alone[p][0] = wide_load(&V_r[p * LANE_WIDTH]);
-            alone[p][1] = wide_load(&V_t[p * LANE_WIDTH]);
+            trial[p][0] = wide_load(&V_r[p * LANE_WIDTH]);
+            trial[p][1] = wide_load(&V_t[p * LANE_WIDTH]);
         }
         for (int d = 1; sweep > 0 && d < Z; d++)
             for (int m = 0; m < 2; m++)
                 for (int i = 0; i < 2; i++) {
                     const wide K_d = wide_set(law->K_slip[d][i][m]);
                     for (int p = 0; p < PACKETS; p++)
-                        alone[p][i] =
-                            wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), alone[p][i]);
+                        trial[p][i] =
+                            wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), trial[p][i]);
                 }
         for (int p = 0; p < PACKETS; p++) {
             const int k = p * LANE_WIDTH;
-            const wide r = alone[p][0], t = alone[p][1];
+            const wide r = trial[p][0], t = trial[p][1];
             const wide V_rt = wide_hypot(r, t), inv_V = wide_ratio(wide_set(1.0), V_rt), e_r = r * inv_V,
                        e_t = t * inv_V;
             const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);

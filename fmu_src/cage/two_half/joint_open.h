@@ -1,10 +1,10 @@
 // Joint loads after opening and slip, from the bonded loads: joints between rigid halves.
 //
 // The equations of all joints are solved by sweeps (Jacobi's iteration).
-//   Start    all joints move as they do under the same load, the centrifugal one: there L* and the moves depend on
+//   Start    all joints move as they do under the same load, the centrifugal one: there L_0 and the moves depend on
 //            one ratio only, c/(P + c) with c = |bonded M_t|/l, and are tabulated (`alike`).
-//   A sweep  finds L* by the neighbours' moves.  A joint whose L* and P differ from the start by less than NEAR s
-//            answers by its tangent there; another one by the law if its L* has changed by more than CHANGE s since
+//   A sweep  finds L_0 by the neighbours' moves.  A joint whose L_0 and P differ from the start by less than NEAR s
+//            answers by its tangent there; another one by the law if its L_0 has changed by more than CHANGE s since
 //            its last answer.  The iteration ends when the law is not asked any more.
 // Most joints are near the centrifugal state at most instants, so that this takes a few evaluations of the law
 // instead of several for each joint.  The results are within 2.5 % of the converged ones (tests/test_rivets.py),
@@ -18,7 +18,7 @@
 #include "numbers/isa.h"
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
-// P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L*; spin_M, spin_P: bonded
+// P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L_0; spin_M, spin_P: bonded
 // M_t under the centrifugal load alone, and the preload with it.
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                  scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
