@@ -199,7 +199,15 @@ def test_the_whole_page_can_be_written(all_runs, tmp_path, monkeypatch):
     monkeypatch.setattr(paper, "draw", lambda *_: {name: tmp_path / "paper" / f"{name}.png" for name in study.PICTURES})
     figures_only = {name: runs for name, runs in all_runs.items() if name not in study.BESIDE}
     text = paper.write_paper({"paper": all_runs, "physical": figures_only}, tmp_path).read_text(encoding="utf-8")
-    for heading in ("Which stress", "Verdicts", "The paper's numbers", "Conflicts", "Fig. 18: fretting", "Tolerance"):
+    for heading in (
+        "Which stress",
+        "Verdicts",
+        "Which verdicts depend",
+        "The paper's numbers",
+        "Conflicts",
+        "Fig. 18: fretting",
+        "Tolerance",
+    ):
         assert f"\n## {heading}" in text
     assert text.count("Neither stricter nor more lenient") == 34 and "nan" not in text and "undefined" not in text
     own = paper.write_paper({"paper": figures_only, "yours": figures_only}, tmp_path, ["joint.mu=0.3"]).read_text()
@@ -216,6 +224,35 @@ def test_the_conditions_in_words_have_all_numbers_of_those_for_the_program():
             limits = [float(limit) for line in claim["holds"] for part in line.split(" for ")[0].split(" and ")
                       for limit in re.split(r" (?:>=?|<=?|within) ", part)[1].split("..") if re.fullmatch(r"[\d.]+", limit)]  # fmt: skip
             assert {limit for limit in limits if limit > 0.0} <= said, title
+
+
+def test_a_verdict_that_the_seeds_decide_is_named():
+    """Seeds 1 to 4 lie at 145 MPa, within 140..160; seeds 5 to 8 at 145 or at 165 MPa; scatter 0.1 MPa."""
+    title = "At 60 N the head stress exceeds 140 MPa"
+    scatter = 0.1 * np.array([-1.0, 1.0, -1.0, 1.0])
+
+    def named(second):
+        head = np.concatenate([145.0 + scatter, second + scatter])
+        columns = {"seed": np.arange(1, 9), "preload": np.full(8, 60.0), "head": head}
+        table = {
+            "axes": ["preload"],
+            "4.1 (1), Fig. 11: " + title: claims.PICTURES["preload"]["4.1 (1), Fig. 11: " + title],
+        }
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(claims, "PICTURES", {"preload": table})
+            columns |= {"head_rest": head}
+            return paper.depending_on_seeds({"preload": Runs(columns)}), paper.seeds_text(
+                {"paper": {"preload": Runs(columns)}}
+            )
+
+    same, text = named(145.0)
+    assert same == [] and "no verdict depends on the seeds" in text
+    flipped, text = named(165.0)
+    assert flipped == [(title, "reproduced", "not", "not")]  # all eight: mean 155, interval 146 to 164, beyond 160
+    assert (
+        f'"{title}" depends on the seeds: reproduced with the first half, not reproduced with the second, not reproduced with all.'
+        in text
+    )
 
 
 def figures(picture, places, means, apart):
@@ -258,7 +295,7 @@ MARGINS = {  # claim: picture, places, columns at them, the condition that decid
     ),
     "140 MPa": (
         "preload", [60], {"head": [158.0]}, "$head[60] within 140..160", "$head[60] within 140..157",
-        "4.1 (1), Fig. 11: At 60 N the head stress is just over 140 MPa", ("reproduced", "not"),
+        "4.1 (1), Fig. 11: At 60 N the head stress exceeds 140 MPa", ("reproduced", "not"),
     ),
     "0.0 mm": (
         "preload", [40], {"dislocation_max": [4.5]}, "dislocation_max[40] < 5", "dislocation_max[40] < 4",
