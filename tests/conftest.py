@@ -204,3 +204,17 @@ def ecospy(tmp_path, monkeypatch):
     if tbb.exists():
         ctypes.CDLL(str(tbb))
     return pytest.importorskip("ecospy", reason="ecospy is not installed: pip install ecospy")
+
+
+@pytest.fixture
+def record_property(record_property):
+    """As pytest's, for numbers of NumPy too, which the processes of pytest-xdist cannot send."""
+
+    def plain(value):
+        if isinstance(value, dict):
+            return {key: plain(one) for key, one in value.items()}
+        if isinstance(value, (list, tuple)):
+            return [plain(one) for one in value]
+        return value.tolist() if hasattr(value, "tolist") else value
+
+    return lambda name, value: record_property(name, plain(value))
