@@ -447,6 +447,6 @@ def test_joints_turn_with_the_cage(monkeypatch):
         return np.abs(by_substeps.elastic.joints.e - by_places.elastic.joints.e).max()
 
     turning = missed()
-    monkeypatch.setattr(cage_substeps, "turn_in", lambda spin, t, middle, slow, moved, relative: relative)
+    monkeypatch.setattr(cage_substeps, "add_spin", lambda spin, t, middle, slow, moved, relative: relative)
     monkeypatch.setattr(cage_substeps, "turn_out", lambda phi, relative: relative)
     assert turning < 0.01 * missed()
