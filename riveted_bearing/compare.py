@@ -32,7 +32,7 @@ LONG_FINER = 1e-2
 SETTLED = 0.2  # share of the long horizon that its statistics leave out, unless the scene settles earlier
 MOTION = {"m": 1e-5, "m/s": 0.1}
 LEAST = {  # smallest scale of loads, stresses, accelerations, contact angles, ratios
-    "N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "1/s2": 100.0, "W": 1.0, "J": 1e-3, "rad": 1e-3, "1": 1e-3
+    "N": 1.0, "N.m": 1e-3, "Pa": 1e5, "m/s2": 1.0, "1/s2": 100.0, "W": 1.0, "J": 1e-3, "rad": 1e-3, "1": 1e-3, "s": 1e-4
 }  # fmt: skip
 # the first two jump between whole numbers, the last one is itself an error
 LEFT_OUT = ("rivet[k].flag", "bearing.contacts", "bearing.energy_residual")

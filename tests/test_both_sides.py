@@ -445,6 +445,7 @@ def test_saved_state_in_motion(core):
 
 
 KINKS = ("cage.eccentricity",)  # of a cage in the middle
+BENT = tuple(name for name in OUTPUTS if name.startswith("rivet"))  # feel the film's pressure on the rims
 
 
 @pytest.mark.c_only
@@ -453,7 +454,9 @@ def test_directional_derivatives(core, motion, record_property):
     """Derivatives of all outputs by each motion, against differences of the Python reference at the same state: 1e-5 of
     the largest in each unit.
 
-    Central differences over twice 1e-3 of what changes a force by its half; contacts are smooth there.
+    Central differences over twice 1e-3 of what changes a force by its half; contacts are smooth there.  The film's
+    pressure on the rims has kinks where a point of its sum cavitates, and the start lies on one: there the derivative is
+    that of one side.
     """
     parameters = TWO_HALF | {"ring.motion": motion, "frame.radius": 0.1, "gravity.y": -9.81}
     given = {name: value for name, value in MOTIONS.items() if not name.endswith("_dot")} | {
@@ -470,6 +473,7 @@ def test_directional_derivatives(core, motion, record_property):
             Model(p, d, ring_load_update(p, Inputs(given | {name: given.get(name, 0.0) + h}), 0.0)), 0.0, y, 0.0
         )
 
+    here = outputs_at("housing.v_x", 0.0)
     for name in MOTIONS:
         group, member = name.split(".")
         core.ffi.memmove(pointer, bytes(core.ffi.sizeof("Inputs")), core.ffi.sizeof("Inputs"))
@@ -490,7 +494,9 @@ def test_directional_derivatives(core, motion, record_property):
         for output, value in differences.items():
             place, element = output.replace("[j]", "").replace("[k]", "").split(".")
             exact = np.array(View(core, getattr(derivatives, place)).__getattr__(element), float)
-            assert exact == pytest.approx(value, abs=1e-5 * largest[OUTPUTS[output].unit] + 1e-8), (name, output)
+            sides = [(above[output] - here[output]) / h, (here[output] - below[output]) / h]
+            off = np.min([np.abs(exact - each) for each in [value, *(sides if output in BENT else [])]], axis=0)
+            assert np.max(off) <= 1e-5 * largest[OUTPUTS[output].unit] + 1e-8, (name, output)
             judged += np.count_nonzero(value)
     record_property("judged", int(judged))
     assert judged > 600
