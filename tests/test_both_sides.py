@@ -454,9 +454,9 @@ def test_directional_derivatives(core, motion, record_property):
     """Derivatives of all outputs by each motion, against differences of the Python reference at the same state: 1e-5 of
     the largest in each unit.
 
-    Central differences over twice 1e-3 of what changes a force by its half; contacts are smooth there.  The film's
-    pressure on the rims has kinks where a point of its sum cavitates, and the start lies on one: there the derivative is
-    that of one side.
+    Central differences over twice 1e-3 of what changes a force by its half; contacts are smooth there.  The
+    harmonics of the films' pressure have a kink where a land stands still in its film, as both do at the start: there
+    the derivative of a rivet's outputs may be off by the largest jump of slopes.
     """
     parameters = TWO_HALF | {"ring.motion": motion, "frame.radius": 0.1, "gravity.y": -9.81}
     given = {name: value for name, value in MOTIONS.items() if not name.endswith("_dot")} | {
@@ -482,7 +482,7 @@ def test_directional_derivatives(core, motion, record_property):
         bearing.lib.part_directional_derivatives(bearing.bearing, pointer, core.array(rest), derivatives)
         h = size[INPUTS[name].unit]
         above, below = outputs_at(name, h), outputs_at(name, -h)
-        largest = {}
+        largest, jump = {}, {}
         differences = {
             output: (above[output] - below[output]) / (2.0 * h)
             for output in above
@@ -491,12 +491,14 @@ def test_directional_derivatives(core, motion, record_property):
         for output, value in differences.items():
             unit = OUTPUTS[output].unit
             largest[unit] = max(largest.get(unit, 0.0), np.abs(value).max())
+            bend = np.abs(above[output] - 2.0 * here[output] + below[output]).max() / h
+            jump[unit] = max(jump.get(unit, 0.0), bend)
         for output, value in differences.items():
             place, element = output.replace("[j]", "").replace("[k]", "").split(".")
             exact = np.array(View(core, getattr(derivatives, place)).__getattr__(element), float)
-            sides = [(above[output] - here[output]) / h, (here[output] - below[output]) / h]
-            off = np.min([np.abs(exact - each) for each in [value, *(sides if output in BENT else [])]], axis=0)
-            assert np.max(off) <= 1e-5 * largest[OUTPUTS[output].unit] + 1e-8, (name, output)
+            allowed = 1e-5 * largest[OUTPUTS[output].unit] + 1e-8
+            allowed += jump[OUTPUTS[output].unit] if output in BENT else 0.0
+            assert np.all(np.abs(exact - value) <= allowed), (name, output)
             judged += np.count_nonzero(value)
     record_property("judged", int(judged))
     assert judged > 600

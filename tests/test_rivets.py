@@ -150,4 +150,5 @@ def test_components_of_the_moments(core):
     for name in ("M", "M_shank"):
         y, z = rivet_values(on, f"{name}_y"), rivet_values(on, f"{name}_z")
         np.testing.assert_allclose(np.hypot(y, z), rivet_values(on, name), rtol=1e-12)
-        np.testing.assert_allclose(y * np.cos(angle) + z * np.sin(angle), 0.0, atol=1e-9 * np.hypot(y, z).max())
+        # but for the small load by the lands' films
+        np.testing.assert_allclose(y * np.cos(angle) + z * np.sin(angle), 0.0, atol=1e-3 * np.hypot(y, z).max())

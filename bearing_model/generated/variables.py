@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6489aec2-4c44-1188-036b-d978bfc99723}"
+MODEL_GUID = "{72464362-1543-d13b-fee9-90f091d0d27e}"
 Z = 9
 
 
