@@ -521,13 +521,19 @@ static void records(void)
 static bool holds_int(size_t at)
 {
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
-        const size_t first = v->offset, end = first + (size_t)v->count * sizeof(int);
-        if (v->causality == CAUSALITY_PARAMETER && v->type != TYPE_REAL && at + 8 > first && at < end)
-            return true;
+        if (v->causality != CAUSALITY_PARAMETER || v->type == TYPE_REAL) continue;
+        const size_t bases[] = {offsetof(InstanceState, p), offsetof(InstanceState, p_now)};
+        for (int i = 0; i < 2; i++) {
+            const size_t first = bases[i] + v->offset, end = first + (size_t)v->count * sizeof(int);
+            if (at + 8 > first && at < end) return true;
+        }
     }
-    static const size_t ints[] = {offsetof(InstanceState, integrator.f_is_current),
+    static const size_t ints[] = {offsetof(InstanceState, p.given),
+                                  offsetof(InstanceState, p_now.given),
+                                  offsetof(InstanceState, integrator.f_is_current),
                                   offsetof(InstanceState, initialized),
-                                  offsetof(InstanceState, history.steps), offsetof(InstanceState, lag.count)};
+                                  offsetof(InstanceState, history.steps),
+                                  offsetof(InstanceState, lag.count)};
     for (size_t i = 0; i < sizeof ints / sizeof ints[0]; i++)
         if (at == ints[i] / 8 * 8) return true;
     for (size_t k = 0; k < 2 * Z; k++) {
