@@ -587,7 +587,8 @@ bool check_saved(Bearing *b)
                         "derivatives of inputs");
     }
     char message[256];
-    bool fine = check_values(b) && check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now);
+    bool fine = check_values(b) && check_variables(b, CAUSALITY_PARAMETER, &s->p_now) &&
+                check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now);
     fine = fine && saved_is(b,
                             values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
                                               LARGEST_DERIVATIVE),
