@@ -107,7 +107,7 @@ WRONG = {
     "build --rivet text.toml": ["text.toml: fillet_radius = '0.3 mm': at most 0.25 mm is allowed"],
     "rivet thick.toml": ["thick.toml: head_height = '1 parsec'", '"parsec" does not fit', "m, mm, um"],
     "summary none.toml": ["none.toml"],
-    "compare-designs none.fmu": ["--mission"],
+    "compare-designs none.fmu --mission none.toml": ["none"],
     "cookbook nothing": ["nothing"],
     "rivet nothing.toml": ['unknown rivet key "shank"', "shank_diameter"],
     "rivet count.toml": ["count.toml: Z = 9.5", "an integer from 5 to 32"],
