@@ -13,8 +13,9 @@ from bearing_model.load_ratings import dynamic_rating, rating_factor_0, static_r
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError
-from riveted_bearing.bearings import bearing_case, not_given
+from riveted_bearing.bearings import bearing_case
 from riveted_bearing.catalogue import CLEARANCE_CN, balls, clearance, entries
+from riveted_bearing.origin import not_given
 from riveted_bearing.scaling import BORE, WIDTH, scaled_parameters, scaled_rivet
 
 # Ratings [kN] and f_0 of NSK's rolling bearing catalogue (E1102), single-row deep groove ball bearings.

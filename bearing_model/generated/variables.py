@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{72464362-1543-d13b-fee9-90f091d0d27e}"
+MODEL_GUID = "{5996903a-9036-6923-c898-ad75a0a49bb5}"
 Z = 9
 
 
@@ -289,7 +289,7 @@ PARAMETERS = {
         Variable("fatigue.sigma_m", 1705, "Real", "Pa", "MPa", 785000000.0, 1000000.0, 10000000000.0, 1, None, "Tensile strength (Goodman)", "assumed (15CrMn, quenched and tempered)", False, None),
         Variable("fatigue.sigma_f", 1706, "Real", "Pa", "MPa", 1180000000.0, 1000000.0, 10000000000.0, 1, None, "Fatigue strength coefficient (Morrow)", "1.5 times the tensile strength (uniform material law)", False, None),
         Variable("fatigue.acceleration", 1708, "Real", "1", None, 1.0, 0.001, 1000000000000000.0, 1, None, "Factor on the damage of every cycle that is counted, by which a life passes in seconds; 1 for results", "1: damage as it is", False, None),
-        Variable("fatigue.fretting", 1711, "Real", "1", None, 1.0, 1.0, 10.0, 1, None, "Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses", "off; press fits of steels of 400 to 1200 MPa: 1.8 to 2.9, of 785 MPa: 2.4 (DIN 743-2, 2.7 (sigma_m/1000 MPa)^0.43)", False, None),
+        Variable("fatigue.fretting", 1711, "Real", "1", None, 1.0, 1.0, 10.0, 1, None, "Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses", "off; press fits of steels of 400 to 1200 MPa: 1.8 to 2.9, of 785 MPa: 2.4 (DIN 743-2, 2.7 (sigma_m/1000 MPa)^0.43) (from memory, not checked)", False, None),
         Variable("fatigue.mean_stress", 1707, "MeanStress", "1", None, 2, None, None, 1, None, "Mean-stress correction", "practice", False, None),
         Variable("scene.cage", 1801, "CageModel", "1", None, 3, None, None, 1, None, "Cage of two halves, rigid or elastic ones", "measured: with rigid halves the 99.9 % head stress is 7 to 29 % too large, 62 % at 0.2 deg of tilt, its mean up to 11 % too small", False, "it decides on the states and their meaning"),
         Variable("scene.traction", 1802, "Traction", "1", None, 2, None, None, 1, None, "Traction at a point or over slices of the contact ellipse", "measured: one point for the whole ellipse leaves out spin: 99.9 % head stress +32 % in demo, +13 % in R and F, friction torque -30 % and -11 %", False, None),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{72464362-1543-d13b-fee9-90f091d0d27e}"  // digest of the table
+#define MODEL_GUID "{5996903a-9036-6923-c898-ad75a0a49bb5}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

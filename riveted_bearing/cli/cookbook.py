@@ -23,8 +23,9 @@ def cookbook(
     pages = {path.stem: path for path in documentation().glob("*.md")}
     if page == "list":
         for name in sorted(pages):
-            title = pages[name].read_text(encoding="utf-8").partition("\n")[0].lstrip("# ")
-            console.print(f"{name:14} {title}", markup=False)
+            lines = pages[name].read_text(encoding="utf-8").splitlines()
+            title = next(line for line in lines if line.startswith("# ")).removeprefix("# ")
+            console.print(f"{name:14} {title}", markup=False, soft_wrap=True)
         return
     if page not in pages:
         raise unknown("cookbook", "page", page, sorted(pages))
