@@ -1,7 +1,6 @@
 """Making and writing the rivet table; bearing_model.rivet.rivet_table holds its format and its reader."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -159,7 +158,7 @@ def make(geometry: Geometry, kind, length, knots, samples_mpa, fit_map, joint, h
     fit_slope = np.where(fit_eff == fit_a, 1.0, monotone_slopes(fit_a, fit_eff))  # elastic until yield
     return RivetTable(
         kind=kind,
-        geometry=asdict(geometry),
+        geometry=geometry.values,
         geometry_hash=geometry.digest,
         Z=geometry.Z,
         fit_a=fit_a,

@@ -52,17 +52,20 @@ class HalfData:
     J_p: float  # moments of inertia about it [kg m2]
     J_t: float
     chi: np.ndarray  # nodes of the wall's angle [rad]
-    path: np.ndarray  # [chi, Z, 8, 3]
+    path: np.ndarray  # [chi, Z, 8, 3]; of a ribbon [radii, chi, Z, 8, 3]
     spin: np.ndarray  # [8] per (rad/s)^2 at mass m
     # [waves, harmonic, 1 and x, 8] rows by a radial line load at the land: half_path.land_path_rows
     land: np.ndarray
     law: joint_law.JointLaw
     k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
     k_open: float
+    radii: np.ndarray = field(default_factory=lambda: np.zeros(0))  # nodes of the wall's radius [m], of a ribbon's only
 
     def __post_init__(self):
         self.path = single(self.path)
-        self.path_slope = single(half_path.path_slopes(self.chi, self.path))
+        every = self.path if len(self.radii) else self.path[None]
+        slope = single(np.stack([half_path.path_slopes(self.chi, one) for one in every]))
+        self.path_slope = slope if len(self.radii) else slope[0]
 
 
 @dataclass
