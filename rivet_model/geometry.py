@@ -121,7 +121,9 @@ class Geometry:
     @property
     def named(self):
         """Names of the numbers that must be positive: those of the shape."""
-        return [f.name for f in fields(self) if f.name != "shape" and (self.shape == "ribbon" or f.name not in OF_RIBBON)]
+        return [
+            f.name for f in fields(self) if f.name != "shape" and (self.shape == "ribbon" or f.name not in OF_RIBBON)
+        ]
 
     @property
     def values(self):

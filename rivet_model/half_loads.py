@@ -18,7 +18,7 @@ import numpy as np
 from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawOfModes, joint_law, law_load
 from bearing_model.rivet.rivet_table import HalfData
 
-from . import half_lands, half_shape, ribbon, splines
+from . import half_lands, half_shape, land_bending, ribbon, splines
 from .cage_half import BODY, SPIN, CageHalf
 from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
@@ -305,25 +305,32 @@ def make_half(elastic, alone, progress=lambda done, total: None):
     spin = uniform_rows(elastic, alone, centrifugal(elastic))
     law.sign = np.sign(spin[4])
     chi, radii = places(elastic.g)
-    path = np.stack([path_at(elastic, alone, i) for i in range(len(chi) * max(len(radii), 1))])
+    path = np.stack([path_at(elastic, alone, i) for i in range(len(nodes(elastic.g)))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, alone.rivet, alike=True))
     progress(2, 2)
-    return HalfData(
+    half = HalfData(
         **half_shape.half_inertia(elastic.g)._asdict(),
         chi=chi,
         radii=radii,
-        path=path.reshape(*([len(radii)] if len(radii) else []), len(chi), *path.shape[1:]),
+        path=path.reshape(*shape(elastic.g), *path.shape[1:]),
         spin=spin,
         land=half_lands.land_rows(elastic, alone, rigid_rows),
         law=law,
         k_closed=k_closed,
         k_open=k_open,
     )
+    return land_bending.with_bending(half, elastic, alone) if elastic.g.shape == "ribbon" else half
 
 
 def places(g):
     """Nodes of the tables on a pocket's wall: angles [rad], and radii [m], of a machined half none but d_m/2."""
     return ribbon.places(g) if g.shape == "ribbon" else (CHI, np.zeros(0))
+
+
+def shape(g):
+    """Shape of arrays over the nodes of `places`."""
+    chi, radii = places(g)
+    return (*([len(radii)] if len(radii) else []), len(chi))
 
 
 def nodes(g):

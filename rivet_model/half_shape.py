@@ -13,7 +13,17 @@ import numpy as np
 from . import ribbon_shape
 from .half_bodies import LEAST_WALL, Bodies, Inertia, Limit, rivet_mass
 
-__all__ = ["LEAST_WALL", "LIMITS", "Inertia", "Limit", "check_half", "half_inertia", "limits_of", "pocket_radius", "rivet_mass"]
+__all__ = [
+    "LEAST_WALL",
+    "LIMITS",
+    "Inertia",
+    "Limit",
+    "check_half",
+    "half_inertia",
+    "limits_of",
+    "pocket_radius",
+    "rivet_mass",
+]
 
 LARGEST_HEAD = 0.985  # of its seat's diameter: between them there are elements
 LEAST_WEB = 0.05  # of the pocket's radius, between pocket and end face: assumed

@@ -97,9 +97,12 @@ LIMITS = (
     ),
     Limit(
         (*POCKET, "pocket_fillet"),
-        lambda g: offset(g) * (sphere_radius(g) + g.pocket_fillet)
-        / (g.pocket_fillet + offset(g) if g.pocket_fillet + offset(g) > 0.0 else 1e-9)
-        - LEAST_SHARE * 0.5 * g.pocket_clearance,
+        lambda g: (
+            offset(g)
+            * (sphere_radius(g) + g.pocket_fillet)
+            / (g.pocket_fillet + offset(g) if g.pocket_fillet + offset(g) > 0.0 else 1e-9)
+            - LEAST_SHARE * 0.5 * g.pocket_clearance
+        ),
         "a sphere that the ball touches beside the fillet (offset e = radius - depth against the play)",
     ),
     Limit(

@@ -20,6 +20,7 @@ from bearing_model.rivet.rivet_table import (
 from . import splines
 from .geometry import Geometry
 
+OF_RIBBON = ("radii", "spin_preload")  # in the section half of a ribbon
 UNITS = {
     "T": "MPa/N",
     "xi": "m/N",
@@ -74,6 +75,7 @@ def write(table, path):
         "geometry_hash": table.geometry_hash,
         "geometry": table.geometry,
         "Z": table.Z,
+        **({"shape": table.shape} if table.shape != "machined" else {}),
         "units": UNITS,
         "errors": table.errors,
         "digest": digest_of(sections),
@@ -90,6 +92,7 @@ def _half_section(half):
     return {
         **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         "chi": [float(v) for v in half.chi],
+        **({name: rounded(getattr(half, name), 9).tolist() for name in OF_RIBBON} if len(half.radii) else {}),
         "path": rounded(tidy(half.path), 4).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
         "land": rounded(tidy(half.land)).tolist(),
