@@ -24,7 +24,7 @@ from skfem import BilinearForm, ElementHex1, ElementHex2, ElementVector, FacetBa
 
 from . import half, half_shape
 from .half import HalfMesh
-from .half_lands import LandLoads
+from .half_lands import LandLoads, NoLand
 
 SYMMETRIC = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}  # for splu
 # the first patterns: body forces that rigid motions x, y, z and rotations about x, y, z would need, per unit density
@@ -217,8 +217,8 @@ class CageHalf(CyclicSolid):
     def __init__(self, g, size=None, points=()):
         self.g, self.size = g, size or HalfMesh()
         super().__init__(half.pitch_mesh(g, self.size), g.Z, g.E_flange, g.nu_flange)
-        self.points = np.reshape(points, (-1, 2))
-        self.land = LandLoads(self, g)
+        self.points, self.wall = np.reshape(points, (-1, 2)), half.wall(g, self.size)
+        self.land = NoLand(self) if g.shape == "ribbon" else LandLoads(self, g)
         groups = {
             "body": self.body_loads(),
             **self._pad_loads(),
@@ -259,7 +259,8 @@ class CageHalf(CyclicSolid):
         """Unit forces spread by hats over the pad's vertices, without those at the edge of the hole: loads; places and
         areas of the hats stay here.
         """
-        pad = half_shape.pad_half_length(self.g)
+        # of a ribbon all that lies in the split's plane
+        pad = np.inf if self.g.shape == "ribbon" else half_shape.pad_half_length(self.g)
         facets = self._facets(0.0, lambda r, t: np.abs(t) < pad + 1e-9)
         vector, scalar = self._facet_basis(facets, self.basis.elem), self._facet_basis(facets, ElementHex1())
         vertices = np.unique(self.basis.mesh.facets[:, facets])
@@ -338,10 +339,7 @@ class CageHalf(CyclicSolid):
         at = {end: self._wall_nodes(end) for end in (0, 1)}
         for i, (angle, radius) in enumerate(self.points):
             end = int(angle > np.pi / 2)
-            phi = np.pi - angle if end else angle
-            weights = np.outer(
-                _lagrange(half.wall_angles(self.g, self.size), phi), _lagrange(half.radii(self.g, self.size), radius)
-            )
+            weights = self.wall.weights(np.pi - angle if end else angle, radius)
             turn = 2 * np.pi / self.g.Z * end
             axes = np.array([[1.0, 0.0, 0.0], [0.0, np.cos(turn), np.sin(turn)], [0.0, -np.sin(turn), np.cos(turn)]])
             (far if end else near)[at[end], i] = (weights[..., None, None] * axes.T).reshape(weights.shape + (3, 3))
@@ -349,11 +347,12 @@ class CageHalf(CyclicSolid):
 
     def _wall_nodes(self, end):
         """Dofs [angles, radii, 3] of the wall of pocket 0 (end 0) or of pocket 1 (end 1)."""
-        g, phi, r = self.g, half.wall_angles(self.g, self.size)[:, None], half.radii(self.g, self.size)
-        p = half_shape.pocket_radius(g)
-        theta = np.arcsin(p * np.cos(phi) / r)
-        theta = 2 * np.pi / g.Z - theta if end else theta
-        place = np.stack(np.broadcast_arrays(p * np.sin(phi), r * np.cos(theta), r * np.sin(theta)), axis=-1)
+        place = self.wall.nodes
+        if end:
+            turn = 2 * np.pi / self.g.Z
+            c, s = np.cos(turn), np.sin(turn)
+            x, r, t = np.moveaxis(place, -1, 0)
+            place = np.stack([x, c * r + s * t, s * r - c * t], axis=-1)
         first = np.flatnonzero(self.component == 0)
         distance, nearest = cKDTree(self.x[:, first].T).query(place.reshape(-1, 3))
         assert distance.max() < 1e-8, "the wall's nodes are not where the mesh has them"
@@ -361,9 +360,7 @@ class CageHalf(CyclicSolid):
 
     def point_places(self):
         """Where the points lie [n, 3] in the frame (x, r, t) of pocket 0."""
-        angle, radius = self.points.T
-        z = half_shape.pocket_radius(self.g) * np.cos(angle)
-        return np.stack([half_shape.pocket_radius(self.g) * np.sin(angle), np.sqrt(radius**2 - z**2), z], axis=1)
+        return self.wall.place(*self.points.T)
 
     @cached_property
     def mirrored(self):
@@ -398,16 +395,3 @@ def _matrices(basis, E, nu):
     dofs = basis.element_dofs.T  # [cells, 81]: node by node, component inside
     rows, columns = np.repeat(dofs, 3 * n, axis=1).ravel(), np.tile(dofs, 3 * n).ravel()
     return tuple(sp.csc_matrix((A.ravel(), (rows, columns)), shape=(basis.N, basis.N)) for A in (K, M))
-
-
-def _lagrange(levels, at):
-    """Values at a place of the quadratic shape functions on cells of two levels each [levels]."""
-    first = 2 * min(max((np.searchsorted(levels, at) - 1) // 2, 0), (len(levels) - 1) // 2 - 1)
-    a, b, c = levels[first : first + 3]
-    weights = np.zeros(len(levels))
-    weights[first : first + 3] = (
-        (at - b) * (at - c) / ((a - b) * (a - c)),
-        (at - a) * (at - c) / ((b - a) * (b - c)),
-        (at - a) * (at - b) / ((c - a) * (c - b)),
-    )
-    return weights

@@ -38,12 +38,12 @@ def bin_cells(knots):
 
 def path_rows(half):
     """The path over the wall's angle as the C reader wants it: [push_t >= 0 and < 0, node, value and slope, 3 forces,
-    Z, ROWS].
+    Z, ROWS], of a ribbon radius by radius.
     """
-    # from [node, value and slope, Z, ROWS, 3]
-    front = np.moveaxis(np.stack([half.path, half.path_slope], axis=1), 4, 2)
+    # from [..., node, value and slope, Z, ROWS, 3]
+    front = np.moveaxis(np.stack([half.path, half.path_slope], axis=-4), -1, -3)
     back = front[..., ::-1, :] * half_path.PATH_MIRROR  # rivet -1 - i for i
-    return np.stack([front, back])
+    return np.stack([front, back], axis=-6)
 
 
 def uniform_cells(name, knots):
@@ -104,20 +104,25 @@ def _half_source(half):
     """C text of the arrays of the cage half, and the initialiser of its CageHalfData."""
     law = half.law
     felt = [k for k in range(1, law.Z) if np.any(law.others[k])]
+    radii, size, of_path, spin = len(half.radii), "2", "", ""
+    if radii:  # a ribbon
+        size, of_path = f"2 * {radii}", f", {radii}, path_radius"
+        spin = f".spin_steps = {len(half.spin_preload)}, .spin_preload = spin_preload, "
     arrays = [
         _array("path_chi", half.chi),
         _array("path_rows", path_rows(half), "float"),
-        '_Static_assert(sizeof path_rows == 2 * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "the path has another shape");\n',
+        f'_Static_assert(sizeof path_rows == {size} * sizeof path_chi / sizeof *path_chi * 6 * ROWS * Z * sizeof *path_rows, "the path has another shape");\n',
         _array("land_rows", half.land),
         _array("law_coefficients", uniform_coefficients(law)),
         f"static const int law_neighbour[{len(felt)}] = {_braces(felt)};\n",
         f"static const double law_K[{len(felt)}][3][3] = {_braces(law.others[felt])};\n",
         f"static const double law_K_slip[{law.Z}][2][2] = {_braces(law.slip_stiffness)};\n",
+        *([_array("path_radius", half.radii), _array("spin_preload", half.spin_preload)] if radii else []),
         f"static const double law_uniform[{len(law.uniform.x)}][UNIFORM_WIDTH] = {_braces(uniform_rows(law.uniform))};\n",
     ]
     text = f"""{{
-        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows}}, .spin = {_braces(half.spin)},
-        .land = land_rows,
+        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows{of_path}}}, .spin = {_braces(half.spin)},
+        {spin}.land = land_rows,
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
@@ -146,7 +151,7 @@ def _modes_source(t):
     arrays = [
         f'_Static_assert({modes.room} <= Y_MODE_D - Y_MODE_S, "the rivet table has {modes.count.sum()} vibration modes");\n',
         f"static const HalfMode mode_entry[{len(entries)}] = {{\n    " + ",\n    ".join(entries) + "};\n",
-        _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=2)),
+        _array("mode_pocket", np.stack([modes.pocket, modes.slope], axis=-3)),
         _array("residual_wall", modes.residual.wall),
         _array("behind_coefficients", uniform_coefficients(law)),
     ]
@@ -203,7 +208,7 @@ const RivetTable rivet_table = {{
     .joint = {{{joint},
               .hole_count = {len(t.joint["hole_fit"])}, .hole_fit = hole_fit, .k_hole = k_hole}},
     .half = {half},
-    .modes = {modes}}};
+    .modes = {modes}{", .shape = 2" if t.shape == "ribbon" else ""}}};
 // clang-format on
 """)
     text = "".join(parts)

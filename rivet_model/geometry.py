@@ -18,6 +18,8 @@ import tomllib
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 
+SHAPES = ("machined", "ribbon")
+OF_RIBBON = ("shape", "pocket_fillet")  # a machined half has none of these
 REFERENCE_SHANK = 1.5e-3  # m, of the 6207's rivets, for which the ranges of the tables were chosen
 
 
@@ -58,9 +60,17 @@ class Geometry:
     pocket_clearance: float = 0.2e-3  # assumed, diametral
     seat_diameter: float = 3.0e-3  # assumed: counterbore in the bar, room for the riveting tool around the head
     cage_half_width: float = 6.8e-3  # assumed: pocket radius and a web of 1.14 mm
+    shape: str = "machined"  # of the half: half.py, or "ribbon": ribbon_shape.py
+    pocket_fillet: float = 0.0  # of a ribbon: radius of the convex fillet between land and sphere, on the ball's side
 
     def __post_init__(self):
+        if self.shape not in SHAPES:
+            raise ValueError(f"geometry: shape = {self.shape!r}: one of {', '.join(SHAPES)} is needed")
+        if self.shape != "ribbon" and self.pocket_fillet != 0.0:
+            raise ValueError(f"geometry: pocket_fillet = {self.pocket_fillet!r}: only a ribbon has one")
         for field in fields(self):
+            if field.name not in self.named:
+                continue
             value = getattr(self, field.name)
             if (
                 isinstance(value, bool)
@@ -109,6 +119,18 @@ class Geometry:
                 )
 
     @property
+    def named(self):
+        """Names of the numbers that must be positive: those of the shape."""
+        return [
+            f.name for f in fields(self) if f.name != "shape" and (self.shape == "ribbon" or f.name not in OF_RIBBON)
+        ]
+
+    @property
+    def values(self):
+        """All values by name, without those that only the other shape has."""
+        return {k: v for k, v in asdict(self).items() if self.shape == "ribbon" or k not in OF_RIBBON}
+
+    @property
     def size(self):
         """The joint's size over the 6207's, by the shank: ranges of lengths that a table covers go with it."""
         return self.shank_diameter / REFERENCE_SHANK
@@ -134,7 +156,7 @@ class Geometry:
     @property
     def digest(self):
         """First 16 digits of the SHA-256 of all values: tells whether a table was made for this geometry."""
-        return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]
+        return hashlib.sha256(json.dumps(self.values, sort_keys=True).encode()).hexdigest()[:16]
 
     @classmethod
     def from_toml(cls, path, cage=None):

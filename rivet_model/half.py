@@ -14,14 +14,17 @@ Frame of a place: x away from the split, r outward, t toward growing angle (righ
 """
 
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
-from scipy.spatial import cKDTree
-from skfem import Basis, MeshHex, MeshHex2
+from skfem import Basis
 from skfem.mapping import MappingIsoparametric
 
+from . import ribbon
+from .blocks import Blocks, around_rivet, hexahedra, lagrange
+from .blocks import levels as block_levels
 from .half_shape import check_half, pad_half_length, pocket_radius
+
+__all__ = ["COARSE", "FINE", "Blocks", "HalfMesh", "hexahedra", "pitch_mesh", "solid_basis", "wall"]
 
 
 @dataclass(frozen=True)
@@ -48,80 +51,21 @@ COARSE = HalfMesh(3, 1, 1, 1, 2, 3, 1)
 FINE = HalfMesh(6, 3, 3, 2, 4, 6, 3)
 
 
-def _levels(levels, counts):
-    """Levels with `counts` cells between neighbours, at double resolution: even entries are corners."""
-    parts = [np.linspace(a, b, 2 * n, endpoint=False) for a, b, n in zip(levels[:-1], levels[1:], counts, strict=True)]
-    return np.append(np.concatenate(parts), levels[-1])
-
-
-class _Blocks:
-    """Structured blocks of points [2 n1 + 1, 2 n2 + 1, 2 n3 + 1, (x, r, theta)]: corners at even places, the rest
-    shapes the cells' curved sides.
-    """
-
-    def __init__(self):
-        self.true, self.straight, self.cells, self.count = [], [], [], 0
-
-    def add(self, block):
-        x, r, theta = np.moveaxis(block, -1, 0)
-        true = np.stack([x, r * np.cos(theta), r * np.sin(theta)], axis=-1)
-        straight = true.copy()  # where cells with straight sides have this point
-        for axis in range(3):
-            along = np.moveaxis(straight, axis, 0)
-            along[1::2] = 0.5 * (along[:-1:2] + along[2::2])
-        index = self.count + np.arange(true[..., 0].size).reshape(true.shape[:3])
-        n = [size - 2 for size in index.shape]
-        corner = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
-        self.cells.append(
-            np.stack([index[a : n[0] + a : 2, b : n[1] + b : 2, c : n[2] + c : 2].ravel() for a, b, c in corner])
-        )
-        self.true.append(true.reshape(-1, 3))
-        self.straight.append(straight.reshape(-1, 3))
-        self.count += index.size
-
-    def mesh(self):
-        true, straight, cells = (
-            np.concatenate(self.true).T,
-            np.concatenate(self.straight),
-            np.concatenate(self.cells, axis=1),
-        )
-        corners, inverse = np.unique(cells, return_inverse=True)
-        _, first, merged = np.unique(
-            np.round(true[:, corners] * 1e9).astype(np.int64), axis=1, return_index=True, return_inverse=True
-        )
-        mesh = MeshHex2.from_mesh(hexahedra(true[:, corners][:, first], merged.ravel()[inverse.reshape(cells.shape)]))
-        distance, nearest = cKDTree(straight).query(mesh.doflocs.T)
-        if distance.max() > 1e-8:
-            raise ValueError("geometry cannot be meshed: a node of the cage half has no place")
-        mesh.doflocs[:] = true[:, nearest]
-        return mesh
-
-
-def hexahedra(p, corners):
-    """MeshHex from points [3, n] and corners [8, cells]: a quadrilateral in order, then the opposite one."""
-    a, b, c, d, e, f, h, i = corners  # skfem: 0 a corner, 1-3 its neighbours, 4-6 across its faces, 7 opposite
-    t = np.stack([a, e, d, b, i, f, c, h])
-    volume = np.linalg.det(np.stack([p[:, t[k]] - p[:, t[0]] for k in (1, 2, 3)], axis=-1).transpose(1, 0, 2))
-    flip = volume < 0.0
-    t[:, flip] = t[:, flip][[0, 1, 3, 2, 5, 4, 6, 7]]
-    return MeshHex(np.ascontiguousarray(p), np.ascontiguousarray(t))
-
-
 def heights(g, size):
     """Levels of the bar along x at double resolution [m]."""
     relief = g.flange_thickness - g.relief_depth
-    return _levels([0.0, relief, g.flange_thickness, g.cage_half_width], [size.flange, size.relief, size.bar])
+    return block_levels([0.0, relief, g.flange_thickness, g.cage_half_width], [size.flange, size.relief, size.bar])
 
 
 def radii(g, size):
     """Radial levels at double resolution [m]."""
-    return _levels([g.cage_inner_diameter / 2, g.cage_outer_diameter / 2], [size.quarter])
+    return block_levels([g.cage_inner_diameter / 2, g.cage_outer_diameter / 2], [size.quarter])
 
 
 def wall_angles(g, size):
     """Angles of the pocket's wall at double resolution [rad]: 0 at the split, pi/2 at the pocket's bottom."""
     return np.deg2rad(
-        np.concatenate([45.0 / g.cage_half_width * heights(g, size), _levels([45.0, 90.0], [size.web])[1:]])
+        np.concatenate([45.0 / g.cage_half_width * heights(g, size), block_levels([45.0, 90.0], [size.web])[1:]])
     )
 
 
@@ -133,36 +77,28 @@ def pitch_mesh(g, size=None):
     """
     check_half(g)
     size = size or HalfMesh()
+    if g.shape == "ribbon":
+        return ribbon.pitch_mesh(g, size)
     pad, w, p, R = pad_half_length(g), g.cage_half_width, pocket_radius(g), g.d_m / 2
     r, levels = radii(g, size), heights(g, size)
     flange_top, relief_top = 2 * (size.flange + size.relief) + 1, 2 * size.flange + 1
-    blocks = _Blocks()
+    blocks = Blocks()
 
     # Around the rivet: rings about its axis, then from the seat's circle to the pad's outline.  Plane coordinates
     # (radial, tangential) from the rivet.
     rings = [g.shank_diameter / 2, g.shank_diameter / 2 + g.relief_radius, g.head_diameter / 2, g.seat_diameter / 2]
     side = np.stack([np.sqrt(r**2 - pad**2) - R, np.full(r.size, pad)], axis=1)
-    across = _levels([-pad, pad], [size.quarter])
+    across = block_levels([-pad, pad], [size.quarter])
     inner, outer = (np.stack([np.sqrt(end**2 - across**2) - R, across], axis=1) for end in r[[0, -1]])
     outline = [side, outer[::-1], side[::-1] * [1.0, -1.0], inner]
-    for line in outline:
-        ends = np.unwrap(np.arctan2(line[[0, -1], 1], line[[0, -1], 0]))
-        angle = np.linspace(*ends, line.shape[0])
-        circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        # finer toward the pad's edge, where an opening joint touches
-        share = 1.0 - (1.0 - _levels([0.0, 1.0], [size.outer])[:, None, None]) ** 2
-        beyond = rings[-1] * circle * (1.0 - share) + line * share
-        within = [_levels(list(pair), [1])[:, None, None] * circle for pair in pairwise(rings)]
-        for plane, top in zip([*within, beyond], [relief_top, flange_top, flange_top, levels.size], strict=True):
-            y, z, x = R + plane[..., 0], plane[..., 1], levels[:top, None, None]
-            blocks.add(np.stack(np.broadcast_arrays(x, np.hypot(y, z), np.pi / g.Z + np.arctan2(z, y)), axis=-1))
+    around_rivet(blocks, g, size, levels, rings, [relief_top, flange_top, flange_top, levels.size], outline)
 
     # Between the rivet's block and the pockets: strip beside the bar up to 45 degrees of the wall, web above it; both
     # sides of the bar.
-    share = _levels([0.0, 1.0], [size.strip])[None, :, None]
+    share = block_levels([0.0, 1.0], [size.strip])[None, :, None]
     phi, theta_pad = wall_angles(g, size)[:, None], np.pi / g.Z - np.arcsin(pad / r)
     x_wall, theta_wall = p * np.sin(phi) + 0.0 * r, np.arcsin(p * np.cos(phi) / r)
-    across_web = np.concatenate([np.ones(levels.size - 1), _levels([1.0, 0.0], [size.web])])
+    across_web = np.concatenate([np.ones(levels.size - 1), block_levels([1.0, 0.0], [size.web])])
     x_top, theta_top = (
         np.concatenate([levels, np.full(2 * size.web, w)])[:, None] + 0.0 * r,
         across_web[:, None] * theta_pad,
@@ -173,6 +109,37 @@ def pitch_mesh(g, size=None):
         for place in (theta, 2 * np.pi / g.Z - theta):
             blocks.add(np.stack(np.broadcast_arrays(x, r, place), axis=-1))
     return blocks.mesh()
+
+
+def wall(g, size):
+    """The wall of a pocket with its nodes in the mesh."""
+    return ribbon.Wall(g, size) if g.shape == "ribbon" else Wall(g, size)
+
+
+class Wall:
+    """The wall of a machined pocket: a place is its angle from the split [rad] and its radius [m].
+
+    nodes: places of the mesh's nodes on the side t > 0 [angles, radii, (x, r, t)] in the frame of pocket 0.
+    """
+
+    def __init__(self, g, size):
+        self.g, self.angles, self.radii = g, wall_angles(g, size), radii(g, size)
+        phi, r, p = self.angles[:, None], self.radii, pocket_radius(g)
+        theta = np.arcsin(p * np.cos(phi) / r)
+        self.nodes = np.stack(np.broadcast_arrays(p * np.sin(phi), r * np.cos(theta), r * np.sin(theta)), axis=-1)
+
+    def weights(self, angle, radius):
+        """Values of the nodes' shape functions at a place [angles, radii]."""
+        return np.outer(lagrange(self.angles, angle), lagrange(self.radii, radius))
+
+    def place(self, angle, radius):
+        """(x, r, t) of a place in the frame of pocket 0; angles beyond pi/2 lie on the side t < 0."""
+        z = pocket_radius(self.g) * np.cos(angle)
+        return np.stack([pocket_radius(self.g) * np.sin(angle), np.sqrt(radius**2 - z**2), z], axis=-1)
+
+    def normal(self, angle, radius):
+        """Direction (x, r, t) of a force of the ball at a place."""
+        return np.stack([np.sin(angle), 0.0 * angle, np.cos(angle)], axis=-1)
 
 
 class Mapping(MappingIsoparametric):

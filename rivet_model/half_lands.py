@@ -51,6 +51,17 @@ def _rim_nodes(basis, radius):
     return np.array(result)
 
 
+class NoLand:
+    """A half without a guiding land: no loads on its rim."""
+
+    def __init__(self, solid):
+        self.loads = np.zeros((solid.basis.N, 0))
+
+    def of_wave(self, n):
+        """No combinations of no loads."""
+        return np.zeros((0, 3, 2), dtype=complex)
+
+
 class LandLoads:
     """Loads on the rim of a pitch: cos and sin of all harmonics, by 1 and x, [dofs, 4 (highest + 1)] in this order, and
     the products of these functions over the rim.

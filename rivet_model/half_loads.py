@@ -18,7 +18,7 @@ import numpy as np
 from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawOfModes, joint_law, law_load
 from bearing_model.rivet.rivet_table import HalfData
 
-from . import half_lands, half_shape, splines
+from . import half_lands, half_shape, land_bending, ribbon, splines
 from .cage_half import BODY, SPIN, CageHalf
 from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
@@ -304,22 +304,42 @@ def make_half(elastic, alone, progress=lambda done, total: None):
     progress(1, 2)
     spin = uniform_rows(elastic, alone, centrifugal(elastic))
     law.sign = np.sign(spin[4])
-    path = np.stack([path_at(elastic, alone, i) for i in range(len(CHI))])
+    chi, radii = places(elastic.g)
+    path = np.stack([path_at(elastic, alone, i) for i in range(len(nodes(elastic.g)))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, alone.rivet, alike=True))
     progress(2, 2)
-    return HalfData(
+    half = HalfData(
         **half_shape.half_inertia(elastic.g)._asdict(),
-        chi=CHI,
-        path=path,
+        chi=chi,
+        radii=radii,
+        path=path.reshape(*shape(elastic.g), *path.shape[1:]),
         spin=spin,
         land=half_lands.land_rows(elastic, alone, rigid_rows),
         law=law,
         k_closed=k_closed,
         k_open=k_open,
     )
+    return land_bending.with_bending(half, elastic, alone) if elastic.g.shape == "ribbon" else half
+
+
+def places(g):
+    """Nodes of the tables on a pocket's wall: angles [rad], and radii [m], of a machined half none but d_m/2."""
+    return ribbon.places(g) if g.shape == "ribbon" else (CHI, np.zeros(0))
+
+
+def shape(g):
+    """Shape of arrays over the nodes of `places`."""
+    chi, radii = places(g)
+    return (*([len(radii)] if len(radii) else []), len(chi))
+
+
+def nodes(g):
+    """The nodes of `places` as points of CageHalf [radii and angles, 2]."""
+    chi, radii = places(g)
+    radii = radii if len(radii) else np.array([g.d_m / 2])
+    return np.stack([np.tile(chi, len(radii)), np.repeat(radii, len(chi))], axis=1)
 
 
 def elastic_half(g, size=None, points=()):
-    """CageHalf with the nodes of the wall's angle as points, then further ones [n, 2]."""
-    nodes = np.stack([CHI, np.full(len(CHI), g.d_m / 2)], axis=1)
-    return CageHalf(g, size, np.concatenate([nodes, np.reshape(points, (-1, 2))]))
+    """CageHalf with the nodes of the wall as points, then further ones [n, 2]."""
+    return CageHalf(g, size, np.concatenate([nodes(g), np.reshape(points, (-1, 2))]))

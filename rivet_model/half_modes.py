@@ -75,7 +75,7 @@ class Places:
         self.rivet_of_shift = np.linalg.inv(alone.clamped)
         self.rivet_of_shift[0] = [1.0 / alone.shortening, 0.0, 0.0]
         self.rivet_of_load = self.rivet_of_shift @ alone.follows @ np.linalg.inv(alone.K_0)
-        nodes, near = len(half_loads.CHI), p.pocket.start
+        nodes, near = len(half_loads.nodes(elastic.g)), p.pocket.start
         pocket = np.zeros((patterns, 3 * nodes))
         pocket[near : near + 3 * nodes] = np.eye(3 * nodes)
         self.rivet = np.concatenate([pad, shift @ self.rivet_of_shift.T], axis=1)  # [patterns, PAD and RIVET]
@@ -167,7 +167,8 @@ def symmetric(elastic, n, shape):
     p = elastic.patterns
     seat = slice(p.head.start, p.head.start + 5)
     even = np.array([1.0, -1.0, 1.0, 1.0, -1.0])  # x, about r and t, r, t
-    bottom = p.pocket.start + 3 * (len(half_loads.CHI) - 1) + np.arange(3)
+    chi, radii = half_loads.places(elastic.g)
+    bottom = p.pocket.start + 3 * (len(chi) * (len(radii) // 2 + 1) - 1) + np.arange(3)
     at_seat = np.exp(-1j * np.pi * n / elastic.Z) * (elastic.loads[:, seat].T @ shape).T * [1.0, 1e-3, 1e-3, 1.0, 1.0]
     at_bottom = (elastic.loads[:, bottom].T @ shape).T
     both, sign = np.concatenate([at_seat, at_bottom], axis=1), np.concatenate([even, [1.0, 1.0, -1.0]])
@@ -240,16 +241,17 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
         static[n] -= (1.0 if parity else 0.5) * Z / omega**2 * np.outer(u, u.conj())
     found = HalfModes(
         Z=Z,
-        chi=half_loads.CHI,
+        chi=half_loads.places(elastic.g)[0],
+        radii=half_loads.places(elastic.g)[1],
         omega=np.array([row[0] for row in rows]),
         harmonic=np.array([row[1] for row in rows]),
         parity=np.array([row[2] for row in rows]),
         residual=residual(elastic, places, elastic.circulant(static)),
         law=None,
         land_residual=None,
-        **amplitudes(Z, len(half_loads.CHI), rows),
+        **amplitudes(Z, half_loads.shape(elastic.g), rows),
     )
-    return fewer(found, count), found
+    return fewer(found, count, wall_normals(elastic)), found
 
 
 def with_law(modes, alone):
@@ -265,11 +267,11 @@ def with_law(modes, alone):
 
 
 def amplitudes(Z, nodes, rows):
-    """The shapes of HalfModes from displacements of pitch 0 at all places."""
+    """The shapes of HalfModes from displacements of pitch 0 at all places; nodes: half_loads.shape."""
     n, u, rim, land = (np.array([row[i] for row in rows]) for i in (1, 3, 4, 5))
     at_rivet = u[:, : len(EVEN)] * np.exp(-1j * np.pi * n / Z)[:, None]
     at_rivet = np.where(EVEN > 0.0, at_rivet.real, at_rivet.imag)
-    at_pocket = u[:, len(EVEN) : -1].reshape(-1, nodes, 3)
+    at_pocket = u[:, len(EVEN) : -1].reshape(-1, *nodes, 3)
     spin = np.where((n == 0) & (np.array([row[2] for row in rows]) == 1), Z * u[:, -1].real, 0.0)
     return {
         "pocket": np.stack([at_pocket.real, at_pocket.imag], axis=-1),
@@ -283,29 +285,37 @@ def amplitudes(Z, nodes, rows):
 
 def residual(elastic, places, C):
     """Residual from the compliances [pitch, places, places] that modes leave: displacements by loads on pitch 0."""
-    pads, nodes = len(PAD), len(half_loads.CHI)
+    pads, nodes, shape = len(PAD), len(half_loads.nodes(elastic.g)), half_loads.shape(elastic.g)
     pocket = C[:, : len(EVEN), len(EVEN) : -1].reshape(elastic.Z, len(EVEN), nodes, 3)
+    walls = C[0, len(EVEN) : -1, len(EVEN) : -1].reshape(shape[0] if len(shape) > 1 else 1, shape[-1], 3, -1)
     rivet = C[:, pads : len(EVEN), :pads].copy()
     rivet[0][:, [0, 4, 5]] += places.rivet_of_load  # this part is in the law of the joint
     return Residual(
         pad=C[:, :pads, :pads],
         rivet=rivet,
-        pocket=pocket.transpose(2, 0, 1, 3),
+        pocket=pocket.transpose(2, 0, 1, 3).reshape(*shape, elastic.Z, len(EVEN), 3),
         spin=C[:, : len(EVEN), -1].sum(axis=0),
-        wall=wall_compliance(elastic, C[0, len(EVEN) : -1, len(EVEN) : -1].reshape(nodes, 3, nodes, 3)),
+        wall=np.reshape(
+            [
+                wall_compliance(elastic, rows.reshape(shape[-1], 3, -1, shape[-1], 3)[:, :, i], i)
+                for i, rows in enumerate(walls)
+            ],
+            shape,
+        ),
     )
 
 
-def wall_compliance(elastic, C):
+def wall_compliance(elastic, C, line=0):
     """Compliance [nodes] along the normal under the contact, without the indentation of the half-space that Hertz's
     formula counts.
 
-    C [nodes, 3, nodes, 3]: of the wall.  Indentation is what a point load does to the half-space at a distance s, (1 -
-    nu^2)/(pi E s); the rest of the compliance between two places varies slowly, so that of the neighbours on both sides
-    of a node stands for its own (of the ends: the nearest one's).
+    C [nodes, 3, nodes, 3]: of the wall at the nodes of one radius, the `line`-th.  Indentation is what a point load
+    does to the half-space at a distance s, (1 - nu^2)/(pi E s); the rest of the compliance between two places varies
+    slowly, so that of the neighbours on both sides of a node stands for its own (of the ends: the nearest one's).
     """
-    g, chi = elastic.g, half_loads.CHI
-    normal = np.stack([np.sin(chi), 0.0 * chi, np.cos(chi)], axis=1)
+    g, (chi, radii) = elastic.g, half_loads.places(elastic.g)
+    radius = radii[line] if len(radii) else 0.5 * g.d_m
+    normal = elastic.wall.normal(chi, np.full(len(chi), radius))
     between = np.einsum("ia,iajb,jb->ij", normal, C, normal)
     place, found = [], []
     for i in range(len(chi) - 2):
@@ -339,16 +349,23 @@ def rim_means(elastic):
     return result
 
 
-def fewer(modes, n):
+def wall_normals(elastic):
+    """Directions of a ball's force on the wall at the nodes of the tables [..., 3]."""
+    at = half_loads.nodes(elastic.g).T
+    return elastic.wall.normal(*at).reshape(*half_loads.shape(elastic.g), 3)
+
+
+def fewer(modes, n, normal=None):
     """The first modes, n of them or one less where a pair would be parted; the residual takes the statics of the
     others, and a law would belong to another residual.
 
-    n: 0 leaves none.  Raises ValueError if there are not so many.
+    n: 0 leaves none; normal: wall_normals, None: those of a machined pocket.  Raises ValueError if there are not so many.
     """
     total = int(modes.count.sum())
     if not 0 <= n <= total:
         raise ValueError(f"modes = {n}: a number from 0 to {total} is needed")
     kept = int(np.searchsorted(np.cumsum(modes.count), n, side="right"))
+    normal = np.stack([np.sin(modes.chi), 0.0 * modes.chi, np.cos(modes.chi)], axis=1) if normal is None else normal
     arrays = {
         name: getattr(modes, name)
         for name in ("omega", "harmonic", "parity", "pocket", "pad", "rivet", "rim", "land", "spin")
@@ -357,7 +374,7 @@ def fewer(modes, n):
     return replace(
         modes,
         **{name: values[:kept] for name, values in arrays.items()},
-        residual=softer(modes.residual, rest),
+        residual=softer(modes.residual, rest, normal),
         law=None,
         land_residual=None,
     )
@@ -368,16 +385,15 @@ def joint_residual(modes):
     return modes.residual.pad[0][np.ix_(OUT, OUT)]
 
 
-def softer(residual, modes):
-    """The residual with the static displacements of modes."""
+def softer(residual, modes, normal):
+    """The residual with the static displacements of modes; normal [chi, 3] of the wall at its nodes."""
     compliance = 1.0 / frequencies(modes) ** 2
-    at, wall = rivet_shapes(modes), pocket_shapes(modes)[:, 0, :, 0]  # [n, Z, 9], pocket 0, t > 0 [n, chi, 3]
+    at, wall = rivet_shapes(modes), pocket_shapes(modes)[:, 0, ..., 0, :]  # [n, Z, 9], pocket 0, t > 0 [n, chi, 3]
     own = np.einsum("nka,nb,n->kab", at, at[:, 0, : len(PAD)], compliance)
-    normal = np.stack([np.sin(modes.chi), 0.0 * modes.chi, np.cos(modes.chi)], axis=1)
     return Residual(
         pad=residual.pad + own[:, : len(PAD)],
         rivet=residual.rivet + own[:, len(PAD) :],
-        pocket=residual.pocket + np.einsum("nka,ncf,n->ckaf", at, wall, compliance),
+        pocket=residual.pocket + np.einsum("nka,n...f,n->...kaf", at, wall, compliance),
         spin=residual.spin + np.einsum("na,n,n->a", at[:, 0], spin_load(modes), compliance),
-        wall=residual.wall + np.einsum("nc,n->c", np.einsum("ncf,cf->nc", wall, normal) ** 2, compliance),
+        wall=residual.wall + np.einsum("n...,n->...", np.einsum("n...f,...f->n...", wall, normal) ** 2, compliance),
     )

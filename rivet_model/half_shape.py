@@ -1,28 +1,32 @@
 """Shape of one cage half in closed form: what can be built, mass, place of the centre of mass, moments of inertia.
-half.py has sketch and mesh.
+
+The machined half, of which half.py has sketch and mesh; limits_of, check_half and half_inertia are the doors of both
+shapes, the other one is ribbon_shape.py.
 
 Lengths in m, names as in geometry.py; g: a Geometry, or anything with its members.
 """
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
-LEAST_WALL = 0.2e-3  # m of metal around the seat: assumed, the least that is machined
+from . import ribbon_shape
+from .half_bodies import LEAST_WALL, Bodies, Inertia, Limit, rivet_mass
+
+__all__ = [
+    "LEAST_WALL",
+    "LIMITS",
+    "Inertia",
+    "Limit",
+    "check_half",
+    "half_inertia",
+    "limits_of",
+    "pocket_radius",
+    "rivet_mass",
+]
+
 LARGEST_HEAD = 0.985  # of its seat's diameter: between them there are elements
 LEAST_WEB = 0.05  # of the pocket's radius, between pocket and end face: assumed
-
-
-class Limit(NamedTuple):
-    """margin(g) >= 0 must hold [m]; keys: the values that it is about, the one to blame first; reason: what would be
-    impossible.
-    """
-
-    keys: tuple
-    margin: Callable
-    reason: str
 
 
 def pocket_radius(g):
@@ -83,24 +87,18 @@ LIMITS = (
 )
 
 
+def limits_of(g):
+    """The limits of the shape of g."""
+    return ribbon_shape.LIMITS if g.shape == "ribbon" else LIMITS
+
+
 def check_half(g):
     """Raises ValueError naming the first limit that does not hold."""
-    for limit in LIMITS:
-        if limit.margin(g) < -1e-9:  # rounding
+    for limit in limits_of(g):
+        if not limit.margin(g) >= -1e-9:  # rounding; NaN does not hold
             key, *others = limit.keys
             beside = ", ".join(f"{name} = {getattr(g, name):g}" for name in others)
             raise ValueError(f"geometry: {key} = {getattr(g, key):g}: no {limit.reason} with {beside}")
-
-
-class Inertia(NamedTuple):
-    """Of one half with its half of the rivets: mass [kg], place x_c of its centre of mass [m], moments of inertia about
-    it [kg m2].
-    """
-
-    m: float
-    x_c: float
-    J_p: float
-    J_t: float
 
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -110,36 +108,25 @@ def half_inertia(g):
     """Inertia of one half with its part of the rivets (head and half of the shank), by integrals over the drawing's
     bodies.
     """
-    Z, w, p, R = g.Z, g.cage_half_width, pocket_radius(g), 0.5 * g.d_m
+    if g.shape == "ribbon":
+        return ribbon_shape.half_inertia(g)
+    Z, w, p = g.Z, g.cage_half_width, pocket_radius(g)
     r_i, r_o, density = 0.5 * g.cage_inner_diameter, 0.5 * g.cage_outer_diameter, g.rho_flange
-    # mass, means of x, x^2, r^2
-    bodies = [(density * math.pi * (r_o**2 - r_i**2) * w, 0.5 * w, w * w / 3.0, 0.5 * (r_i**2 + r_o**2))]
-
-    def cylinder(density, radius, low, high):
-        mass = Z * density * math.pi * radius**2 * (high - low)
-        bodies.append((mass, 0.5 * (low + high), (low * low + low * high + high * high) / 3.0, R**2 + 0.5 * radius**2))
+    bodies = Bodies(g)
+    bodies.add(density * math.pi * (r_o**2 - r_i**2) * w, 0.5 * w, w * w / 3.0, 0.5 * (r_i**2 + r_o**2))
 
     # pockets: at x = p sin(phi) a radius r is cut over the angle 2 asin(p cos(phi)/r)
     phi, r = 0.25 * math.pi * (1.0 + _NODES)[:, None], 0.5 * (r_i + r_o) + 0.5 * (r_o - r_i) * _NODES
     x = p * np.sin(phi)
     dm = -Z * density * 2.0 * np.arcsin(np.minimum(p * np.cos(phi) / r, 1.0)) * r * p * np.cos(phi)
     dm *= 0.25 * math.pi * _WEIGHTS[:, None] * 0.5 * (r_o - r_i) * _WEIGHTS
-    bodies.append((dm.sum(), (dm * x).sum() / dm.sum(), (dm * x * x).sum() / dm.sum(), (dm * r * r).sum() / dm.sum()))
+    bodies.add(dm.sum(), (dm * x).sum() / dm.sum(), (dm * x * x).sum() / dm.sum(), (dm * r * r).sum() / dm.sum())
 
     # hole, relieved hole and seat are empty; shank and head fill a part of them
     shank, relieved, top = 0.5 * g.shank_diameter, g.flange_thickness - g.relief_depth, g.flange_thickness
-    cylinder(-density, shank, 0.0, relieved)
-    cylinder(-density, shank + g.relief_radius, relieved, top)
-    cylinder(-density, 0.5 * g.seat_diameter, top, w)
-    cylinder(g.rho_rivet, shank, 0.0, top)
-    cylinder(g.rho_rivet, 0.5 * g.head_diameter, top, top + g.head_height)
-
-    mass, mean_x, mean_xx, mean_rr = np.transpose(bodies)
-    m = mass.sum()
-    x_c, J_p = mass @ mean_x / m, mass @ mean_rr
-    return Inertia(float(m), float(x_c), float(J_p), float(0.5 * J_p + mass @ mean_xx - m * x_c**2))
-
-
-def rivet_mass(g):
-    """Mass of half a rivet [kg]: one head and the shank up to the split."""
-    return g.rho_rivet * math.pi / 4 * (g.shank_diameter**2 * g.flange_thickness + g.head_diameter**2 * g.head_height)
+    bodies.cylinders(-density, shank, 0.0, relieved)
+    bodies.cylinders(-density, shank + g.relief_radius, relieved, top)
+    bodies.cylinders(-density, 0.5 * g.seat_diameter, top, w)
+    bodies.cylinders(g.rho_rivet, shank, 0.0, top)
+    bodies.cylinders(g.rho_rivet, 0.5 * g.head_diameter, top, top + g.head_height)
+    return bodies.inertia()

@@ -18,7 +18,7 @@ import numpy as np
 from bearing_model.cage.elastic import half_modes as modes_of
 from bearing_model.cage.two_half.half_path import path_rows
 
-from . import half_shape
+from . import half, half_loads
 
 # medians and tails of recorded impacts: 7 and 14
 ANGLES = np.deg2rad([3.0, 8.0, 14.0, 22.0, 35.0, 60.0, 88.0, 118.0, 140.0, 156.0, 165.0, 171.0, 178.0])
@@ -129,26 +129,41 @@ def mass_motions(g, inertia, lever, pocket=0):
         own = axes(2.0 * np.pi * (k + 0.5) / g.Z)
         pads.append(np.vstack([own @ moved(0.5 * g.d_m * own[1]), np.hstack([np.zeros((3, 3)), own])]) * scale)
         pads[-1][2, 3] = lever * scale[3]
-    walls, own = [], axes(2.0 * np.pi * pocket / g.Z)
+    walls, own, wall = [], axes(2.0 * np.pi * pocket / g.Z), half.wall(g, half.HalfMesh())
+    first = half_loads.places(g)[0][0]
     for angle in ANGLES:
-        z = half_shape.pocket_radius(g) * np.cos(angle)
-        place = np.array([half_shape.pocket_radius(g) * np.sin(angle), np.sqrt(0.25 * g.d_m**2 - z**2), z])
-        walls.append([np.sin(angle), 0.0, np.cos(angle)] @ own @ moved(place @ own) * scale)
+        angle = np.clip(angle, first, np.pi - first)
+        place, normal = (find(angle, np.float64(0.5 * g.d_m)) for find in (wall.place, wall.normal))
+        walls.append(normal @ own @ moved(place @ own) * scale)
     return np.stack(pads), np.stack(walls)
 
 
-def at_angles(modes, pocket=0):
+def radial_cylinder(chi):
+    """Normal (x, r, t) of a machined pocket's wall."""
+    return np.array([np.sin(chi), 0.0, np.cos(chi)])
+
+
+def at_angles(modes, pocket=0, normal=radial_cylinder):
     """Displacements along the normal of a pocket by all coordinates [n, ANGLES], and residual rows [Z, 9, ANGLES] by
-    unit forces, between the nodes.
+    unit forces, between the nodes; of a ribbon in the middle of its ring.  normal: of the wall over chi.
     """
     shapes, slopes = modes_of.pocket_shapes(modes)[:, pocket], modes_of.pocket_shapes(modes, modes.slope)[:, pocket]
+    residual, residual_slope = modes.residual.pocket, modes.residual_slope
+    if len(modes.radii):
+        middle = len(modes.radii) // 2
+        shapes, slopes, residual, residual_slope = (
+            shapes[:, middle],
+            slopes[:, middle],
+            residual[middle],
+            residual_slope[middle],
+        )
     wall, rows = [], []
     for angle in ANGLES:
-        side, chi = int(angle > np.pi / 2), min(angle, np.pi - angle)
-        force = np.array([np.sin(chi), 0.0, np.cos(chi)])
+        side, chi = int(angle > np.pi / 2), np.maximum(min(angle, np.pi - angle), modes.chi[0])
+        force = normal(chi)
         u = path_rows(modes.chi, np.moveaxis(shapes[:, :, side], 1, 0), np.moveaxis(slopes[:, :, side], 1, 0), chi)
         wall.append(u @ (force * [1.0, 1.0, -1.0 if side else 1.0]))
-        row = path_rows(modes.chi, modes.residual.pocket, modes.residual_slope, chi) @ force
+        row = path_rows(modes.chi, residual, residual_slope, chi) @ force
         rows.append(np.roll(row[::-1] * modes_of.EVEN if side else row, pocket, axis=0))
     return np.stack(wall, axis=1), np.stack(rows, axis=-1)
 
@@ -158,8 +173,11 @@ def modal_transfer(g, inertia, modes, lever=None, at_s=S):
 
     inertia: half_shape.Inertia; lever: see mass_motions, None: the circle of rivets; at_s: frequencies [1/s].
     """
-    Z, omega = g.Z, modes_of.frequencies(modes)
-    at, (wall, rows) = modes_of.rivet_shapes(modes), at_angles(modes)
+    Z, omega, of_wall = g.Z, modes_of.frequencies(modes), half.wall(g, half.HalfMesh()).normal
+    at, (wall, rows) = (
+        modes_of.rivet_shapes(modes),
+        at_angles(modes, normal=lambda chi: of_wall(chi, np.float64(0.5 * g.d_m))),
+    )
     rigid_pad, rigid_wall = mass_motions(g, inertia, lever or 0.5 * g.d_m)
     pads, walls = np.concatenate([at[:, :, :6], np.moveaxis(rigid_pad, 2, 0)]), np.concatenate([wall, rigid_wall.T])
     rivets = np.concatenate([at[:, :, 6:], np.zeros((6, Z, 3))])

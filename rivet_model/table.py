@@ -1,7 +1,6 @@
 """Making and writing the rivet table; bearing_model.rivet.rivet_table holds its format and its reader."""
 
 import json
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -21,6 +20,7 @@ from bearing_model.rivet.rivet_table import (
 from . import splines
 from .geometry import Geometry
 
+OF_RIBBON = ("radii", "spin_preload")  # in the section half of a ribbon
 UNITS = {
     "T": "MPa/N",
     "xi": "m/N",
@@ -75,6 +75,7 @@ def write(table, path):
         "geometry_hash": table.geometry_hash,
         "geometry": table.geometry,
         "Z": table.Z,
+        **({"shape": table.shape} if table.shape != "machined" else {}),
         "units": UNITS,
         "errors": table.errors,
         "digest": digest_of(sections),
@@ -91,6 +92,7 @@ def _half_section(half):
     return {
         **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         "chi": [float(v) for v in half.chi],
+        **({name: rounded(getattr(half, name), 9).tolist() for name in OF_RIBBON} if len(half.radii) else {}),
         "path": rounded(tidy(half.path), 4).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
         "land": rounded(tidy(half.land)).tolist(),
@@ -159,7 +161,7 @@ def make(geometry: Geometry, kind, length, knots, samples_mpa, fit_map, joint, h
     fit_slope = np.where(fit_eff == fit_a, 1.0, monotone_slopes(fit_a, fit_eff))  # elastic until yield
     return RivetTable(
         kind=kind,
-        geometry=asdict(geometry),
+        geometry=geometry.values,
         geometry_hash=geometry.digest,
         Z=geometry.Z,
         fit_a=fit_a,

@@ -123,7 +123,7 @@ def test_limits_name_what_cannot_be_built(change, key):
 
 def plain_ring(R, thickness, width, Z, cells=16):
     """A ring of rectangular section as a cyclic solid with its body patterns alone."""
-    blocks = half._Blocks()
+    blocks = half.Blocks()
     x, r, theta = (
         np.linspace(a, b, 2 * n + 1)
         for a, b, n in ((0, width, 2), (R - thickness / 2, R + thickness / 2, 2), (0, 2 * np.pi / Z, cells))

@@ -45,7 +45,7 @@ def coarse():
 def ring_frequencies(harmonic, count):
     """First frequencies of a thin ring of square section by the half's solver [rad/s], with its constants rho, E, nu."""
     R, t, Z = RING.values()
-    blocks = half._Blocks()
+    blocks = half.Blocks()
     x, r, theta = (
         np.linspace(a, b, 2 * n + 1) for a, b, n in ((0, t, 2), (R - t / 2, R + t / 2, 2), (0, 2 * np.pi / Z, 16))
     )

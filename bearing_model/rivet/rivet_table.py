@@ -24,6 +24,7 @@ DEFAULT_TABLE = Path(__file__).resolve().parents[2] / "rivet_model" / "tables" /
 FORMAT = "rivet-table-7"
 # numbered from 1: the output rivet.table_kind
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}
+SHAPES = ("machined", "ribbon")
 SECTIONS = ("header", "shank", "fit_eff", "joint", "half", "modes")
 CHANNELS = ("head_p1", "head_vm", "mid_vm", "mid_p1")
 SHANK_AXES = ("a", "c", "xi")
@@ -52,17 +53,22 @@ class HalfData:
     J_p: float  # moments of inertia about it [kg m2]
     J_t: float
     chi: np.ndarray  # nodes of the wall's angle [rad]
-    path: np.ndarray  # [chi, Z, 8, 3]
+    path: np.ndarray  # [chi, Z, 8, 3]; of a ribbon [radii, chi, Z, 8, 3]
     spin: np.ndarray  # [8] per (rad/s)^2 at mass m
     # [waves, harmonic, 1 and x, 8] rows by a radial line load at the land: half_path.land_path_rows
     land: np.ndarray
     law: joint_law.JointLaw
     k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
     k_open: float
+    radii: np.ndarray = field(default_factory=lambda: np.zeros(0))  # nodes of the wall's radius [m], of a ribbon's only
+    # of a ribbon's only: preload under spin over s = P + w, w = spin[5] omega^2, at equal steps of w/s (rivet_model/land_bending.py)
+    spin_preload: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     def __post_init__(self):
         self.path = single(self.path)
-        self.path_slope = single(half_path.path_slopes(self.chi, self.path))
+        every = self.path if len(self.radii) else self.path[None]
+        slope = single(np.stack([half_path.path_slopes(self.chi, one) for one in every]))
+        self.path_slope = slope if len(self.radii) else slope[0]
 
 
 @dataclass
@@ -88,6 +94,11 @@ class RivetTable:
     modes: HalfModes | None = None  # None: closed forms have none
     note: str = ""
     errors: dict = field(default_factory=dict)
+
+    @property
+    def shape(self):
+        """Shape of the half: machined or ribbon."""
+        return self.geometry.get("shape", SHAPES[0])
 
     @property
     def kind_number(self):
@@ -205,8 +216,23 @@ def _read_law(path, section, numbers):
     return law, *_spline(path, law, joint_law.AXES, (len(numbers),))
 
 
-def _read_half(path, section, Z):
+def _ribbon_arrays(path, section, ribbon):
+    """Nodes of the radius and preload under spin of a ribbon's half; a machined one has none."""
+    if not ribbon:
+        return {}
+    radii, preload = section.numbers("radii"), section.numbers("spin_preload")
+    _need(
+        len(radii) == 3 and np.all(np.diff(radii) > 0) and radii[0] > 0,
+        path,
+        "half.radii: three rising radii are needed",
+    )
+    _need(np.all(preload > 0), path, "half.spin_preload: positive numbers are needed")
+    return {"radii": radii, "spin_preload": preload}
+
+
+def _read_half(path, section, Z, ribbon):
     """The section of the cage half, its arrays checked for their shapes."""
+    more = _ribbon_arrays(path, section, ribbon)
     law, knots, coefficients = _read_law(path, section, joint_law.NUMBERS)
     chi, spin = section.numbers("chi"), section.array("spin", (8,))
     for key in ("m", "J_p", "J_t", "k_open"):
@@ -220,15 +246,17 @@ def _read_half(path, section, Z):
     return HalfData(
         **{key: section.number(key) for key in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         chi=chi,
-        path=section.array("path", (len(chi), Z, 8, 3)),
+        **more,
+        path=section.array("path", (*([3] if ribbon else []), len(chi), Z, 8, 3)),
         spin=spin,
         land=section.array("land", (Z // 2 + 1, 3, 2, 8)),
         law=joint_law.JointLaw(law.number("length"), knots, coefficients, stiffness, slip_stiffness, np.sign(spin[4])),
     )
 
 
-def _read_modes(path, section, Z, chi):
+def _read_modes(path, section, Z, chi, radii):
     """The section of the half's modes, checked; None if it is empty."""
+    nodes = (*([len(radii)] if len(radii) else []), len(chi))
     if not section.members:
         return None
     omega = section.numbers("omega")
@@ -254,9 +282,9 @@ def _read_modes(path, section, Z, chi):
     residual = Residual(
         pad=at.array("pad", (Z, len(PAD), len(PAD))),
         rivet=at.array("rivet", (Z, len(RIVET), len(PAD))),
-        pocket=at.array("pocket", (len(chi), Z, both, 3)),
+        pocket=at.array("pocket", (*nodes, Z, both, 3)),
         spin=at.array("spin", (both,)),
-        wall=at.array("wall", chi.shape),
+        wall=at.array("wall", nodes),
     )
     unit = np.array([1.0, 1.0, 1.0, 1e3, 1e3, 1e3])  # of moments 1 N.mm
     waves = np.fft.fft(residual.pad, axis=0) / np.outer(unit, unit)
@@ -276,7 +304,7 @@ def _read_modes(path, section, Z, chi):
     energy = energy.reshape(coefficients.shape[:-1])
     law = joint_law.LawOfModes(law.number("length"), knots, coefficients, energy, stiffness)
     shapes = {
-        "pocket": (len(chi), 3, 2),
+        "pocket": (*nodes, 3, 2),
         "pad": (len(PAD),),
         "rivet": (len(RIVET),),
         "rim": (2,),
@@ -287,6 +315,7 @@ def _read_modes(path, section, Z, chi):
     return HalfModes(
         Z=Z,
         chi=chi,
+        radii=radii,
         omega=omega,
         harmonic=harmonic.astype(int),
         parity=parity.astype(int),
@@ -330,10 +359,16 @@ def read(path, Z=None):
         len({len(values) for values in fits.values()}) == 1, path, "fit_eff: fit_a, j2 and slope have different lengths"
     )
     _need(np.all(np.diff(fits["fit_a"]) > 0), path, "fit_eff.fit_a does not increase")
-    cage_half = _read_half(path, half, made_for)
+    geometry, shape = header.member("geometry", dict), header.members.get("shape", SHAPES[0])
+    _need(
+        shape in SHAPES and geometry.get("shape", SHAPES[0]) == shape,
+        path,
+        f"header.shape = {shape!r}: one of {', '.join(SHAPES)}, that of the geometry, is needed",
+    )
+    cage_half = _read_half(path, half, made_for, shape == "ribbon")
     return RivetTable(
         kind=kind,
-        geometry=header.member("geometry", dict),
+        geometry=geometry,
         geometry_hash=header.member("geometry_hash", str),
         Z=made_for,
         head_friction=shank.number("head_friction") * MPA_PER_N,
@@ -346,7 +381,7 @@ def read(path, Z=None):
         joint=joint.members,
         shank=_read_shank(path, shank),
         half=cage_half,
-        modes=_read_modes(path, modes, made_for, cage_half.chi),
+        modes=_read_modes(path, modes, made_for, cage_half.chi, cage_half.radii),
         note=header.member("note", str),
         errors=header.member("errors", dict),
     )

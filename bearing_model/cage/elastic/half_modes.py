@@ -24,7 +24,7 @@ dm_r, dm_t of half_path.py: zero if the half moves about the joint as a rigid bo
 that its own load makes.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -74,6 +74,8 @@ class HalfModes:
     law: LawOfModes  # of the joints, around the stiffness that these modes leave
     # [waves, harmonic, 1 and x, (x, phi_r, phi_t)] motions of the pads beside those of the modes by G_p = 1 on one half
     land_residual: np.ndarray
+    # nodes of the wall's radius [m] of a ribbon, whose `pocket`, `residual.pocket` and `residual.wall` have them before chi
+    radii: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def count(self):
@@ -89,16 +91,20 @@ class HalfModes:
     @cached_property
     def slope(self):
         """Of `pocket` over chi [entries, chi, 3, 2]."""
-        beyond = self.pocket[:, -2] * MIRROR[:, None] * [1.0, -1.0]  # at pi - chi
-        values = np.concatenate([self.pocket, beyond[:, None]], axis=1)
-        return np.moveaxis(cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.moveaxis(values, 1, 0)), 0, 1)
+        beyond = self.pocket[..., -2, :, :] * MIRROR[:, None] * [1.0, -1.0]  # at pi - chi
+        return self._slopes(self.pocket, beyond, axis=-3)
 
     @cached_property
     def residual_slope(self):
         """Of `residual.pocket` over chi."""
         pocket = self.residual.pocket
-        beyond = pocket[-2][::-1] * EVEN[:, None] * MIRROR
-        return cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), np.concatenate([pocket, beyond[None]]))
+        beyond = pocket[..., -2, ::-1, :, :] * EVEN[:, None] * MIRROR
+        return self._slopes(pocket, beyond, axis=-4)
+
+    def _slopes(self, values, beyond, axis):
+        """Slopes over chi on an axis of values, whose mirrored last node is `beyond`."""
+        every = np.moveaxis(np.concatenate([values, np.expand_dims(beyond, axis)], axis=axis), axis, 0)
+        return np.moveaxis(cubic_slopes(np.append(self.chi, np.pi - self.chi[-2]), every), 0, axis)
 
 
 def land_shapes(modes, x):
@@ -138,12 +144,12 @@ def pocket_shapes(modes, values=None):
     their slopes over chi.
     """
     U = modes.pocket if values is None else values
-    c, s = (f[:, :, None, None] for f in phases(modes, 0.0))
+    c, s = (f.reshape(*f.shape, *[1] * (U.ndim - 2)) for f in phases(modes, 0.0))
     sides = []
     for re, im in ((U[..., 0], U[..., 1]), (U[..., 0] * MIRROR, -U[..., 1] * MIRROR)):
         re, im = re[:, None], im[:, None]
         sides.append(coordinates(modes, re * c - im * s, re * s + im * c))
-    return np.stack(sides, axis=3)
+    return np.stack(sides, axis=-2)
 
 
 def rivet_shapes(modes):
