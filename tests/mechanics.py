@@ -1,6 +1,7 @@
 """What the tests of the dynamics share: views of C structs, poses of bodies, states away from rest."""
 
 import numpy as np
+import ribbon
 from library import TWO_HALF
 from python_core import Body, PythonWork
 
@@ -240,6 +241,8 @@ class Instance:
         )
         self.host = ffi.new("PartHost *", {"environment": ffi.NULL, "log": self.log})
         self.bearing = ffi.gc(self.lib.part_create(self.host), self.lib.part_destroy)
+        if ribbon.SHAPE in (parameters or {}):
+            ribbon.unlock(core)
         core.set_values(self.lib.part_parameters(self.bearing), variables.PARAMETERS, TWO_HALF | (parameters or {}))
         self.set(**(inputs or {}))
         status = self.lib.part_initialize(self.bearing, 0.0, tolerance)

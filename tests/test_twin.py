@@ -9,6 +9,7 @@ import pytest
 from library import TWO_HALF
 from mechanics import SLICE, Instance, Z
 from other_bearing import BUILD
+from ribbon import RIBBON
 
 from bearing_model.generated import variables
 from bearing_model.instance.energy import energy_total
@@ -105,6 +106,7 @@ DIFFER |= {
     "pocket[j].dtheta": np.linspace(-1e-3, 1.5e-3, Z).tolist(),
     "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z).tolist(),
 }
+BALLS = {"cage.guidance": 2}
 SCENES = {
     "demo": ({}, {}),
     "mixed_supported": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4}, LOADS),
@@ -122,11 +124,14 @@ SCENES = {
     "differ": (DIFFER | UNBALANCE, LOADS),
     "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_free": (OTHER | FREE | MIXED, SLOW),
+    "balls": (BALLS | UNBALANCE, LOADS),
+    "ribbon": (RIBBON | UNBALANCE, LOADS),
+    "ribbon_mixed": (RIBBON | MIXED | SUPPORTED | DIFFER, HOT),
 }
 if default_table().modes is None:  # of a table by closed forms
     del SCENES["elastic"]
 SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
-PER_SCENE = 120  # 1800 states in all
+PER_SCENE = 120  # 2280 states in all
 
 
 def plain(numbers):
@@ -280,7 +285,7 @@ def differences(model, w, f, g):
 
 
 def test_derivatives(core, record_property):
-    """dy/dt of both twins at 1800 random states.
+    """dy/dt of both twins at 2280 random states.
 
     Tolerance: a deflection of 0.3 ... 3 um is a difference of lengths of 27 mm, whose rounding (3.5e-18 m) is 1e-12 ...
     1e-11 of it.
@@ -298,7 +303,7 @@ def test_derivatives(core, record_property):
             seen[name] = seen.get(name, 0) + int(np.sum(states))
     record_property("worst", plain(worst))
     print(f"relative differences of dy/dt {[f'{k} {v:.1e}' for k, v in worst.items()]}; states by situation {seen}")
-    assert min(seen.values()) >= 40  # of 1,800: every situation occurs; observed 44 for the 6310
+    assert min(seen.values()) >= 40  # of 2,280: every situation occurs; observed 44 for the 6310
     assert max(worst.values()) < (
         3e-11 if BUILD else 1e-11
     )  # observed 1.7e-12, for the 6310 1.6e-11 of the ring's tilt

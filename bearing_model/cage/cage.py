@@ -17,6 +17,7 @@ from bearing_model.cage.common.cage_joint import cage_joint_kinematics
 from bearing_model.cage.common.films import N_HALVES, film_matrix, film_rates
 from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
+from bearing_model.cage.common.pocket_spheres import spheres_energy, spheres_rigid
 from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_acceleration,
     cage_elastic_joints,
@@ -147,7 +148,10 @@ def cage_kinematics(model, y, w):
 
 def cage_pockets(model, w):
     """Contacts of balls and pockets: adds to balls and halves (race_contact_force before)."""
-    (pocket_elastic if model.modes else pocket_rigid)(model, w)
+    if model.d.spheres:
+        spheres_rigid(model, w)
+    else:
+        (pocket_elastic if model.modes else pocket_rigid)(model, w)
 
 
 def cage_joints(model, y, w):
@@ -298,6 +302,8 @@ def cage_rubbing(model, w):
 def pocket_energy(model, w):
     """Elastic energy of all pockets [J], [..., Z]; of elastic walls also that in their compliance, beside their modes."""
     d, E = model.d, 0.0
+    if d.spheres:
+        return spheres_energy(model, w)
     for h, delta in enumerate(w.delta_c):
         load, energy, _ = pocket_share(d, h, pocket_gap(model, w, h).n_x, delta)
         E = E + energy * hertz_energy(d.pocket.K, delta)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{5996903a-9036-6923-c898-ad75a0a49bb5}"
+MODEL_GUID = "{190a8861-3067-72bc-e6b8-db4c07b4d186}"
 Z = 9
 
 
@@ -49,6 +49,16 @@ class CageMaterial(IntEnum):
     PA66_GF25 = 4
     PEEK = 5
     OWN = 6
+
+
+class CageShape(IntEnum):
+    MACHINED = 1
+    RIBBON = 2
+
+
+class CageGuidance(IntEnum):
+    OUTER = 1
+    BALLS = 2
 
 
 class CageModel(IntEnum):
@@ -204,6 +214,13 @@ PARAMETERS = {
         Variable("cage.g_0", 1119, "Real", "1", None, 0.02, 0.0001, 0.2, 1, None, "Floor of 1 - epsilon^2 in the land film", "regularization: 0.005...0.05 change RMS force by less than 2 % at 0.5 deg tilt", False, None),
         Variable("cage.unbalance", 1120, "Real", "kg.m", "g.mm", 0.0, 0.0, 0.01, 1, None, "Static unbalance of the whole cage, in the direction of pocket 1", "balanced cage", False, "it is a property of a body"),
         Variable("cage.width", 1121, "Real", "m", "mm", 0.0136, 0.001, 0.5, 1, None, "Axial width of the whole cage", "assumed: pocket and two webs of 1.14 mm", False, "it is part of the geometry"),
+        Variable("cage.shape", 1130, "CageShape", "1", None, 1, None, None, 1, None, "Shape of the cage halves, from which the rivet table was made", "the 6207's", False, "it is part of the geometry"),
+        Variable("cage.guidance", 1131, "CageGuidance", "1", None, 1, None, None, 1, None, "Guidance of the cage: outer, by the film between its lands and the outer ring; balls, by the pockets alone (ribbon cages)", "paper", False, "it is part of the geometry"),
+        Variable("cage.sheet", 1132, "Real", "m", "mm", 0.0, 0.0, 0.02, 1, None, "Sheet thickness of a ribbon half", "machined cages have none", False, "it is part of the geometry"),
+        Variable("cage.pocket_depth", 1133, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Depth of a ribbon half's pocket, from the plane of the split to the sphere's bottom", "machined cages have none", False, "it is part of the geometry"),
+        Variable("cage.pocket_radius", 1134, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Radius of the sphere of a ribbon half's pocket; 0 stands for (bearing.D + cage.pocket_clearance)/2, another value must agree with it", "0: from the pocket clearance", False, "it is part of the geometry"),
+        Variable("cage.pocket_fillet", 1135, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Radius of the convex fillet between the sphere and the land of a ribbon half, on the balls' side", "machined cages have none", False, "it is part of the geometry"),
+        Variable("cage.pocket_edge", 1136, "Real", "m", "mm", 0.0, 0.0, 0.01, 1, None, "Radius of the edges of a ribbon half's pocket, at the cage's outer and inner diameter; 0 stands for cage.sheet/10", "0: assumed, a tenth of the sheet (tumbled edges)", False, "it is part of the geometry"),
         Variable("cage.centrifugal", 1122, "Switch", "1", None, 2, None, None, 1, None, "Centrifugal load of the cage halves at the rivets", "physics; off: for comparison with figures that leave it out", False, None),
         Variable("pocket[j].dtheta", 8420, "Real", "rad", "deg", 0.0, -0.05, 0.05, Z, None, "Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation", "perfect cage", False, "it is part of the geometry"),
         Variable("pocket[j].dD", 8460, "Real", "m", "um", 0.0, -0.001, 0.001, Z, None, "Excess of the pocket's diameter", "perfect cage", False, "it is part of the geometry"),

@@ -21,12 +21,12 @@ from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 
 def lands(model, w):
     """Distance of the middle of each land from the outer ring's axis, and the distance at which the land touches the
-    ring [m]; [..., 2].
+    ring [m], infinite of a cage that balls guide; [..., 2].
     """
     x_land = (-model.p.cage.land_x, model.p.cage.land_x)
     arms = [half.x + x * half.a - w.outer_x for half, x in zip(w.half, x_land, strict=True)]
     e = [np.hypot(arm[1] - arm[0] * w.outer_gamma, arm[2] + arm[0] * w.outer_beta) for arm in arms]
-    return np.concatenate(np.broadcast_arrays(*e), axis=-1), model.d.C_land
+    return np.concatenate(np.broadcast_arrays(*e), axis=-1), model.d.C_land if model.d.guided else np.inf
 
 
 def pockets(model, w):

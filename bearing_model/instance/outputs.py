@@ -143,7 +143,7 @@ def cage_outputs(model, w):
         "cage.slip_ratio": 1.0 - omega / epicyclic if abs(epicyclic) > STANDSTILL else 0.0 * omega,
         "cage.y": centre[1],
         "cage.z": centre[2],
-        "cage.eccentricity": np.hypot(e[1], e[2]) / model.d.C_land,
+        "cage.eccentricity": np.hypot(e[1], e[2]) / model.d.play,
     }
 
 

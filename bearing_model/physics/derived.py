@@ -10,6 +10,7 @@ import numpy as np
 
 from bearing_model.cage.cage import cage_orbit_scale, cage_refusal, cage_vibrates
 from bearing_model.cage.common.centrifugal import cage_centrifugal
+from bearing_model.cage.common.pocket_spheres_setup import spheres_derive
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     ELASTIC_SCALES,
@@ -17,6 +18,8 @@ from bearing_model.generated.variables import (
     N_STATES,
     PARAMETERS,
     STATE_SCALES,
+    CageGuidance,
+    CageShape,
     Drag,
     FitModel,
     Method,
@@ -159,14 +162,18 @@ def derive_pockets(p, d):
     rho_y = max(1.0 / R - 1.0 / d.pocket_radius, 1e-3 / R)  # a limit of conformity: R_y <= 1000 R
     d.pocket = hertz_contact(1.0 / R, rho_y, E_star)
     d.pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p)
-    d.ln_pocket_piezo = ln_film(2.0 * E_star, R, d.pocket.k, p, p.oil.sigma_pocket)
-    # isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R.
+    d.R_c = d.pocket_radius + 0.5 * p.pocket.dD
+    ribbon = p.cage.shape == CageShape.RIBBON
+    d.spheres = spheres_derive(p, E_star, d.R_c - d.R) if ribbon else None
+    # film: of a ribbon's spheres the reduced radius is the same both ways
+    R_x, k = (1.0 / rho_y, 1.0) if ribbon else (R, d.pocket.k)
+    d.ln_pocket_piezo = ln_film(2.0 * E_star, R_x, k, p, p.oil.sigma_pocket)
+    # isoviscous-rigid: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r = R_y/R_x.
     # Hamrock & Dowson (1979), Brewe
-    alpha_r = 1.0 / (rho_y * R)
+    alpha_r = 1.0 / (rho_y * R_x)
     lambda_b = 1.0 / (1.0 + 0.698 / alpha_r)
     shape = 128.0 * alpha_r * lambda_b**2 * (0.131 * np.arctan(0.5 * alpha_r) + 1.683) ** 2
-    d.ln_pocket_rigid = np.log(shape * R / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R)
-    d.R_c = d.pocket_radius + 0.5 * p.pocket.dD
+    d.ln_pocket_rigid = np.log(shape * R_x / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R_x)
     phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z + p.pocket.dtheta, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
     d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
@@ -184,6 +191,8 @@ def derive_cage(p, d):
     d.com_x = (-p.cage.x_c, p.cage.x_c)
     d.com_e = p.cage.unbalance / (2.0 * p.cage.m)
     d.C_land = 0.5 * p.cage.guide_clearance
+    d.guided = p.cage.guidance == CageGuidance.OUTER  # by a land
+    d.play = d.C_land if d.guided else 0.5 * p.cage.pocket_clearance
     d.kappa = p.oil.eta * R * L**3 / d.C_land**3
     d.couette = 2.0 * np.pi * p.oil.eta * R**3 * L / d.C_land
     d.nahme = 0.125 * p.oil.beta * p.oil.eta * R**2 / p.oil.k if p.scene.heating == Switch.ON else 0.0

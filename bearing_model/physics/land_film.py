@@ -103,6 +103,14 @@ def land_load(e, V, q2, force, dry):
     return tuple(-size[..., None] * x - dry[..., None] * y[..., 0, :] for x, y in zip(G, at, strict=True))
 
 
+def no_land(w):
+    """Of a cage that balls guide: no film, no contact with the outer ring."""
+    none = 0.0 * w.half[0].s
+    w.land_elastic = w.land_dissipated = none
+    w.film = [SimpleNamespace(yy=none, yz=none, zz=none, spin=none) for _ in range(2)]
+    w.land = None
+
+
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
 
@@ -110,6 +118,9 @@ def land_film_force(model, w):
     integrator's Jacobian.  land: harmonics of the loads on the rims, Re and Im G_p [..., half, p].
     """
     p, d = model.p, model.d
+    if not d.guided:
+        no_land(w)
+        return
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
 

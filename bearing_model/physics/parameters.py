@@ -12,6 +12,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from bearing_model.cage.common.pocket_spheres_setup import spheres_edge, spheres_radius, spheres_seams
 from bearing_model.generated import variables
 from bearing_model.generated.variables import INPUTS, PARAMETERS, Z
 from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, ring_fit_effective_i, ring_fit_outside
@@ -21,6 +22,8 @@ ENUMERATIONS = (
     variables.RingMotion,
     variables.CageMaterial,
     variables.CageModel,
+    variables.CageShape,
+    variables.CageGuidance,
     variables.Traction,
     variables.Drag,
     variables.Lubrication,
@@ -160,6 +163,51 @@ def largest_clearance(p):
     return 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * p.bearing.D
 
 
+def check_ribbon(p):
+    """Refuse sizes that make no ribbon half, and those of one on a machined cage."""
+    ribbon = p.cage.shape == variables.CageShape.RIBBON
+    for name in ("sheet", "pocket_depth", "pocket_fillet", "pocket_radius", "pocket_edge"):
+        value, needed = getattr(p.cage, name), name in ("sheet", "pocket_depth", "pocket_fillet")
+        if ribbon:
+            require(
+                value > 0.0 or not needed,
+                f"cage.{name} = {value} m: more than 0 is allowed of a ribbon cage (cage.shape)",
+            )
+        else:
+            none = "0 is allowed, a machined cage (cage.shape) has no such size"
+            require(value == 0.0, f"cage.{name} = {value} m: {none}")
+    if not ribbon:
+        return
+    guided = "a ribbon cage has no land on the outer ring; balls (2) is allowed"
+    require(p.cage.guidance == variables.CageGuidance.BALLS, f"cage.guidance = outer: {guided}")
+    radius, own, depth = spheres_radius(p), p.cage.pocket_radius, p.cage.pocket_depth
+    require(
+        own == 0.0 or abs(own - radius) <= 1e-6 * radius,
+        f"cage.pocket_radius = {own} m: 0 or (bearing.D + cage.pocket_clearance)/2 = {radius:g} m is allowed",
+    )
+    least = f"no room for the ball; more than bearing.D/2 = {0.5 * p.bearing.D:g} m is allowed"
+    require(depth > 0.5 * p.bearing.D, f"cage.pocket_depth = {depth} m: {least}")
+    most = f"deeper than a sphere; at most (bearing.D + cage.pocket_clearance)/2 = {radius:g} m is allowed"
+    require(depth <= radius, f"cage.pocket_depth = {depth} m: {most}")
+    width = 2.0 * (depth + p.cage.sheet)
+    require(
+        abs(p.cage.width - width) <= 0.01 * width,
+        f"cage.width = {p.cage.width} m: 2 (cage.pocket_depth + cage.sheet) = {width:g} m is allowed, +- 1 %",
+    )
+    ring, edge = p.cage.D_o - p.cage.D_i, spheres_edge(p)
+    require(
+        0.25 * ring > 2.0 * edge,
+        f"cage.D_o - cage.D_i = {ring:g} m: no sphere between the pocket's edges; more than {8.0 * edge:g} m, "
+        "8 radii of the edges, is allowed",
+    )
+    squares = sum(sine**2 for sine in spheres_seams(p))
+    require(
+        squares < 0.95,
+        "cage.pocket_fillet, cage.D_o - cage.D_i: the fillet and the edges leave no sphere; the sum of the squares of "
+        f"the sines of their angles is {squares:g}, less than 0.95 is allowed",
+    )
+
+
 def check_geometry(p):
     """Refuse parameters that contradict each other: ValueError naming one of them, its value and what is allowed."""
     D, d_m = p.bearing.D, p.bearing.d_m
@@ -208,6 +256,11 @@ def check_geometry(p):
         p.cage.land_width <= half,
         f"cage.land_width = {p.cage.land_width} m: at most half of cage.width, {half:g} m, is allowed",
     )
+    require(
+        p.cage.guidance == variables.CageGuidance.OUTER or pocket > 0.0,
+        f"cage.pocket_clearance = {pocket} m: more than 0 m is allowed of a cage that balls guide",
+    )
+    check_ribbon(p)
     require(p.oil.T_1 < p.oil.T_2, f"oil.T_1 = {p.oil.T_1} K: less than oil.T_2 = {p.oil.T_2} K is allowed")
     falls = f"more than oil.nu_2 = {p.oil.nu_2} m2/s is allowed, for the viscosity falls with temperature"
     require(p.oil.nu_1 > p.oil.nu_2, f"oil.nu_1 = {p.oil.nu_1} m2/s: {falls}")

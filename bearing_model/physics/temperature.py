@@ -22,7 +22,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.generated.variables import PARAMETERS
+from bearing_model.generated.variables import PARAMETERS, CageShape
 from bearing_model.physics.parameters import largest_clearance, require
 from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_housing, ring_fit_outside
 from bearing_model.physics.viscosity import Oil
@@ -77,6 +77,9 @@ def heat_cage(p, e_c, e_e, e_b, hot):
     hot.cage.guide_clearance = guide + (e_e * (p.cage.D_o + guide) - e_c * p.cage.D_o)
     hot.cage.D_o = p.cage.D_o + e_c * p.cage.D_o
     hot.cage.D_i = p.cage.D_i + e_c * p.cage.D_i
+    for size in ("sheet", "pocket_depth", "pocket_fillet", "pocket_edge"):
+        cold = getattr(p.cage, size)
+        setattr(hot.cage, size, cold + e_c * cold)
 
 
 def heat_fits(p, u, T_a, hot):
@@ -123,6 +126,10 @@ def check_temperatures(u, hot):
     require(clearances.guide_clearance >= guide.min, f"cage.T = {u.cage.T:g} K, ring.T_e = {u.ring.T_e:g} K: {there}")
     there = f"the pockets' clearance is {clearances.pocket_clearance:g} m there; at least 0 m is allowed"
     require(clearances.pocket_clearance >= 0.0, f"cage.T = {u.cage.T:g} K, ball.T = {u.ball.T:g} K: {there}")
+    depth, R = clearances.pocket_depth, 0.5 * hot.bearing.D
+    there = f"cage.pocket_depth is {depth:g} m there; more than bearing.D/2 = {R:g} m is allowed"
+    fits = clearances.shape != CageShape.RIBBON or depth > R
+    require(fits, f"cage.T = {u.cage.T:g} K, ball.T = {u.ball.T:g} K: {there}")
     there = f"the bearing's clearance is {P_d:g} m there; {least:g} ... {most:g} m is allowed"
     require(
         least < P_d < most,

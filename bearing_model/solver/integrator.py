@@ -118,7 +118,7 @@ class Record:
         h0, h1 = w.half
         centre = (0.5 * (h0.x + h1.x) - w.outer_x)[..., 0]
         self.omega_time += np.sum((h * 0.5 * (h0.s + h1.s)[..., 0])[counts])
-        self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.C_land)[counts])
+        self.eccentricity_time += np.sum((h * np.hypot(centre[1], centre[2]) / model.d.play)[counts])
         self.dislocation_max = max(self.dislocation_max, np.max(cage_slip(model, w)[counts], initial=0.0))
         return peaks
 

@@ -4,6 +4,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/halves.h"
 #include "cage/common/pocket.h"
+#include "cage/common/pocket_spheres.h"
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
 
@@ -15,7 +16,10 @@ void cage_kinematics(const Model *model, const scalar *y, Work *w)
 
 void cage_pockets(const Model *model, Work *w)
 {
-    (model->modes ? pocket_elastic : pocket_rigid)(model, w);
+    if (model->d->spheres.on)
+        spheres_rigid(model, w);
+    else
+        (model->modes ? pocket_elastic : pocket_rigid)(model, w);
 }
 
 void cage_joints(const Model *model, const scalar *y, Work *w)

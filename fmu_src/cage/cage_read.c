@@ -3,6 +3,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/halves.h"
 #include "cage/common/pocket.h"
+#include "cage/common/pocket_spheres.h"
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
 
@@ -41,6 +42,22 @@ static scalar pocket_energy(const Model *model, const Work *w)
             }
         }
         wide_store(&stored[j], E);
+    }
+    return ball_array_sum(stored);
+}
+
+// The same of a ribbon cage.
+static scalar spheres_energy(const Model *model, const Work *w)
+{
+    const Spheres *s = &model->d->spheres;
+    ball_array stored;
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        wide V = wide_set(0.0);
+        for (int h = 0; h < 2; h++) {
+            const SphereGap gap = sphere_gap(model->d, w, h, j);
+            V += sphere_contact(s, wide_load(&s->slack[j]), gap.x, gap.r, gap.t).V;
+        }
+        wide_store(&stored[j], V);
     }
     return ball_array_sum(stored);
 }
@@ -130,7 +147,8 @@ void cage_rubbing(const Model *model, const Work *w, double rubbing[Z])
 scalar cage_energy(const Model *model, const scalar *y, const Work *w)
 {
     const scalar joints = (model->modes ? elastic_energy : two_half_energy)(model, y, w);
-    return halves_energy(model, w) + pocket_energy(model, w) + joints;
+    const scalar pockets = (model->d->spheres.on ? spheres_energy : pocket_energy)(model, w);
+    return halves_energy(model, w) + pockets + joints;
 }
 
 void cage_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z])

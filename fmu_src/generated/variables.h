@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{5996903a-9036-6923-c898-ad75a0a49bb5}"  // digest of the table
+#define MODEL_GUID "{190a8861-3067-72bc-e6b8-db4c07b4d186}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -29,6 +29,14 @@ enum {  // CageMaterial
     CAGE_MATERIAL_PA66_GF25 = 4,  // polyamide 66 with 25 % glass fibres
     CAGE_MATERIAL_PEEK = 5,  // polyether ether ketone
     CAGE_MATERIAL_OWN = 6,  // the constants of the bearing file
+};
+enum {  // CageShape
+    CAGE_SHAPE_MACHINED = 1,  // solid halves with pockets drilled along their radius
+    CAGE_SHAPE_RIBBON = 2,  // pressed halves with two spheres a pocket
+};
+enum {  // CageGuidance
+    CAGE_GUIDANCE_OUTER = 1,  // the outer ring's land
+    CAGE_GUIDANCE_BALLS = 2,  // the balls, by their pockets
 };
 enum {  // CageModel
     CAGE_MODEL_TWO_HALF = 1,  // two halves held by the rivets
@@ -118,6 +126,13 @@ typedef struct {
         double g_0;  // [1] Floor of 1 - epsilon^2 in the land film
         double unbalance;  // [kg.m] Static unbalance of the whole cage, in the direction of pocket 1
         double width;  // [m] Axial width of the whole cage
+        int shape;  // CageShape: Shape of the cage halves, from which the rivet table was made
+        int guidance;  // CageGuidance: Guidance of the cage: outer, by the film between its lands and the outer ring; balls, by the pockets alone (ribbon cages)
+        double sheet;  // [m] Sheet thickness of a ribbon half
+        double pocket_depth;  // [m] Depth of a ribbon half's pocket, from the plane of the split to the sphere's bottom
+        double pocket_radius;  // [m] Radius of the sphere of a ribbon half's pocket; 0 stands for (bearing.D + cage.pocket_clearance)/2, another value must agree with it
+        double pocket_fillet;  // [m] Radius of the convex fillet between the sphere and the land of a ribbon half, on the balls' side
+        double pocket_edge;  // [m] Radius of the edges of a ribbon half's pocket, at the cage's outer and inner diameter; 0 stands for cage.sheet/10
         int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
     } cage;
@@ -603,4 +618,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 356 };  // time is the first
+enum { N_VARIABLES = 363 };  // time is the first

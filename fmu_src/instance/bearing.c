@@ -70,7 +70,7 @@ static void add_cage(Bearing *b, double h)
     cage_slip(&b->model, &b->w, slip);
     for (int k = 0; k < Z; k++) s->dislocation_max = scalar_max(s->dislocation_max, slip[k]);
     s->omega_time += h * 0.5 * (h0->s + h1->s);
-    s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.C_land;
+    s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.play;
 }
 
 static void add_wear(Bearing *b, double h)

@@ -1,6 +1,7 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
 #include "cage/cage.h"
+#include "cage/common/pocket_spheres.h"
 #include "instance/log.h"
 #include "numbers/saved_numbers.h"
 #include "physics/ring_fit.h"
@@ -77,6 +78,13 @@ static bool check_temperatures(Bearing *b, const Inputs *u)
             b, LOG_ERROR,
             "cage.T = %g K, ball.T = %g K: the pockets' clearance is %g m there; at least 0 m is allowed",
             u->cage.T, u->ball.T, hot.cage.pocket_clearance);
+        fine = false;
+    }
+    if (hot.cage.shape == CAGE_SHAPE_RIBBON && !(hot.cage.pocket_depth > 0.5 * hot.bearing.D)) {
+        bearing_log(b, LOG_ERROR,
+                    "cage.T = %g K, ball.T = %g K: cage.pocket_depth is %g m there; more than bearing.D/2 = "
+                    "%g m is allowed",
+                    u->cage.T, u->ball.T, hot.cage.pocket_depth, 0.5 * hot.bearing.D);
         fine = false;
     }
     const double least = -0.01 * hot.bearing.D, most = largest_clearance(&hot);
@@ -191,6 +199,67 @@ static bool check_bodies(Bearing *b)
     return fine;
 }
 
+// Checks the sizes of a ribbon half; a machined one has none of them.
+static bool check_ribbon(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    const bool ribbon = p->cage.shape == CAGE_SHAPE_RIBBON;
+
+    const struct {
+        const char *name;
+        double value;
+        bool needed;
+    } sizes[] = {{"cage.sheet", p->cage.sheet, true},
+                 {"cage.pocket_depth", p->cage.pocket_depth, true},
+                 {"cage.pocket_fillet", p->cage.pocket_fillet, true},
+                 {"cage.pocket_radius", p->cage.pocket_radius, false},
+                 {"cage.pocket_edge", p->cage.pocket_edge, false}};
+
+    bool fine = true;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        if (ribbon ? sizes[i].value > 0.0 || !sizes[i].needed : sizes[i].value == 0.0) continue;
+        bearing_log(b, LOG_ERROR, "%s = %g m: %s", sizes[i].name, sizes[i].value,
+                    ribbon ? "more than 0 is allowed of a ribbon cage (cage.shape)"
+                           : "0 is allowed, a machined cage (cage.shape) has no such size");
+        fine = false;
+    }
+    if (!ribbon || !fine) return fine;
+
+    const double radius = 0.5 * (p->bearing.D + p->cage.pocket_clearance), depth = p->cage.pocket_depth;
+    const double width = 2.0 * (depth + p->cage.sheet), edge = spheres_edge(p);
+    double sin_chi, sin_eta;
+    spheres_seams(p, &sin_chi, &sin_eta);
+    if (p->cage.guidance != CAGE_GUIDANCE_BALLS) {
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed");
+        return false;
+    }
+    fine &= require(b, p->cage.pocket_radius == 0.0 || fabs(p->cage.pocket_radius - radius) <= 1e-6 * radius,
+                    "cage.pocket_radius = %g m: 0 or (bearing.D + cage.pocket_clearance)/2 = %g m is allowed",
+                    p->cage.pocket_radius, radius);
+    fine &= require(b, depth > 0.5 * p->bearing.D,
+                    "cage.pocket_depth = %g m: no room for the ball; more than bearing.D/2 = %g m is allowed",
+                    depth, 0.5 * p->bearing.D);
+    fine &= require(b, depth <= radius,
+                    "cage.pocket_depth = %g m: deeper than a sphere; at most (bearing.D + "
+                    "cage.pocket_clearance)/2 = %g m is allowed",
+                    depth, radius);
+    fine &= require(b, fabs(p->cage.width - width) <= 0.01 * width,
+                    "cage.width = %g m: 2 (cage.pocket_depth + cage.sheet) = %g m is allowed, +- 1 %%",
+                    p->cage.width, width);
+    fine &= require(b, 0.25 * (p->cage.D_o - p->cage.D_i) > 2.0 * edge,
+                    "cage.D_o - cage.D_i = %g m: no sphere between the pocket's edges; more than %g m, "
+                    "8 radii of the edges, is allowed",
+                    p->cage.D_o - p->cage.D_i, 8.0 * edge);
+    const double most = 0.95;
+    return fine &&
+           require(b, sin_chi * sin_chi + sin_eta * sin_eta < most,
+                   "cage.pocket_fillet, cage.D_o - cage.D_i: the fillet and the edges leave no sphere; "
+                   "the sum of the squares of the sines of their angles is %g, less than %g is allowed",
+                   sin_chi * sin_chi + sin_eta * sin_eta, most);
+}
+
 // Checks parameters against each other.
 static bool check_geometry(Bearing *b)
 {
@@ -254,14 +323,19 @@ static bool check_geometry(Bearing *b)
                     "bottom; at most bearing.d_m + bearing.D + bearing.P_d/2 - cage.guide_clearance = %g m "
                     "is allowed",
                     p->cage.D_o, groove);
+    const bool machined = p->cage.shape == CAGE_SHAPE_MACHINED;
     const double web = 1.05 * 0.5 * (D + p->cage.pocket_clearance);
-    fine &= require(b, 0.5 * p->cage.width >= web,
+    fine &= require(b, !machined || 0.5 * p->cage.width >= web,
                     "cage.width = %g m: no web closes the pockets; at least 1.05 (bearing.D + "
                     "cage.pocket_clearance) = %g m is allowed",
                     p->cage.width, 2.0 * web);
     fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
                     "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
                     p->cage.land_width, 0.5 * p->cage.width);
+    fine &= require(b, p->cage.guidance == CAGE_GUIDANCE_OUTER || p->cage.pocket_clearance > 0.0,
+                    "cage.pocket_clearance = %g m: more than %g m is allowed of a cage that balls guide",
+                    p->cage.pocket_clearance, 0.0);
+    fine &= check_ribbon(b);
     fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
                     p->oil.T_1, p->oil.T_2);
     fine &=
@@ -303,6 +377,7 @@ static bool check_geometry(Bearing *b)
 static bool check_seat(Bearing *b)
 {
     const Parameters *p = &b->s.p;
+    if (p->cage.shape != CAGE_SHAPE_MACHINED) return true;
     const double wall = 0.2e-3, seat = rivet_table.joint.seat + 2.0 * wall, r = 0.5 * p->cage.D_i;
     const double inside = p->bearing.d_m - seat, outside = p->bearing.d_m + seat;
     const double tolerance = 1e-6 * p->bearing.d_m;
@@ -332,10 +407,12 @@ static bool check_built(Bearing *b)
         if (!v->built) continue;
         const double value = variable_value(v, 0, &b->s.p);
         if (value == v->start) continue;
+        const bool shape = strcmp(v->name, "cage.shape") == 0;
         bearing_log(b, LOG_ERROR,
-                    "%s = %g: %g is allowed, of the material for which this FMU and its rivet table were "
-                    "built; for another material build an FMU from a bearing file with [cage] material",
-                    v->name, value, v->start);
+                    "%s = %g: %g is allowed, of the %s for which this FMU and its rivet table were "
+                    "built; for another %s build an FMU from a bearing file with [cage] %s",
+                    v->name, value, v->start, shape ? "shape" : "material", shape ? "shape" : "material",
+                    shape ? "shape" : "material");
         fine = false;
     }
     return fine;

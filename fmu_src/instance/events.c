@@ -130,7 +130,7 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
 {
     memset(now, 0, EVENT_COUNT * sizeof *now);
-    lands(model, w, &now[EVENT_LAND_CONTACT]);
+    if (model->d->guided) lands(model, w, &now[EVENT_LAND_CONTACT]);
     pockets(model, w, &now[EVENT_POCKET_EXIT]);
     races(model, w, &now[EVENT_ELLIPSE_CUT], &now[EVENT_OVERPRESSURE]);
     joints(model, w, &now[EVENT_JOINT_OPEN]);

@@ -10,6 +10,7 @@
 #include "cage/common/cage_joint.c"
 #include "cage/common/halves.c"
 #include "cage/common/pocket.c"
+#include "cage/common/pocket_spheres.c"
 #include "cage/elastic/cage_elastic.c"
 #include "cage/elastic/elastic_wall.c"
 #include "cage/two_half/half_path.c"

@@ -154,7 +154,7 @@ static void fill_cage(const Evaluation *at, Outputs *out)
         fabs(scalar_value(epicyclic)) > STANDSTILL ? 1.0 - out->cage.omega / epicyclic : 0.0;
     out->cage.y = 0.5 * (h0->x[1] + h1->x[1]);
     out->cage.z = 0.5 * (h0->x[2] + h1->x[2]);
-    out->cage.eccentricity = scalar_sqrt(e_y * e_y + e_z * e_z) / at->model->d->C_land;
+    out->cage.eccentricity = scalar_sqrt(e_y * e_y + e_z * e_z) / at->model->d->play;
 }
 
 // Components of vectors (r, t) at the rivets along y and z of the cage's body frame.

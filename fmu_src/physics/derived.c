@@ -2,6 +2,7 @@
 // the elements' files.
 #include "cage/cage.h"
 #include "cage/common/centrifugal.h"
+#include "cage/common/pocket_spheres.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/ring_fit.h"
@@ -139,14 +140,19 @@ static void derive_pockets(const Parameters *p, Derived *d)
     const double rho_y = fmax(1.0 / R - 1.0 / d->pocket_radius, 1e-3 / R);
     d->pocket = hertz_contact(1.0 / R, rho_y, E_star);
     d->pocket_rolling = inlet(2.0 * E_star, R, 1.0 / rho_y, p);
-    d->ln_pocket_piezo = ln_film(2.0 * E_star, R, d->pocket.k, p, p->oil.sigma_pocket);
+
+    // film; of a ribbon's spheres the reduced radius is the same both ways
+    const bool ribbon = p->cage.shape == CAGE_SHAPE_RIBBON;
+    const double R_x = ribbon ? 1.0 / rho_y : R, k = ribbon ? 1.0 : d->pocket.k;
+    d->ln_pocket_piezo = ln_film(2.0 * E_star, R_x, k, p, p->oil.sigma_pocket);
 
     // isoviscous-rigid film: h/R = 128 alpha_r lambda_b^2 (0.131 atan(alpha_r/2) + 1.683)^2 (U/W)^2, alpha_r
-    // = R_y/R.  Hamrock & Dowson (1979), Brewe
-    const double alpha_r = 1.0 / (rho_y * R), lambda_b = 1.0 / (1.0 + 0.698 / alpha_r);
+    // = R_y/R_x.  Hamrock & Dowson (1979), Brewe
+    const double alpha_r = 1.0 / (rho_y * R_x), lambda_b = 1.0 / (1.0 + 0.698 / alpha_r);
     const double shape = 128.0 * alpha_r * lambda_b * lambda_b *
                          portable_pow(0.131 * portable_atan(0.5 * alpha_r) + 1.683, 2.0);
-    d->ln_pocket_rigid = portable_log(shape * R / p->oil.sigma_pocket) + 2.0 * portable_log(p->oil.eta * R);
+    d->ln_pocket_rigid =
+        portable_log(shape * R_x / p->oil.sigma_pocket) + 2.0 * portable_log(p->oil.eta * R_x);
 
     // positions of pockets and rivets
     for (int j = 0; j < LANES; j++) {
@@ -158,6 +164,7 @@ static void derive_pockets(const Parameters *p, Derived *d)
         d->rivet_y[j] = 0.5 * rivet_table.joint.d_m * portable_cos(phi_r);
         d->rivet_z[j] = 0.5 * rivet_table.joint.d_m * portable_sin(phi_r);
     }
+    if (ribbon) spheres_derive(p, E_star, d);
 }
 
 // A moment of inertia that is left at its start value follows the mass, which scales the density.
@@ -184,6 +191,8 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->com_x[1] = p->cage.x_c;
     d->com_e = p->cage.unbalance / (2.0 * p->cage.m);
     d->C_land = 0.5 * p->cage.guide_clearance;
+    d->guided = p->cage.guidance == CAGE_GUIDANCE_OUTER;
+    d->play = d->guided ? d->C_land : 0.5 * p->cage.pocket_clearance;
     d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);
     d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
     d->nahme = p->scene.heating == SWITCH_ON ? 0.125 * p->oil.beta * p->oil.eta * R * R / p->oil.k : 0.0;

@@ -302,7 +302,12 @@ static __attribute__((noinline)) void land_film_moving(const Model *model, Work 
 
 void land_film_force(const Model *model, Work *w)
 {
-    w->land_elastic = w->cage_dissipated = 0.0;
+    w->land_elastic = w->cage_dissipated = w->land_dissipated = 0.0;
+    if (!model->d->guided) {  // balls guide the cage: no film, no contact with the outer ring
+        memset(w->film, 0, sizeof w->film);
+        memset(w->land, 0, sizeof w->land);
+        return;
+    }
     if (outer_ring_moves(model->ring_load))
         land_film_moving(model, w);
     else

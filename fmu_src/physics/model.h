@@ -37,6 +37,27 @@ typedef struct {
     Hertz hertz;
 } Race;
 
+// A ring of the radius rho of its section that touches a pocket's sphere along a circle, the seam.
+typedef struct {
+    double K;                 // Q = K delta^1.5 [N/m^1.5]
+    double reach;             // R_c + rho [m]
+    double A, H;              // radius of the ring, distance of its plane from the sphere's centre [m]
+    double sine, cosine;      // of the seam's angle: H/reach, A/reach
+    double sin_arc, cos_arc;  // of half the opening of the ring's arc
+} Rim;
+
+// Pockets of a ribbon cage.
+typedef struct {
+    bool on;         // the cage is a ribbon
+    double e;        // of a sphere's centre beyond the split [m]
+    double r;        // of the pockets' middle from the axis [m]
+    double radius;   // R_c [m]
+    double K, more;  // Q = K delta^1.5 (1 + more delta^0.5) of the sphere
+    double a_delta;  // a / delta^(1/2) [m^0.5]
+    Rim fillet, edge;
+    constants slack;  // R_c - R of each pocket [m]
+} Spheres;
+
 // Growth of the inner groove's radius by rotation and fit (ring_fit.h).
 typedef struct {
     double growth;   // by rotation with a loose shaft / omega^2 [m.s2]
@@ -77,12 +98,15 @@ typedef struct {
     Hertz pocket;
     double pocket_radius;              // [m]
     constants R_c;                     // radius of each pocket [m]
+    Spheres spheres;                   // of a ribbon cage (pocket_spheres.c)
     constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z + dtheta of pocket j
 
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
     double com_x[2], com_e;  // centre of mass from the geometric centre: axial, toward pocket 1 [m]
     double C_land;           // radial guide clearance [m]
+    bool guided;             // by lands on the outer ring, not by the balls
+    double play;             // radial clearance of the guidance: C_land, or that of the pockets [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
     double couette;          // Couette torque / speed of a land [N.m.s]
     double nahme;            // (Na/8) / omega^2 of a land's film, 0 without heating [s2]

@@ -68,6 +68,10 @@ static void heat_cage(const Parameters *p, double e_c, double e_e, double e_b, P
     hot->cage.guide_clearance = guide + (e_e * (p->cage.D_o + guide) - e_c * p->cage.D_o);
     hot->cage.D_o = p->cage.D_o + e_c * p->cage.D_o;
     hot->cage.D_i = p->cage.D_i + e_c * p->cage.D_i;
+    hot->cage.sheet = p->cage.sheet + e_c * p->cage.sheet;
+    hot->cage.pocket_depth = p->cage.pocket_depth + e_c * p->cage.pocket_depth;
+    hot->cage.pocket_fillet = p->cage.pocket_fillet + e_c * p->cage.pocket_fillet;
+    hot->cage.pocket_edge = p->cage.pocket_edge + e_c * p->cage.pocket_edge;
 }
 
 // Fits at temperature; what the housing takes from groove and land of the outer ring.

@@ -88,7 +88,7 @@ def bonded_rows(model, w, omega_2):
     """
     half = model.d.table.half
     rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F) for h, on in enumerate(w.pocket))
-    for h in range(2):
+    for h in range(2) if w.land else ():
         load = tuple(part[..., h, :] for part in w.land)
         rows = rows + land_path_rows(half, model.p.cage.land_x, 2 * h - 1, load)
     return rows + omega_2[..., None] * model.d.centrifugal

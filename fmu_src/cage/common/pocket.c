@@ -27,26 +27,9 @@
 // whose equator leaves the cage's section is reported (events.h), not modelled.
 #include "cage/common/pocket.h"
 
+#include "cage/common/pocket_forces.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
-#include "physics/traction.h"
-
-// Friction coefficient of a pocket at mean speed U and load Q.  The film is the thicker one of piezoviscous
-// and isoviscous-rigid lubrication.
-INLINE wide pocket_mu(const Model *model, wide ln_U, wide ln_Q, bool mixed)
-{
-    const wide film = wide_set(model->p->cage.mu);
-    if (!mixed) return film;
-    const wide ln_piezo = traction_ln_film(wide_set(model->d->ln_pocket_piezo), ln_U, ln_Q);
-    const wide ln_rigid = model->d->ln_pocket_rigid + 2.0 * (ln_U - ln_Q);
-    return film + traction_asperity_share(wide_max(ln_piezo, ln_rigid)) * (model->p->oil.mu_b - film);
-}
-
-// Adds v to the vectors stored at x, r, t.
-INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
-{
-    vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
-}
 
 // Approach of ball and wall without what the compliance c of the wall takes, delta_h + c w K delta_h^1.5 = delta, by
 // Newton's method.
@@ -159,27 +142,6 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
 }
 
-// Forces of a packet in which no ball touches its pocket.
-INLINE void pocket_clear(Pockets *pocket, int j)
-{
-    const vec none = {0};
-    wide_store(&pocket->Q[j], wide_set(0.0));
-    vec_store(none, &pocket->F_x[j], &pocket->F_r[j], &pocket->F_t[j]);
-    vec_store(none, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
-    vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
-}
-
-// Adds the forces of all pockets to their half.
-INLINE void add_pockets(const Pockets *pocket, Rotor *half)
-{
-    const scalar *F[3] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z};
-    const scalar *M[3] = {pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    for (int i = 0; i < 3; i++) {
-        half->F[i] += ball_array_sum(F[i]);
-        half->M[i] += ball_array_sum(M[i]);
-    }
-}
-
 // All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
 static void pocket_half(const Model *model, Work *w, int h, bool mixed)
 {
@@ -199,14 +161,9 @@ static void pocket_half(const Model *model, Work *w, int h, bool mixed)
     if (touched) add_pockets(pocket, half);
 }
 
-static bool is_mixed(const Model *model)
-{
-    return model->p->scene.lubrication == LUBRICATION_MIXED;
-}
-
 void pocket_rigid(const Model *model, Work *w)
 {
-    for (int h = 0; h < 2; h++) pocket_half(model, w, h, is_mixed(model));
+    for (int h = 0; h < 2; h++) pocket_half(model, w, h, pocket_is_mixed(model));
 }
 
 // A packet of pockets of an elastic half in which walls are touched.
@@ -274,7 +231,7 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
 // Stage by stage: the approaches, which take long for a packet, run for several packets at a time.
 void pocket_elastic(const Model *model, Work *w)
 {
-    const bool mixed = is_mixed(model);
+    const bool mixed = pocket_is_mixed(model);
     TouchedPacket packets[2 * PACKETS];
     WallPlaces places[2];
     int count = 0;

@@ -49,8 +49,10 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
     }
     const bool touched = half_path_rows(&rivet_table.half.path, forces, rows);
     if (!touched) memset(rows, 0, sizeof *rows);
-    const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
-    half_path_add_lands(&model->d->land_path, re, im, rows);
+    if (model->d->guided) {
+        const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
+        half_path_add_lands(&model->d->land_path, re, im, rows);
+    }
     for (int i = 0; i < ROWS; i++) {
         const wide spin = wide_set(omega_2 * model->d->centrifugal[i]);
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)

@@ -1,0 +1,189 @@
+"""Ball and pocket of a ribbon cage: in each half a sphere with a fillet and two edges.
+
+         x (pole)                      Half 1; half 0 is its mirror image.  The sphere's centre lies e = K - R_c beyond the split, K the
+      .--+--.    sheet                 depth of the pocket.
+    .'   |   '.                        q = (x, r, t): ball's centre from the sphere's centre, x toward the pole, r along the pocket's
+ --'     |     '--  land  -- split     radius, t along its tangent
+    fillet  ball                       g: reach of q in the plane of a rim (below)
+
+    sphere   delta = |q| - (R_c - R)                                 Q = K delta^1.5 (1 + 0.7 a/R),  a = sqrt(R_eff delta)
+    fillet   delta = R + rho - |(A - g, H - x)|,    A^2 + H^2 = (R_c + rho)^2,  H = rho + e,     round the pole
+    edges    delta = R + rho - |(A - g, H - |r|)|,  A^2 + H^2 = (R_c + rho)^2,  H = w/2 - rho,   round the pocket's radius
+
+R_eff = R R_c/(R_c - R).  Fillet and edges are rims: rings of the radius rho of their section that touch the sphere along a circle, the
+seam, the fillet's at sin chi_1 = H/(R_c + rho) from the split, the edges' at sin eta = H/(R_c + rho).  From there on they bend away from
+the ball, so that a rim's approach is never more than the sphere's and equals it where q points to the seam.  Hertz' law with the curvatures
+1/R + 1/rho across the rim and 1/R - 1/R_c along it.
+
+A rim ends at the others: the fillet lies between the edges, an edge between the fillets of both sides.  With u toward the middle of such an
+arc, v across and omega half of its opening,  g = sqrt(u^2 + v^2) within it, else u cos omega + v sin omega: the corner.
+
+The part of a patch on the sphere's side of a seam is that of the machined pocket's split (pocket.py), e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
+of the energy, xi = R_c sin(angle of q above the seam)/a, at most 1, a of the rim's approach: V = (1 - e_f) V_fillet + e_f ((1 - e_e) V_edge +
+e_e V_sphere).  V decides all: the force on the ball is -dV/dq = -Q n through its centre, the friction acts at the contact point p + R n.
+Energy and momentum are conserved exactly.
+
+A push along the tangent touches both halves at sin chi_0 = e/(R_c - R) if that is more than sin chi_1: each half has N = F sin(chi_0 +- beta)
+/sin 2 chi_0 of a push at the angle beta from the split, beyond chi_0 one half has all.  0.7 a/R: independent solution of an elastic ball in a
+spherical hole (tests/conforming_spheres.py).  Smoothness: C1 at touch-down, at the seams and where the second half begins to carry.  At a corner the force is
+continuous, its slope is not.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from bearing_model.cage.common.pocket import pocket_clear, pocket_mu
+from bearing_model.generated.variables import Lubrication
+from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
+from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
+from bearing_model.physics.hertz import hertz_damped
+from bearing_model.physics.traction import Q_FLOOR
+
+TIP = 1e-7  # over which the two ends of an arc change places [m]
+
+
+def arc_reach(rim, u, v):
+    """Reach g of (u, v) along the rim's arc, v >= 0, and its slopes along u and v."""
+    g = np.sqrt(u * u + v * v)
+    within = np.real(u * rim.sin_arc - v * rim.cos_arc) > 0.0
+    corner = u * rim.cos_arc + v * rim.sin_arc
+    return np.where(within, g, corner), np.where(within, u / g, rim.cos_arc), np.where(within, v / g, rim.sin_arc)
+
+
+def rim_contact(d, rim, g, h):
+    """Contact with a rim at the reach g in its plane and the height h above it: approach, energy, and its slope; part of the energy that the
+    sphere has, and its slopes along g and h; slopes of the approach.  The last two are (along g, along h).
+    """
+    off_g, off_h = rim.A - g, rim.H - h
+    apart = np.sqrt(off_g * off_g + off_h * off_h)
+    delta = rim.reach - d.slack - apart
+    slope = off_g / apart, off_h / apart
+    own = maximum(delta, 1e-30)
+    root = np.sqrt(own)
+    load = np.where(np.real(delta) > 0.0, rim.K * own * root, 0.0)
+
+    # angle of q beyond the seam: of the sphere, h below H is inside
+    m = np.sqrt(g * g + h * h)
+    inside = (g * rim.sin - h * rim.cos) / m
+    wide = d.radius / (d.a_delta * root)
+    xi = maximum(minimum(wide * inside, 1.0), -1.0)
+    xi_2 = xi * xi
+    share = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2))
+    steep = 15.0 / 16.0 * (1.0 - xi_2) * (1.0 - xi_2)
+    by_delta = -0.5 * steep * xi / own  # 0 where xi is at its bounds
+    by_angle = steep * wide / m
+    share_slope = (
+        by_angle * (rim.sin - inside * g / m) + by_delta * slope[0],
+        by_angle * (-rim.cos - inside * h / m) + by_delta * slope[1],
+    )
+    return SimpleNamespace(
+        delta=delta, energy=0.4 * load * own, load=load, slope=slope, share=share, share_slope=share_slope
+    )
+
+
+def spheres_contact(d, x, r, t):
+    """Elastic contact of a ball whose centre is at q = (x, r, t) from the sphere's: energy V [J], load Q [N], direction n (x, r, t) into the
+    wall, approach [m]; of a ball that the sphere does not reach, the sphere's.
+    """
+    R_r, T = np.sqrt(r * r + TIP**2), np.sqrt(t * t + TIP**2)
+    r_slope, t_slope = r / R_r, t / T
+
+    # sphere
+    s = np.sqrt(x * x + R_r * R_r + T * T)
+    delta = s - d.slack
+    own = maximum(delta, 0.0)
+    root = np.sqrt(maximum(own, 1e-30))
+    energy = d.K * own * own * (0.4 * root + d.more / 3.0 * own)
+    load = d.K * own * (root + d.more * own) / s
+
+    # rims, as slopes along x, |r|, |t|
+    g, g_t, g_r = arc_reach(d.fillet, T, R_r)
+    f = rim_contact(d, d.fillet, g, x)
+    k, k_x, k_t = arc_reach(d.edge, x, T)
+    edge = rim_contact(d, d.edge, k, R_r)
+    # above the fillet's seam lies the sphere, below the edge's
+    f.share, f.share_slope = 1.0 - f.share, (-f.share_slope[0], -f.share_slope[1])
+
+    inner = (1.0 - edge.share) * edge.energy + edge.share * energy
+    V = (1.0 - f.share) * f.energy + f.share * inner
+
+    # gradient
+    by_edge, of_edge, of_sphere = f.share * (energy - edge.energy), f.share * (1.0 - edge.share), f.share * edge.share
+    along_k = by_edge * edge.share_slope[0] + of_edge * edge.load * edge.slope[0]
+    along_r = by_edge * edge.share_slope[1] + of_edge * edge.load * edge.slope[1]
+    along_g = (inner - f.energy) * f.share_slope[0] + (1.0 - f.share) * f.load * f.slope[0]
+    along_x = (inner - f.energy) * f.share_slope[1] + (1.0 - f.share) * f.load * f.slope[1]
+    V_x = along_x + along_k * k_x + of_sphere * load * x
+    V_r = (along_r + along_g * g_r + of_sphere * load * R_r) * r_slope
+    V_t = (along_g * g_t + along_k * k_t + of_sphere * load * T) * t_slope
+    Q = np.sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60)
+    nearest = (1.0 - f.share) * f.delta + f.share * ((1.0 - edge.share) * edge.delta + edge.share * delta)
+    return V, Q, (V_x / Q, V_r / Q, V_t / Q), np.where(np.real(delta) > 0.0, nearest, delta)
+
+
+def spheres_gap(model, w, h):
+    """Where the balls are in the spheres of half h: axes a, b, e_t of the pockets, ball centre less geometric centre of the half p, and q
+    (x, r, t), x toward the pole.
+    """
+    d, half, side = model.d, w.half[h], 2 * h - 1
+    a, b_y, b_z, x_h = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.a, half.b_y, half.b_z, half.x))
+    b = d.pocket_cos * b_y + d.pocket_sin * b_z
+    e_t = vec_cross(a, b)
+    p = vec(w.x, w.r, 0.0) - x_h
+    q = side * vec_dot(p, a) + d.spheres.e, vec_dot(p, b) - d.spheres.r, vec_dot(p, e_t)
+    return SimpleNamespace(a=a, b=b, e_t=e_t, p=p, q=q, side=side)
+
+
+def spheres_forces(model, w, h, gap):
+    """Forces in the pockets of half h: sets w.pocket[h] and w.delta_c[h], adds to the balls."""
+    p, d, half = model.p, model.d, w.half[h]
+    v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
+    omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)
+    v = v_b - v_h - vec_cross(Omega, gap.p)
+
+    # normal force
+    _, Q_0, (n_x, n_r, n_t), w.delta_c[h] = spheres_contact(d.spheres, *gap.q)
+    pressed = np.real(Q_0) > 1e-12
+    Q_0 = np.where(pressed, Q_0, 0.0)
+    n_x = gap.side * n_x
+    n = n_x * gap.a + n_r * gap.b + n_t * gap.e_t
+    delta_dot = vec_dot(n, v)
+    Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
+
+    # friction at the contact point
+    arm = d.R * n
+    slip = vec_across(v + vec_cross(omega_b - Omega, arm), n)
+    slip_2 = vec_dot(slip, slip)
+    ln_U, ln_Q = 0.5 * np.log(0.25 * slip_2 + p.oil.U_0**2), np.log(Q + Q_FLOOR)
+    mixed = p.scene.lubrication == Lubrication.MIXED
+    g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / np.sqrt(slip_2 + p.cage.v_c**2)
+    F_s = -g * slip
+    F, M = F_s - Q * n, vec_cross(arm, F_s)
+
+    w.pocket[h] = SimpleNamespace(
+        Q=Q,
+        F=np.array([-vec_dot(F, gap.a), -vec_dot(F, gap.b), -vec_dot(F, gap.e_t)]),
+        push=np.array([Q * n_x, Q * n_t]),
+        half_F=vec_to_global(-F, w.cos_theta, w.sin_theta),
+        half_M=vec_to_global(-vec_cross(gap.p, F) - M, w.cos_theta, w.sin_theta),
+    )
+    half.F, half.M = half.F + ball_array_sum(w.pocket[h].half_F), half.M + ball_array_sum(w.pocket[h].half_M)
+
+    # on the balls
+    w.F, w.M = w.F + F, w.M + M
+    w.D = w.D + g / d.m * (1.0 - n * n)
+    w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
+    w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip)
+
+
+def spheres_rigid(model, w):
+    """Contacts of all pockets of two rigid ribbon halves, as pocket_rigid of machined ones."""
+    pocket_clear(w)
+    for h in range(2):
+        spheres_forces(model, w, h, spheres_gap(model, w, h))
+
+
+def spheres_energy(model, w):
+    """Elastic energy of all pockets [J], [..., Z]."""
+    return sum(spheres_contact(model.d.spheres, *spheres_gap(model, w, h).q)[0] for h in range(2))

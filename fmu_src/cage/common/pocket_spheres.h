@@ -1,0 +1,138 @@
+// Contact of the balls with the pockets of a ribbon cage.  Equations in pocket_spheres.c.
+#pragma once
+
+#include "numbers/isa.h"
+#include "numbers/vec.h"
+#include "physics/model.h"
+
+// Constants of the pockets of a ribbon cage; d->R and d->R_c are known.
+void spheres_derive(const Parameters *p, double E_star, Derived *d);
+
+// Radius of the pockets' edges [m]; sine of the angles at which the sphere ends: at the fillet, from the split, and at
+// the edges, from the middle of the cage's section.
+double spheres_edge(const Parameters *p);
+void spheres_seams(const Parameters *p, double *sin_chi, double *sin_eta);
+
+// Contacts of all pockets of two rigid halves, as pocket_rigid of machined ones.
+#define spheres_rigid FOR_ISA(spheres_rigid)
+void spheres_rigid(const Model *model, Work *w);
+
+static const double TIP = 1e-7;  // over which the two ends of an arc change places [m]
+
+// Where the ball is in the sphere of a half, in the frame of the ball.
+typedef struct {
+    vec a, b, e_t;  // axis of the half, radial direction of the pocket, tangent
+    vec p;          // ball centre - geometric centre of the half
+    wide x, r, t;   // q
+} SphereGap;
+
+INLINE SphereGap sphere_gap(const Derived *d, const Work *w, int h, int j)
+{
+    const Rotor *half = &w->half[h];
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    SphereGap gap;
+    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
+    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
+    gap.a = vec_local(half->a, cos_theta, sin_theta);
+    gap.b = vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
+    gap.e_t = vec_cross(gap.a, gap.b);
+    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+    gap.p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
+    gap.x = (h == 0 ? -1.0 : 1.0) * vec_dot(gap.p, gap.a) + d->spheres.e;
+    gap.r = vec_dot(gap.p, gap.b) - d->spheres.r;
+    gap.t = vec_dot(gap.p, gap.e_t);
+    return gap;
+}
+
+// Reach of (u, v) along a rim's arc, v >= 0, and its slopes along u and v.
+typedef struct {
+    wide g, u, v;
+} ArcReach;
+
+INLINE ArcReach arc_reach(const Rim *rim, wide u, wide v)
+{
+    const wide g = wide_sqrt(u * u + v * v), inv_g = 1.0 / g;
+    const bits within = wide_above(u * rim->sin_arc - v * rim->cos_arc, 0.0);
+    return (ArcReach){wide_select(within, g, u * rim->cos_arc + v * rim->sin_arc),
+                      wide_select(within, u * inv_g, wide_set(rim->cos_arc)),
+                      wide_select(within, v * inv_g, wide_set(rim->sin_arc))};
+}
+
+// Contact with a rim at the reach g in its plane and the height h above it.  share: part of the energy that the sphere
+// has where it lies below the seam; slopes along g and h.
+typedef struct {
+    wide delta, energy, load, slope_g, slope_h;
+    wide share, share_g, share_h;
+} RimContact;
+
+INLINE RimContact rim_contact(const Spheres *s, const Rim *rim, wide slack, wide g, wide h)
+{
+    const wide off_g = rim->A - g, off_h = rim->H - h, apart = wide_sqrt(off_g * off_g + off_h * off_h);
+    const wide inv_apart = 1.0 / apart;
+    RimContact c;
+    c.delta = rim->reach - slack - apart;
+    c.slope_g = off_g * inv_apart, c.slope_h = off_h * inv_apart;
+    const wide own = wide_max(c.delta, wide_set(1e-30)), root = wide_sqrt(own);
+    c.load = wide_select(wide_above(c.delta, 0.0), rim->K * own * root, wide_set(0.0));
+    c.energy = 0.4 * c.load * own;
+
+    // angle of q from the seam toward the sphere
+    const wide one = wide_set(1.0), inv_m = 1.0 / wide_sqrt(g * g + h * h);
+    const wide inside = (g * rim->sine - h * rim->cosine) * inv_m, width = s->radius / (s->a_delta * root);
+    const wide xi = wide_max(wide_min(width * inside, one), -one), xi_2 = xi * xi, rest = 1.0 - xi_2;
+    const wide steep = 15.0 / 16.0 * rest * rest;
+    const wide by_delta = -0.5 * steep * xi / own, by_angle = steep * width * inv_m;
+    c.share = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2));
+    c.share_g = by_angle * (rim->sine - inside * g * inv_m) + by_delta * c.slope_g;
+    c.share_h = by_angle * (-rim->cosine - inside * h * inv_m) + by_delta * c.slope_h;
+    return c;
+}
+
+// Elastic contact in a packet of pockets: energy, load, direction into the wall along the pocket's axes, approach; of a
+// ball that the sphere does not reach, the sphere's.
+typedef struct {
+    wide V, Q, n_x, n_r, n_t, delta;
+} SphereContact;
+
+// Whether a ball of the packet may touch: no rim reaches farther than the sphere.
+INLINE bool sphere_reached(wide slack, const SphereGap *gap, wide *delta)
+{
+    *delta = wide_sqrt(gap->x * gap->x + gap->r * gap->r + gap->t * gap->t + 2.0 * TIP * TIP) - slack;
+    return wide_any(wide_above(*delta, -1e-9));
+}
+
+INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r, wide t)
+{
+    const wide R = wide_sqrt(r * r + TIP * TIP), T = wide_sqrt(t * t + TIP * TIP);
+
+    // sphere
+    const wide distance = wide_sqrt(x * x + R * R + T * T), delta = distance - slack;
+    const wide own = wide_max(delta, wide_set(0.0)), root = wide_sqrt(wide_max(own, wide_set(1e-30)));
+    const wide energy = s->K * own * own * (0.4 * root + s->more / 3.0 * own);
+    const wide load = s->K * own * (root + s->more * own) / distance;
+
+    // rims; above the fillet's seam lies the sphere, below the edge's
+    const ArcReach g = arc_reach(&s->fillet, T, R), k = arc_reach(&s->edge, x, T);
+    const RimContact f = rim_contact(s, &s->fillet, slack, g.g, x);
+    const RimContact e = rim_contact(s, &s->edge, slack, k.g, R);
+    const wide above = 1.0 - f.share;
+    const wide inner = (1.0 - e.share) * e.energy + e.share * energy;
+    SphereContact c = {.V = f.share * f.energy + above * inner};
+
+    // gradient along x, |r|, |t|
+    const wide by_edge = above * (energy - e.energy), of_edge = above * (1.0 - e.share) * e.load;
+    const wide of_sphere = above * e.share * load, by_fillet = f.energy - inner, of_fillet = f.share * f.load;
+    const wide along_k = by_edge * e.share_g + of_edge * e.slope_g;
+    const wide along_r = by_edge * e.share_h + of_edge * e.slope_h;
+    const wide along_g = by_fillet * f.share_g + of_fillet * f.slope_g;
+    const wide along_x = by_fillet * f.share_h + of_fillet * f.slope_h;
+    const wide V_x = along_x + along_k * k.u + of_sphere * x;
+    const wide V_r = (along_r + along_g * g.v + of_sphere * R) * (r / R);
+    const wide V_t = (along_g * g.u + along_k * k.v + of_sphere * T) * (t / T);
+    c.Q = wide_sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60);
+    const wide inv_Q = 1.0 / c.Q;
+    c.n_x = V_x * inv_Q, c.n_r = V_r * inv_Q, c.n_t = V_t * inv_Q;
+    const wide nearest = f.share * f.delta + above * ((1.0 - e.share) * e.delta + e.share * delta);
+    c.delta = wide_select(wide_above(delta, 0.0), nearest, delta);
+    return c;
+}
