@@ -33,7 +33,7 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, materials, oil, rivet_heads, scaling
+from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling
 from .errors import UserError, unknown
 from .origin import EXAMPLE, SOURCE
 from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
@@ -52,6 +52,8 @@ CAGE_SIZES = (
     "cage_outer_diameter",
     "cage_inner_diameter",
     "cage_half_width",
+    "shape",
+    "pocket_fillet",
 )
 CAGE_MATERIAL = tuple(materials.PARTS["cage"].geometry.values())
 # the rivet's own, with the defaults
@@ -59,8 +61,12 @@ RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in (*CAGE_SIZ
 RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
 RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
 CAGE_MEANT = (
-    "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
-    "that many bearings of this designation carry is not modelled"
+    "Meant with a machined two-piece riveted cage, guided by the outer ring; for the pressed ribbon cage that many bearings "
+    "of this designation carry add --cage ribbon"
+)
+CAGES = ("machined", "ribbon")
+KINDS_OF_CAGE = dict(
+    zip(CAGES, ("a machined two-piece riveted cage", "a pressed two-piece riveted ribbon cage"), strict=True)
 )
 SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
 # the 6207's in a file that says neither them nor a designation
@@ -138,6 +144,7 @@ class Case:
             # without the rounding of the difference: the table's digest knows every bit
             "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),
             **materials.geometry_of("cage", self.materials["cage"]),
+            **({"shape": "ribbon", "pocket_fillet": v["cage.pocket_fillet"]} if ribbon.is_ribbon(v) else {}),
         } | self.rivet
 
     def equilibrium(self):
@@ -188,21 +195,23 @@ def is_bearing(source):
     return Path(source).is_file() and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
 
 
-def bearing_case(source, rivet=None):
+def bearing_case(source, rivet=None, cage=None):
     """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
 
     rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own
-    rivet.
+    rivet; cage: one of CAGES, None: the file's, else machined.
     """
+    if cage is not None and cage not in CAGES:
+        raise unknown("--cage", "shape", cage, CAGES)
     designation = str(source)
     if designation in catalogue.entries() and designation not in shipped_bearings():
-        description = f"Deep-groove ball bearing {designation} with a machined two-piece riveted cage"
+        description = f"Deep-groove ball bearing {designation} with {KINDS_OF_CAGE[cage or CAGES[0]]}"
         path, own, document = (
             f"catalogue bearing {designation}",
             "yours",
             {"designation": designation, "description": description},
         )
-        bare = True
+        bare = cage is None
     else:
         path = find_bearing(source)
         bare = designation in shipped_bearings()
@@ -214,7 +223,35 @@ def bearing_case(source, rivet=None):
         (path, keys), prefix = rivet, ""
         kept = {} if "shank_diameter" in keys else section_of(path, document, "rivet")
         document["rivet"] = kept | keys
-    return read_case(path, document, own, bare, prefix)
+    return read_case(path, with_cage(path, document, cage), own, bare, prefix)
+
+
+def with_cage(path, document, cage):
+    """The document with the cage's shape in its parameters, and of a ribbon with its usual materials."""
+    parameters = section_of(path, document, "parameters")
+    written = dict(flat(parameters)).get("cage.shape")
+    if cage is not None and written not in (None, cage):
+        raise refusal(path, "parameters.cage.shape", written, f"--cage {cage} asks for another one")
+    if (cage is None and written != "ribbon") or cage == CAGES[0]:
+        return document
+    if document.get("designation") == EXAMPLE and "bearing.D" in dict(flat(parameters)) and cage is not None:
+        raise refusal(
+            path,
+            "--cage",
+            cage,
+            f"the file is of the paper's bearing with its machined cage; name a file or {', '.join(['6205', '6309'])}",
+        )
+    of_cage = parameters.get("cage") if isinstance(parameters.get("cage"), dict) else {}
+    result = document | {"parameters": parameters | {"cage": of_cage | {"shape": "ribbon"}}}
+    for part, material in (("cage", ribbon.MATERIAL), ("rivet", ribbon.RIVET_MATERIAL)):
+        section = section_of(path, document, part)
+        if (
+            "material" not in section
+            and "material" not in of_cage
+            and not set(section) & set(materials.PARTS[part].properties)
+        ):
+            result[part] = {"material": material} | section
+    return result
 
 
 def check_designation(path, document):
@@ -370,16 +407,19 @@ def rules(Z, given, rivet, inputs, data, entry):
         )
     Z = Z or variables.Z
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
-    own_shape = bool(entry) or any(shape[name] != scaling.start(name) for name in SHAPE)
-    rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet)
+    own_shape = bool(entry) or ribbon.is_ribbon(given) or any(shape[name] != scaling.start(name) for name in SHAPE)
+    designation = entry.designation if entry else ""
+    rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet, data.get("bore"), designation)
     whole = rivet_by_rule | rivet
     if own_shape:
-        parameters = scaling.scaled_parameters(Z, D, d_m, given, whole, data.get("bore"), data.get("width"))
+        parameters = scaling.scaled_parameters(
+            Z, D, d_m, given, whole, data.get("bore"), data.get("width"), designation
+        )
         if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
             parameters["bearing.P_d"] = P_d
         seats = {"ring.bore": "bore", "ring.outside": "outside_diameter"}
         parameters |= {name: data[key] for name, key in seats.items() if key in data}
-        parameters["cage.material"] = materials.PARTS["cage"].material
+        parameters["cage.material"] = given.get("cage.material", materials.PARTS["cage"].material)
         by_rule = scaling.scaled_inputs(Z, D, d_m, inputs, data.get("C"))
     else:
         known = {name: value for name, value in defaults().items() if name not in ("cage.m", "cage.rho")} | given
@@ -406,6 +446,7 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     rivet = RIVET | rivet_by_rule | rivet
     return (
         numbers
+        | {"cage.shape": given.get("cage.shape", CAGES[0])}
         | {f"rivet.{name}": value for name, value in rivet.items()}
         | {f"catalogue.{key}": value for key, value in data.items()}
     )
@@ -423,7 +464,7 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
     a value, if otherwise than a bearing file does; inside: in_cage of a rivet's file.
     """
     values = limited_values(*parts)
-    broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
+    broken = next((limit for limit in limits.limits_of(values) if not limits.holds(limit, values)), None)
     if broken is None:
         return
     written = {

@@ -114,8 +114,8 @@ def column(elastic, node, force, pitch):
         elastic.patterns.pocket.start,
         len(elastic.points),
     )
-    result[pitch, first + 3 * node + np.arange(3)] = 0.5 * np.asarray(force)
-    result[pitch, first + 3 * (count + node) + np.arange(3)] = 0.5 * np.asarray(force)
+    result[pitch, first + 3 * node + np.arange(3)] = np.asarray(force)
+    result[pitch, first + 3 * (count + node) + np.arange(3)] = np.asarray(force)
     return result
 
 

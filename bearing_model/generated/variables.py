@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{190a8861-3067-72bc-e6b8-db4c07b4d186}"
+MODEL_GUID = "{38b81545-b7a5-9e6e-4f6c-4ee1340fe66a}"
 Z = 9
 
 
@@ -49,6 +49,7 @@ class CageMaterial(IntEnum):
     PA66_GF25 = 4
     PEEK = 5
     OWN = 6
+    DC04 = 7
 
 
 class CageShape(IntEnum):
