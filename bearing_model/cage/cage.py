@@ -17,7 +17,8 @@ from bearing_model.cage.common.cage_joint import cage_joint_kinematics
 from bearing_model.cage.common.films import N_HALVES, film_matrix, film_rates
 from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
-from bearing_model.cage.common.pocket_spheres import spheres_energy, spheres_rigid
+from bearing_model.cage.common.pocket_spheres import spheres_elastic, spheres_energy, spheres_rigid
+from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_acceleration,
     cage_elastic_joints,
@@ -127,7 +128,8 @@ def cage_rest(model, omega, y):
     """
     if model.modes is None:
         return
-    P = max(model.d.P_mean + model.d.centrifugal[ROW_DP] * omega**2, 0.0)
+    w = model.d.centrifugal[ROW_DP] * omega**2
+    P = max(model.d.P_mean + w, 0.0) + float(spin_bending(model.d.table.half, model.d.P_mean, w))
     S, (apart, _) = elastic_half_rest(model.modes, model.p.cage.m, omega**2, P)
     y[MODE_S][: len(S)] = S
     beta, gamma = y[CAGE_BETA][0], y[CAGE_GAMMA][0]
@@ -149,7 +151,7 @@ def cage_kinematics(model, y, w):
 def cage_pockets(model, w):
     """Contacts of balls and pockets: adds to balls and halves (race_contact_force before)."""
     if model.d.spheres:
-        spheres_rigid(model, w)
+        (spheres_elastic if model.modes else spheres_rigid)(model, w)
     else:
         (pocket_elastic if model.modes else pocket_rigid)(model, w)
 

@@ -195,9 +195,10 @@ typedef struct {
 
 // ---- the balls in the pockets of one half; written by pocket_force, 0 for pockets without contact ---------
 typedef struct {
-    ball_array Q;                             // contact load [N]
-    ball_array F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
-    ball_array push_x, push_t;                // its normal part
+    ball_array Q;               // contact load [N]
+    ball_array F_x, F_r, F_t;   // force on the half in the pocket's frame [N]
+    ball_array push_x, push_t;  // its normal part; on a ribbon its place from the sphere's centre [m]
+    ball_array radius;          // of the place on a ribbon, from the bearing's axis [m]
     ball_array half_F_x, half_F_y, half_F_z;  // force on the half, global frame
     ball_array half_M_x, half_M_y, half_M_z;  // moment on the half about its geometric centre, global frame
 } Pockets;

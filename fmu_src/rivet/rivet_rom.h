@@ -110,7 +110,9 @@ typedef struct {
     double m;    // mass [kg]
     double x_c;  // axial distance of the centre of mass from the split [m]
     HalfPath path;
-    double spin[ROWS];   // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
+    double spin[ROWS];  // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
+    int spin_steps;     // of a ribbon: S at equal steps of tau (spin_preload.h); 0: none
+    const double *spin_preload;
     const double *land;  // [LAND_WAVES][LAND_EACH][1 and x][ROWS] by a load on the rim (half_path.h)
     JointLaw law;
 } CageHalfData;
@@ -132,6 +134,7 @@ typedef struct {
     JointData joint;
     CageHalfData half;
     HalfModes modes;
+    int shape;  // of the half: 2 ribbon, else machined
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py

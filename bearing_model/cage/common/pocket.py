@@ -124,6 +124,7 @@ def pocket_contacts(model, w, h, gap, wall=None):
     w.pocket[h] = SimpleNamespace(
         Q=Q,
         F=np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)]),
+        radius=None,
         push=np.array([Q * n_x + F_across * n_t, Q * n_t - F_across * n_x]),
         half_F=vec_to_global(-F, w.cos_theta, w.sin_theta),
         half_M=vec_to_global(-vec_cross(gap.p, F) - M, w.cos_theta, w.sin_theta),
@@ -145,6 +146,12 @@ def pocket_clear(w):
     """No contacts yet."""
     w.pocket, w.delta_c, w.pocket_dissipated = [None, None], [None, None], 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
+
+
+def elastic_clear(e):
+    """No contacts with elastic walls yet."""
+    for name in ("wall_force", "touch_x", "touch_r", "touch_t", "touch_k", "touch_rate", "touch_chi", "touch_radius"):
+        setattr(e, name, [None, None])
 
 
 def pocket_rigid(model, w):
@@ -170,7 +177,7 @@ def pocket_elastic(model, w):
     """
     pocket_clear(w)
     e = w.elastic
-    e.wall_force, e.touch_x, e.touch_t, e.touch_k, e.touch_rate = ([None, None] for _ in range(5))
+    elastic_clear(e)
     for h in range(2):
         gap = pocket_gap(model, w, h)
         u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
@@ -182,5 +189,6 @@ def pocket_elastic(model, w):
         )
         k = 1.5 * Q_0
         e.touch_x[h], e.touch_t[h] = gap.n_x, gap.n_t
+        e.touch_r[h] = e.touch_chi[h] = e.touch_radius[h] = 0.0 * gap.n_x
         e.touch_k[h] = k / (maximum(gap.delta, 1e-30) + model.modes.compliance * k)
         e.touch_rate[h] = delta_dot + gap.n_x * u_dot[0] + gap.n_t * u_dot[2]

@@ -33,14 +33,18 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.cage.common.pocket import pocket_clear, pocket_mu
+from bearing_model.cage.common.pocket import elastic_clear, pocket_clear, pocket_mu
+from bearing_model.cage.elastic.elastic_wall import ribbon_wall_shapes
 from bearing_model.generated.variables import Lubrication
-from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
+from bearing_model.numbers.lanes import absolute, ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 from bearing_model.physics.hertz import hertz_damped
 from bearing_model.physics.traction import Q_FLOOR
 
 TIP = 1e-7  # over which the two ends of an arc change places [m]
+LEAST = 1e-12  # load of a pocket that counts as touched [N]
+APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
+NEWTON = 4  # steps for the wall's compliance
 
 
 def arc_reach(rim, u, v):
@@ -135,18 +139,86 @@ def spheres_gap(model, w, h):
     return SimpleNamespace(a=a, b=b, e_t=e_t, p=p, q=q, side=side)
 
 
-def spheres_forces(model, w, h, gap):
-    """Forces in the pockets of half h: sets w.pocket[h] and w.delta_c[h], adds to the balls."""
+def spheres_approach(d, c, q):
+    """spheres_contact at q with the compliance c of the wall under the contact in series [m/N]: the ball is at q - c Q n, by Newton's method;
+    V with the energy of the wall there.
+    """
+    V, Q, n, delta = spheres_contact(d, *q)
+    give = 0.0
+    for _ in range(NEWTON):
+        k = 1.5 * Q / maximum(delta, APPROACH_FLOOR)
+        give = maximum(give - (give - c * Q) / (1.0 + c * k), 0.0)
+        V, Q, n, delta = spheres_contact(d, *(x - give * n_i for x, n_i in zip(q, n, strict=True)))
+    return V + 0.5 * c * Q * Q, Q, n, delta
+
+
+def spheres_place(d, half, q):
+    """Place where a ball at q touches the wall of an elastic half: chi about the sphere's centre, seen along r, radius from the bearing's axis,
+    whether t < 0; slopes of chi and radius along q.
+
+    chi is clamped to the table's first node, the seam of the fillet, beyond which it has no slope.
+    """
+    x, r, t = q
+    ahead, aside = maximum(x, 0.0), absolute(t)
+    chi = np.arctan(ahead / maximum(aside, 1e-30))
+    rho_2 = x * x + t * t + TIP**2
+    back = np.real(t) < 0.0
+    above = np.real(chi) > half.chi[0]
+    chi_slope = (
+        np.where(above, aside / rho_2, 0.0),
+        0.0 * x,
+        np.where(above, -ahead * np.where(back, -1.0, 1.0) / rho_2, 0.0),
+    )
+    s_2 = x * x + r * r + t * t + TIP**2
+    to_wall = d.radius / np.sqrt(s_2)
+    across, along = d.r + to_wall * r, to_wall * t
+    radius = np.sqrt(across * across + along * along)
+    pull = (across * r + along * t) / s_2
+    by_r, by_t = to_wall * across / radius, to_wall * along / radius
+    less = to_wall * pull / radius
+    return maximum(chi, half.chi[0]), radius, back, chi_slope, (-less * x, by_r - less * r, by_t - less * t)
+
+
+def spheres_wall(model, w, h, gap):
+    """Motion of the walls of elastic half h where balls may touch: takes it from gap.q; velocity u_dot along the pocket's axes and shapes of the
+    modes [3, ..., Z, n]; slopes of the motion along q.
+    """
+    half, e = model.modes, w.elastic
+    chi, radius, back, chi_slope, radius_slope = spheres_place(model.d.spheres, half, gap.q)
+    shape, by_chi, by_r = ribbon_wall_shapes(half, gap.side, chi, radius, back)
+    delta = np.sqrt(sum(x * x for x in gap.q)) - model.d.spheres.slack
+    near = np.real(delta) + e.reach[h] > 0.0  # others cannot have been reached
+    q, q_dot = e.q[h], e.q_dot[h]
+    u, u_dot, u_chi, u_r = (
+        np.sum(a * b, axis=-1) * near for a, b in ((shape, q), (shape, q_dot), (by_chi, q), (by_r, q))
+    )
+    poleward = np.array([gap.side, 1.0, 1.0]).reshape(-1, *[1] * (u.ndim - 1))
+    gap.q = tuple(x - u_i for x, u_i in zip(gap.q, poleward * u, strict=True))
+    u_chi, u_r = poleward * u_chi, poleward * u_r
+    slopes = [u_chi * a + u_r * b for a, b in zip(chi_slope, radius_slope, strict=True)]  # of u, along x, r, t
+    signed = np.where(back, -chi, chi)
+    return SimpleNamespace(u_dot=u_dot, shape=shape, slopes=slopes, chi=signed, radius=radius)
+
+
+def spheres_forces(model, w, h, gap, wall=None):
+    """Forces in the pockets of half h: sets w.pocket[h] and w.delta_c[h], adds to the balls.  wall: of an elastic half (spheres_wall).  Returns
+    energy, direction n, loads and rate of approach, and the forces (x, r, t) on the walls.
+    """
     p, d, half = model.p, model.d, w.half[h]
     v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
     omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)
     v = v_b - v_h - vec_cross(Omega, gap.p)
+    if wall:
+        v = v - (wall.u_dot[0] * gap.a + wall.u_dot[1] * gap.b + wall.u_dot[2] * gap.e_t)
 
     # normal force
-    _, Q_0, (n_x, n_r, n_t), w.delta_c[h] = spheres_contact(d.spheres, *gap.q)
-    pressed = np.real(Q_0) > 1e-12
+    compliance = model.modes.compliance if wall else 0.0
+    V, Q_0, n_q, w.delta_c[h] = (
+        spheres_approach(d.spheres, compliance, gap.q) if wall else spheres_contact(d.spheres, *gap.q)
+    )
+    pressed = np.real(Q_0) > LEAST
     Q_0 = np.where(pressed, Q_0, 0.0)
-    n_x = gap.side * n_x
+    n_x, n_r, n_t = gap.side * n_q[0], n_q[1], n_q[2]
     n = n_x * gap.a + n_r * gap.b + n_t * gap.e_t
     delta_dot = vec_dot(n, v)
     Q = hertz_damped(Q_0, p.cage.lambda_, delta_dot)
@@ -160,11 +232,16 @@ def spheres_forces(model, w, h, gap):
     g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / np.sqrt(slip_2 + p.cage.v_c**2)
     F_s = -g * slip
     F, M = F_s - Q * n, vec_cross(arm, F_s)
+    if wall:  # the wall's place moves with the ball
+        tilt = [Q_0 * sum(n_i * u_i for n_i, u_i in zip(n_q, slope, strict=True)) for slope in wall.slopes]
+        F = F + (gap.side * tilt[0] * gap.a + tilt[1] * gap.b + tilt[2] * gap.e_t)
 
     w.pocket[h] = SimpleNamespace(
         Q=Q,
         F=np.array([-vec_dot(F, gap.a), -vec_dot(F, gap.b), -vec_dot(F, gap.e_t)]),
-        push=np.array([Q * n_x, Q * n_t]),
+        # place of the contact on the wall
+        push=np.array([gap.side * gap.q[0] + d.R * n_x, gap.q[2] + d.R * n_t]),
+        radius=np.sqrt((gap.q[1] + d.R * n_r + d.spheres.r) ** 2 + (gap.q[2] + d.R * n_t) ** 2),
         half_F=vec_to_global(-F, w.cos_theta, w.sin_theta),
         half_M=vec_to_global(-vec_cross(gap.p, F) - M, w.cos_theta, w.sin_theta),
     )
@@ -175,6 +252,8 @@ def spheres_forces(model, w, h, gap):
     w.D = w.D + g / d.m * (1.0 - n * n)
     w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
     w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip)
+    on_wall = [Q * n_i - vec_dot(F_s, axis) for n_i, axis in ((n_x, gap.a), (n_r, gap.b), (n_t, gap.e_t))]
+    return SimpleNamespace(V=V, Q_0=Q_0, n=(n_x, n_r, n_t), delta_dot=delta_dot, on_wall=on_wall)
 
 
 def spheres_rigid(model, w):
@@ -184,6 +263,28 @@ def spheres_rigid(model, w):
         spheres_forces(model, w, h, spheres_gap(model, w, h))
 
 
+def spheres_elastic(model, w):
+    """The same of two elastic halves, as pocket_elastic of machined ones."""
+    pocket_clear(w)
+    e = w.elastic
+    elastic_clear(e)
+    e.wall_energy = [None, None]
+    for h in range(2):
+        gap = spheres_gap(model, w, h)
+        wall = spheres_wall(model, w, h, gap)
+        at = spheres_forces(model, w, h, gap, wall)
+        e.wall_force[h] = sum(
+            np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(at.on_wall, wall.shape, strict=True)
+        )
+        k = 1.5 * at.Q_0
+        e.touch_x[h], e.touch_r[h], e.touch_t[h] = at.n
+        e.touch_k[h] = k / (maximum(w.delta_c[h], 1e-30) + model.modes.compliance * k)
+        e.touch_rate[h] = at.delta_dot + sum(n_i * u_i for n_i, u_i in zip(at.n, wall.u_dot, strict=True))
+        e.touch_chi[h], e.touch_radius[h], e.wall_energy[h] = wall.chi, wall.radius, at.V
+
+
 def spheres_energy(model, w):
-    """Elastic energy of all pockets [J], [..., Z]."""
+    """Elastic energy of all pockets [J], [..., Z]; of elastic walls also that in their compliance, beside their modes."""
+    if model.modes:
+        return w.elastic.wall_energy[0] + w.elastic.wall_energy[1]
     return sum(spheres_contact(model.d.spheres, *spheres_gap(model, w, h).q)[0] for h in range(2))

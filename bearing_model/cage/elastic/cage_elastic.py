@@ -40,6 +40,7 @@ from bearing_model.cage.common.cage_joint import (
     cage_joint_loads,
 )
 from bearing_model.cage.common.joint_law import law_answer, law_places, law_sum
+from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.elastic.elastic_half import IN, ROOT, circle
 from bearing_model.cage.elastic.half_modes import OUT
 from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT
@@ -135,7 +136,8 @@ def cage_elastic_speed_2(w):
 def cage_elastic_preload(model, omega_2):
     """Preloads [N] with the addition of the centrifugal load of that speed."""
     d = model.d
-    return maximum(d.P + d.centrifugal[ROW_DP] * omega_2, 0.0)
+    w = d.centrifugal[ROW_DP] * omega_2
+    return maximum(d.P + w + spin_bending(d.table.half, d.P, w), 0.0)
 
 
 def add_moments(model, w):

@@ -23,7 +23,7 @@ from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_stiffness,
 )
 from bearing_model.cage.elastic.elastic_half import ROOT, circle, joints_in, joints_out
-from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape
+from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
 from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_BETA_DOT,
@@ -58,7 +58,9 @@ class FastState:
     u: np.ndarray  # their offsets in it [2, Z]
     T: np.ndarray  # loads of rivets and plates [Z]
     N_plate: np.ndarray
-    touch: list  # of each half: direction (x, t), stiffness, rate of the approach, load of its contacts [5, Z]
+    # of each half: direction (x, t), stiffness, rate of the approach, load of its contacts; of a ribbon direction r, place chi (negative
+    # on the side t < 0) and radius [8, Z]
+    touch: list
     omega_2: float  # square of the halves' speed in space
     modes: np.ndarray  # accelerations by joints and springs [2, n]
     rigid: np.ndarray  # accelerations of the relative motions at the joints [6]
@@ -124,7 +126,12 @@ def cage_substeps_split(model, y, w, f):
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
     f[WORK] += np.sum(w.joint_dissipated) + e.dissipated
-    touch = [np.array([e.touch_x[h], e.touch_t[h], e.touch_k[h], e.touch_rate[h], w.pocket[h].Q]) for h in range(2)]
+    names = ("touch_x", "touch_t", "touch_k", "touch_rate")
+    places = ("touch_r", "touch_chi", "touch_radius")
+    touch = [
+        np.array([*(getattr(e, n)[h] for n in names), w.pocket[h].Q, *(getattr(e, n)[h] for n in places)])
+        for h in range(2)
+    ]
     omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
     return FastState(j.e.copy(), j.u.copy(), j.rivet[0].copy(), j.N_plate.copy(), touch, omega_2, modes, rigid)
 
@@ -134,11 +141,15 @@ class Touches:
 
     def __init__(self, model, fast, q):
         self.m, self.rows = model.p.cage.m, []
-        for h, (n_x, n_t, k, rate, Q) in enumerate(fast.touch):
+        for h, (n_x, n_t, k, rate, Q, n_r, chi, radius) in enumerate(fast.touch):
             if not np.any(k > 0.0):
                 continue
-            shape = elastic_wall_shape(model.modes, 2 * h - 1, n_x, n_t)[0]  # [3, Z, n]
-            normal = (n_x[:, None] * shape[0] + n_t[:, None] * shape[2]) / ROOT
+            if model.d.spheres:
+                shape = ribbon_wall_shapes(model.modes, 2 * h - 1, np.abs(chi), radius, chi < 0.0)[0]
+                normal = sum(n[:, None] * along for n, along in zip((n_x, n_r, n_t), shape, strict=True)) / ROOT
+            else:
+                shape = elastic_wall_shape(model.modes, 2 * h - 1, n_x, n_t)[0]  # [3, Z, n]
+                normal = (n_x[:, None] * shape[0] + n_t[:, None] * shape[2]) / ROOT
             for j in np.flatnonzero(k > 0.0):
                 both = np.array([normal[j], (2 * h - 1) * normal[j]])
                 self.rows.append((k[j], rate[j], Q[j], both, np.sum(both * q)))

@@ -18,7 +18,7 @@ from bearing_model.cage.elastic.half_modes import (
     rivet_shapes,
     spin_load,
 )
-from bearing_model.generated.variables import Z
+from bearing_model.generated.variables import CageShape, Z
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
@@ -37,8 +37,11 @@ class ElasticHalf:
     pad: np.ndarray  # motions of the pads [n, 6, Z]
     wave: np.ndarray  # Re and Im of the wave at the pockets [n, 2, Z]
     chi: np.ndarray  # nodes of the wall's angle
-    pocket: np.ndarray  # (x, r, t) by Re and Im of the wave at the nodes [chi, n, 3, 2]
+    pocket: (
+        np.ndarray
+    )  # (x, r, t) by Re and Im of the wave at the nodes [chi, n, 3, 2], of a ribbon's table [radii, chi ...]
     slope: np.ndarray  # its slopes
+    radii: np.ndarray  # nodes of the wall's radius, none of a machined half [m]
     centrifugal: np.ndarray  # modal force per (rad/s)^2 [n]
     R: np.ndarray  # compliance that the modes leave between the pads of a joint, out of the plane [3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
@@ -76,13 +79,15 @@ def elastic_half_derive(p, d, table):
     wave = np.where(part[:, None, None] == 0.0, np.stack([c, -s], axis=1), np.stack([s, c], axis=1))
     omega, residual = frequencies(modes)[order], modes.residual
     shear = 2.0 * np.mean(np.diag(residual.pad[0])[IN])  # of both halves
-    pocket = unit * np.moveaxis(modes.pocket[entry], 1, 0)
+    pocket = unit * np.moveaxis(modes.pocket[entry], 0, -3)
+    ribbon = p.cage.shape == CageShape.RIBBON
     pad = unit * np.moveaxis(rivet_shapes(modes)[order][:, :, : len(PAD)], 1, 2)
     series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
     held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
     uniform = (modes.harmonic[entry] == 0) & (part == 0.0)
-    # [chi, n], at the nodes; between them a quarter farther at most
-    u_2 = np.sum(pocket[:, :, [0, 2]] ** 2, axis=(2, 3))
+    # [nodes, n]; between them a quarter farther at most
+    u_2 = np.sum(pocket[..., slice(None) if ribbon else [0, 2], :] ** 2, axis=(-2, -1)).reshape(-1, len(entry))
+    wall = residual.wall[..., WALL_NODE]
     mirrored = frequencies_2(
         p.cage.m,
         omega,
@@ -102,7 +107,8 @@ def elastic_half_derive(p, d, table):
         wave=wave,
         chi=table.half.chi,
         pocket=pocket,
-        slope=unit * np.moveaxis(modes.slope[entry], 1, 0),
+        slope=unit * np.moveaxis(modes.slope[entry], 0, -3),
+        radii=modes.radii,
         centrifugal=cage_centrifugal(p, table) * np.sqrt(table.half.m) * spin_load(table.modes)[order],
         reach_2=1.5625
         * np.max(np.sum(np.where(uniform, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
@@ -110,7 +116,7 @@ def elastic_half_derive(p, d, table):
         R=np.linalg.inv(law.stiffness),
         series=series,
         k_hole=k_hole,
-        compliance=residual.wall[WALL_NODE],
+        compliance=max(float(np.ravel(wall)[len(np.ravel(wall)) // 2]), 0.0) if ribbon else wall,
         mirrored=mirrored,
         substep=SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1])),
         law=law,

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from bearing_model.cage.two_half.half_path import radius_slopes, radius_weights
 from bearing_model.numbers.lanes import absolute, maximum
 
 
@@ -34,6 +35,45 @@ def elastic_wall_shape(half, side, n_x, n_t):
 
     on_wall = np.real(side * n_x) > 0.0
     return shapes(value), shapes(slope) * on_wall[..., None]
+
+
+def cubic_weights(half, chi):
+    """Node below chi, weights of the cubic (value, slope, next value, next slope) for the value and the slope over chi."""
+    i = np.clip(np.searchsorted(half.chi, np.real(chi), side="right") - 1, 0, len(half.chi) - 2)
+    h = half.chi[i + 1] - half.chi[i]
+    u = (chi - half.chi[i]) / h
+    v = 1.0 - u
+    value = v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v), -h * u * u * v
+    slope = -6.0 * u * v / h, v * (v - 2.0 * u), 6.0 * u * v / h, u * (u - 2.0 * v)
+    return i, value, slope
+
+
+def ribbon_wall_shapes(half, side, chi, r, back):
+    """Motions (x, r, t) [3, ..., Z, n] of the walls of a ribbon half by all modes at the places (chi, r) on the side t < 0 (back) or t > 0,
+    and their slopes over chi and over r.
+    """
+    i, value, slope = cubic_weights(half, chi)
+    sign = np.where(back, -1.0, 1.0)[..., None, None, None]
+    mirrored = np.concatenate([np.ones_like(sign), sign], axis=-1)
+    mirrored = np.stack([mirrored[..., 0, :], mirrored[..., 0, :], sign[..., 0, :] * mirrored[..., 0, :]], axis=-2)
+    wave = np.moveaxis(half.wave, 2, 0)[:, :, None, :]  # [Z, n, 1, 2]
+    on_radii = len(half.radii) > 0
+    radius, radius_dot = (
+        (radius_weights(half.radii, r), radius_slopes(half.radii, r)) if on_radii else ([1.0 + 0.0 * r], [0.0 * r])
+    )
+    U, U_slope = (x if on_radii else x[None] for x in (half.pocket, half.slope))
+
+    def shapes(weights, over):
+        A = sum(
+            (w * along)[..., None, None, None] * term
+            for along, at, at_slope in zip(over, U, U_slope, strict=True)
+            for w, term in zip(weights, (at[i], at_slope[i], at[i + 1], at_slope[i + 1]), strict=True)
+        )
+        return np.moveaxis(np.sum(A * mirrored * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(
+            -1, *[1] * (A.ndim - 2)
+        )
+
+    return shapes(value, radius), shapes(slope, radius), shapes(value, radius_dot)
 
 
 def elastic_wall(model, w, h, n_x, n_t, S, delta):

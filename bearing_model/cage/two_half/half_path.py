@@ -12,7 +12,7 @@ mirror image on the +x half does (V changes sign).
 
 import numpy as np
 
-from bearing_model.numbers.lanes import absolute, maximum
+from bearing_model.numbers.lanes import absolute, maximum, minimum
 
 ROWS = ("N", "V_r", "V_t", "M_r", "M_t", "dP", "dm_r", "dm_t")
 # of the rows N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t in the pocket's plane
@@ -63,7 +63,7 @@ def land_path_rows(half, x, side, load):
     """Rows [..., Z, 8] of all joints by the radial load (Re G_p, Im G_p [..., p]) on the rim of the half at `side`, at the
     distance x of the land from the split.
     """
-    rows = at_rivets(half.path.shape[1], PATH_MIRROR > 0.0, *by_waves(half.land, x, load))
+    rows = at_rivets(half.path.shape[-3], PATH_MIRROR > 0.0, *by_waves(half.land, x, load))
     return rows * (PATH_SIDE if side < 0 else 1.0)
 
 
@@ -104,20 +104,48 @@ def path_rows(chi, matrix, slopes, at):
     )
 
 
-def half_path_rows(half, side, push, force):
+def radius_weights(radii, r):
+    """Weights [radii, ...] of the nodes [radii] at the places r [...], which are clamped to them: Lagrange's polynomials."""
+    r = minimum(maximum(r, radii[0]), radii[-1])
+    return [np.prod([(r - b) / (a - b) for b in radii if b != a], axis=0) for a in radii]
+
+
+def radius_slopes(radii, r):
+    """Slopes of radius_weights over r; 0 where r is clamped."""
+    within = (np.real(r) > radii[0]) & (np.real(r) < radii[-1])
+    slopes = []
+    for a in radii:
+        others = [b for b in radii if b != a]
+        product = sum(
+            np.prod([(r - c) / (a - c) for c in others if c != b] or [1.0 + 0.0 * r], axis=0) / (a - b) for b in others
+        )
+        slopes.append(np.where(within, product, 0.0))
+    return slopes
+
+
+def half_path_rows(half, side, push, force, radius=None):
     """Rows [..., Z, 8] of all joints by the forces [3, ..., Z] (x, r, t) on the pockets of the half at `side` (+1 or -1).
 
-    Each force acts where its normal part push [2, ..., Z] (x, t) points on the wall: chi = atan(|push_x|/|push_t|).
+    Each force acts where its normal part push [2, ..., Z] (x, t) points on the wall: chi = atan(|push_x|/|push_t|).  On a ribbon
+    push is the place from the sphere's centre, and radius [..., Z] its distance from the bearing's axis.
     Leading axes are independent states.
     """
-    Z, shape = half.path.shape[1], np.shape(force)[1:]
+    Z, shape = half.path.shape[-3], np.shape(force)[1:]
     force, push = np.reshape(force, (3, -1, Z)), np.reshape(push, (2, -1, Z))
     rows = np.zeros((force.shape[1], Z, len(ROWS)), dtype=np.result_type(force, push))
     state, j = np.nonzero(np.any(force, axis=0))  # touched pockets
     if len(j):
         push_x, push_t = absolute(push[0, state, j]), absolute(push[1, state, j])
         back = np.real(push[1, state, j]) < 0.0
-        matrix = path_rows(half.chi, half.path, half.path_slope, np.arctan(push_x / maximum(push_t, 1e-30)))
+        chi = np.arctan(push_x / maximum(push_t, 1e-30))
+        if len(half.radii):
+            chi, r = maximum(chi, half.chi[0]), np.reshape(radius, (-1, Z))[state, j]
+            matrix = sum(
+                weight[:, None, None, None] * path_rows(half.chi, path, slope, chi)
+                for weight, path, slope in zip(radius_weights(half.radii, r), half.path, half.path_slope, strict=True)
+            )
+        else:
+            matrix = path_rows(half.chi, half.path, half.path_slope, chi)
         force = force[:, state, j] * np.array([side + 0.0 * j, 1.0 + 0.0 * j, np.where(back, -1.0, 1.0)])
         own = np.einsum("nkrf,fn->nkr", matrix, force)  # by the rivets behind the pocket
         own = np.where(back[:, None, None], own[:, ::-1] * PATH_MIRROR, own)

@@ -39,6 +39,7 @@ from bearing_model.cage.common.cage_joint import (
     cage_joint_loads,
 )
 from bearing_model.cage.common.films import HALF, N_HALVES
+from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.two_half.half_path import half_path_rows, land_path_rows
 from bearing_model.cage.two_half.joint_open import joints_open, joints_slip
 from bearing_model.generated.variables import (
@@ -87,7 +88,7 @@ def bonded_rows(model, w, omega_2):
     space [..., 1].
     """
     half = model.d.table.half
-    rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F) for h, on in enumerate(w.pocket))
+    rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F, on.radius) for h, on in enumerate(w.pocket))
     for h in range(2) if w.land else ():
         load = tuple(part[..., h, :] for part in w.land)
         rows = rows + land_path_rows(half, model.p.cage.land_x, 2 * h - 1, load)
@@ -101,8 +102,10 @@ def open_joints(model, w):
     N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(bonded_rows(model, w, omega_2), -1, 0)
     t.bonded_V = np.array([V_r, V_t])
     bonded = np.stack([t.pull - t.push + N, M_r, M_t], axis=-1)
-    P = d.intact * maximum(d.P + dP, 0.0)
-    spin_M, spin_P = omega_2 * d.centrifugal[ROW_M_T], maximum(d.P_mean + omega_2 * d.centrifugal[ROW_DP], 0.0)
+    half, spin_w = d.table.half, omega_2 * d.centrifugal[ROW_DP]
+    P = d.intact * maximum(d.P + (dP + spin_bending(half, d.P, spin_w)), 0.0)
+    spin_M = omega_2 * d.centrifugal[ROW_M_T]
+    spin_P = maximum(d.P_mean + spin_w + spin_bending(half, d.P_mean, spin_w), 0.0)
     load, rivet, _ = joints_open(
         d.table.half.law, bonded, P, spin_M[..., 0], spin_P[..., 0], intact=np.asarray(d.intact) > 0.0
     )

@@ -76,8 +76,11 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     wide_store(&pocket->F_x[j], wide_select(pressed, vec_dot(F_half, gap->a), zero));
     wide_store(&pocket->F_r[j], wide_select(pressed, vec_dot(F_half, gap->b), zero));
     wide_store(&pocket->F_t[j], wide_select(pressed, vec_dot(F_half, gap->e_t), zero));
-    wide_store(&pocket->push_x[j], Q * n_x);
-    wide_store(&pocket->push_t[j], Q * at->n_t);
+    // place of the contact on the wall
+    const wide place_r = gap->r + R * at->n_r + d->spheres.r, place_t = gap->t + R * at->n_t;
+    wide_store(&pocket->push_x[j], (h == 0 ? -1.0 : 1.0) * (gap->x + R * at->n_x));
+    wide_store(&pocket->push_t[j], place_t);
+    wide_store(&pocket->radius[j], wide_sqrt(place_r * place_r + place_t * place_t));
     scalar *const global[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
                                pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     vec_to_global(F_half, cos_theta, sin_theta, &global[0][j], &global[1][j], &global[2][j]);

@@ -26,6 +26,7 @@
 #include "cage/elastic/cage_elastic.h"
 
 #include "cage/common/cage_joint.h"
+#include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
@@ -184,6 +185,9 @@ void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P)
     const Derived *d = model->d;
     const scalar more_P = d->centrifugal[ROW_DP] * omega_2;
     for (int k = 0; k < LANES; k++) P[k] = scalar_max(d->P[k] + more_P, 0.0);
+    if (rivet_table.half.spin_steps > 0)
+        for (int k = 0; k < Z; k++)
+            P[k] = scalar_max(P[k] + spin_bending(&rivet_table.half, d->P[k], more_P), 0.0);
 }
 
 // Adds the moments of the joints to both halves.

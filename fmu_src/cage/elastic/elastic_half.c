@@ -2,6 +2,7 @@
 #include "cage/elastic/elastic_half.h"
 
 #include "cage/common/centrifugal.h"
+#include "cage/common/spin_preload.h"
 #include "numbers/elementary.h"
 #include "numbers/elimination.h"
 #include "rivet/rivet_rom.h"
@@ -275,7 +276,10 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
                          double *S)
 {
     double x[2] = {0.0, 0.0};
-    find_rest(p, half, omega * omega, fmax(d->P_mean + d->centrifugal[ROW_DP] * omega * omega, 0.0), x, S);
+    const double w = d->centrifugal[ROW_DP] * omega * omega;
+    double P = fmax(d->P_mean + w, 0.0);
+    if (rivet_table.half.spin_steps > 0) P += spin_bending(&rivet_table.half, d->P_mean, w);
+    find_rest(p, half, omega * omega, P, x, S);
     return x[0];
 }
 

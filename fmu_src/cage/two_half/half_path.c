@@ -7,25 +7,41 @@ enum { TERMS = 6, NODE = TERMS * Z * ROWS };  // of a node: terms, numbers of al
 
 _Static_assert(ROWS == 8, "the rows of a joint are an octet");
 
-// A touched pocket: its node in the table, and the weights of the terms of this node and of the next one.
+// A touched pocket: its node in the table, and the weights of the terms of this node and of the next one, on one radius.
 typedef struct {
     const float *node;
     scalar weight[2 * TERMS];
 } Touch;
 
-static Touch touch_of(const HalfPath *path, int side, const PathForces *on, scalar chi, int j)
+// Weight of the radius `node` at the place r, Lagrange's polynomial.
+static scalar radius_weight(const HalfPath *path, scalar r, int node)
+{
+    const double *at = path->radius;
+    scalar weight = 1.0;
+    r = scalar_min(scalar_max(r, at[0]), at[path->radii - 1]);
+    for (int i = 0; i < path->radii; i++)
+        if (i != node) weight *= (r - at[i]) / (at[node] - at[i]);
+    return weight;
+}
+
+static Touch touch_of(const HalfPath *path, int side, const PathForces *on, scalar chi, int j, int radius)
 {
     const bool back = scalar_value(on->push_t[j]) < 0.0;
     int i = 0;
+    if (path->radii > 0 && scalar_value(chi) < path->chi[0]) chi = path->chi[0];
     while (i < path->nodes - 2 && scalar_value(chi) >= path->chi[i + 1]) i++;
     const double h = path->chi[i + 1] - path->chi[i];
     const scalar u = (chi - path->chi[i]) / h, v = 1.0 - u;
     const scalar spline[4] = {v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v),
                               -h * u * u * v};
     const scalar force[3] = {side * on->F_x[j], on->F_r[j], back ? -on->F_t[j] : on->F_t[j]};
-    Touch touch = {.node = path->rows + (back * path->nodes + i) * NODE};
+    Touch touch = {.node = path->rows + ((2 * radius + back) * path->nodes + i) * NODE};
     for (int n = 0; n < 4; n++)
         for (int f = 0; f < 3; f++) touch.weight[3 * n + f] = spline[n] * force[f];
+    if (path->radii > 0) {
+        const scalar weight = radius_weight(path, on->radius[j], radius);
+        for (int n = 0; n < 2 * TERMS; n++) touch.weight[n] *= weight;
+    }
     return touch;
 }
 
@@ -68,8 +84,11 @@ bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows
                 if (!(mask & 1)) continue;
                 if (!touched) memset(joint, 0, sizeof joint);
                 touched = true;
-                const Touch touch = touch_of(path, h == 0 ? -1 : 1, &on[h], chi[j - p * LANE_WIDTH], j);
-                add_touch(&touch, j, joint);
+                for (int radius = 0; radius < (path->radii > 0 ? path->radii : 1); radius++) {
+                    const Touch touch =
+                        touch_of(path, h == 0 ? -1 : 1, &on[h], chi[j - p * LANE_WIDTH], j, radius);
+                    add_touch(&touch, j, joint);
+                }
             }
         }
         if (h == 0 && touched)  // of the mirrored forces

@@ -16,6 +16,10 @@
 //     dP, dm_r, dm_t          what its rivet gets beside the joint's law, because the half gives under its head:
 //                             change of preload, bending of its shank
 //
+// On the sphere of a ribbon's pocket chi is the place's angle about the sphere's centre, from the fillet's seam on, and its
+// distance r from the bearing's axis is a second coordinate: Lagrange's parabola through the rows of three radii.  Places
+// beyond the nodes are on the first or the last one.
+//
 // Over chi they are cubic Hermite splines, C1.  All pockets are alike, so the rows of rivet k by a force on
 // pocket j depend on (k - j) mod Z only.  push_t < 0 acts as the mirror image about the pocket does (rivet
 // -1 - i for i; V_t, M_r and dm_r change sign), a force on the -x half as its mirror image on the +x half does
@@ -53,7 +57,10 @@ static inline int land_harmonic(int n, int each)
 typedef struct {
     int nodes;
     const double *chi;  // [nodes] from 0 to pi/2 [rad]
-    const float *rows;  // [push_t >= 0, < 0][nodes][value, slope][force x, r, |t|][k - j mod Z][ROWS]
+    // [radius of a ribbon][push_t >= 0, < 0][nodes][value, slope][force x, r, |t|][k - j mod Z][ROWS]
+    const float *rows;
+    int radii;             // of a ribbon 3, else 0
+    const double *radius;  // [m]
 } HalfPath;
 
 // Rows of all joints [N, N.m].
@@ -61,9 +68,10 @@ typedef struct {
     ball_array row[ROWS];
 } PathRows;
 
-// Forces on the pockets of one half and their normal parts, in the pockets' frames [N].
+// Forces on the pockets of one half and their normal parts, in the pockets' frames [N]; on a ribbon, places (x, t) from the
+// sphere's centre instead of these parts, and radii [m].
 typedef struct {
-    const scalar *F_x, *F_r, *F_t, *push_x, *push_t;
+    const scalar *F_x, *F_r, *F_t, *push_x, *push_t, *radius;
 } PathForces;
 
 // Adds to the rows of all joints those by the loads on the rims of the halves 0 and 1, Re and Im G_p.

@@ -26,6 +26,7 @@
 #include "cage/two_half/two_half.h"
 
 #include "cage/common/cage_joint.h"
+#include "cage/common/spin_preload.h"
 #include "cage/two_half/joint_open.h"
 #include "numbers/elimination.h"
 
@@ -45,7 +46,7 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
     PathForces forces[2];
     for (int h = 0; h < 2; h++) {
         const Pockets *on = &w->pocket[h];
-        forces[h] = (PathForces){on->F_x, on->F_r, on->F_t, on->push_x, on->push_t};
+        forces[h] = (PathForces){on->F_x, on->F_r, on->F_t, on->push_x, on->push_t, on->radius};
     }
     const bool touched = half_path_rows(&rivet_table.half.path, forces, rows);
     if (!touched) memset(rows, 0, sizeof *rows);
@@ -60,6 +61,16 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
     }
 }
 
+// Adds the bending of a ribbon's lands to the rows of the preload; returns its addition to the mean preload.
+static scalar bend_lands(const Derived *d, scalar omega_2, PathRows *rows)
+{
+    const CageHalfData *half = &rivet_table.half;
+    if (half->spin_steps == 0) return 0.0;
+    const scalar w = omega_2 * d->centrifugal[ROW_DP];
+    for (int k = 0; k < Z; k++) rows->row[ROW_DP][k] += spin_bending(half, d->P[k], w);
+    return spin_bending(half, d->P_mean, w);
+}
+
 // Loads of the joints by their springs' forces and the load path.
 static void open_joints(const Model *model, Work *w)
 {
@@ -70,6 +81,7 @@ static void open_joints(const Model *model, Work *w)
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
     const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1);
     bonded_rows(model, w, omega_2, &rows);
+    const scalar bending = bend_lands(d, omega_2, &rows);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide rigid = wide_load(&t->pull[k]) - wide_load(&t->push[k]);
         wide_store(&bonded[0][k], rigid + wide_load(&rows.row[ROW_N][k]));
@@ -81,7 +93,7 @@ static void open_joints(const Model *model, Work *w)
         wide_store(&t->bonded_V[1][k], wide_load(&rows.row[ROW_V_T][k]));
     }
     const scalar spin_M = omega_2 * d->centrifugal[ROW_M_T],
-                 spin_P = scalar_max(d->P_mean + omega_2 * d->centrifugal[ROW_DP], 0.0);
+                 spin_P = scalar_max(d->P_mean + omega_2 * d->centrifugal[ROW_DP] + bending, 0.0);
     joints_open(&rivet_table.half.law, bonded, P, d->intact, spin_M, spin_P, t->load, t->rivet);
 
     // The plates of a joint without a rivet are pressed by the springs alone.
