@@ -95,7 +95,7 @@ def limits_of(g):
 
 def has_bridges(g):
     """Whether there is metal between the pockets, without which a half has no mass by its drawing."""
-    return (ribbon_shape.land_half_length(g) if g.shape == "ribbon" else narrowest_half_bar(g)) > 0.0
+    return ribbon_shape.exists(g) if g.shape == "ribbon" else narrowest_half_bar(g) > 0.0
 
 
 def check_half(g):

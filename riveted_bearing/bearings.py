@@ -473,7 +473,11 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
         for name, value in flat(document.get(section, {}), f"{section}.")
     }
     written |= dict(flat(document.get("parameters", {}))) | {key: document[key] for key in ("Z",) if key in document}
-    own = [name for name in written if name in values and name not in broken.keys and not name.startswith("oil.")]
+    own = [
+        name
+        for name in written
+        if is_number(values.get(name)) and name not in broken.keys and not name.startswith("oil.")
+    ]
     keys = [*(key for key in broken.keys if key in written), *own, *(key for key in broken.keys if key not in written)]
     for key in keys:
         allowed = limits.bound(broken, values[key], lambda value, key=key: limited_values(*changed(parts, key, value)))
