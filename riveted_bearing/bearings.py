@@ -223,17 +223,18 @@ def bearing_case(source, rivet=None, cage=None):
         (path, keys), prefix = rivet, ""
         kept = {} if "shank_diameter" in keys else section_of(path, document, "rivet")
         document["rivet"] = kept | keys
-    return read_case(path, with_cage(path, document, cage), own, bare, prefix)
+    document, usual = with_cage(path, document, cage)
+    return read_case(path, document, own, bare, prefix, usual)
 
 
 def with_cage(path, document, cage):
-    """The document with the cage's shape in its parameters, and of a ribbon with its usual materials."""
+    """The document with the cage's shape in its parameters, and of a ribbon with its usual materials; parts that have them."""
     parameters = section_of(path, document, "parameters")
     written = dict(flat(parameters)).get("cage.shape")
     if cage is not None and written not in (None, cage):
         raise refusal(path, "parameters.cage.shape", written, f"--cage {cage} asks for another one")
     if (cage is None and written != "ribbon") or cage == CAGES[0]:
-        return document
+        return document, ()
     if document.get("designation") == EXAMPLE and "bearing.D" in dict(flat(parameters)) and cage is not None:
         raise refusal(
             path,
@@ -242,7 +243,7 @@ def with_cage(path, document, cage):
             f"the file is of the paper's bearing with its machined cage; name a file or {', '.join(['6205', '6309'])}",
         )
     of_cage = parameters.get("cage") if isinstance(parameters.get("cage"), dict) else {}
-    result = document | {"parameters": parameters | {"cage": of_cage | {"shape": "ribbon"}}}
+    result, usual = document | {"parameters": parameters | {"cage": of_cage | {"shape": "ribbon"}}}, []
     for part, material in (("cage", ribbon.MATERIAL), ("rivet", ribbon.RIVET_MATERIAL)):
         section = section_of(path, document, part)
         if (
@@ -251,7 +252,8 @@ def with_cage(path, document, cage):
             and not set(section) & set(materials.PARTS[part].properties)
         ):
             result[part] = {"material": material} | section
-    return result
+            usual.append(part)
+    return result, tuple(usual)
 
 
 def check_designation(path, document):
@@ -269,8 +271,10 @@ def check_designation(path, document):
         raise UserError(f"{problem}; one that the catalogue does not have needs {', '.join(missing)} too")
 
 
-def read_case(path, document, own, bare=False, prefix="rivet."):
-    """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages."""
+def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
+    """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages; usual:
+    parts whose material follows from the cage's shape.
+    """
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
@@ -298,6 +302,10 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
+    for part in usual:
+        where = materials.PARTS[part]
+        origin |= dict.fromkeys((name for name in (where.named, *where.parameters.values()) if name in given), "rule")
+        found[part] = replace(found[part], given=())
     for part, material in found.items():  # a named material's, scaled to a strength of the file
         names = (materials.PARTS[part].parameters[key] for key in material.by_rule)
         origin |= dict.fromkeys((name for name in names if name in given), "rule")
@@ -632,18 +640,20 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def case_of(target=None, fmu=None):
+def case_of(target=None, fmu=None, cage=None):
     """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the
     FMU itself, and without both EXAMPLE.
 
-    fmu: path of the FMU, None for the default one.
+    fmu: path of the FMU, None for the default one; cage: one of CAGES, of a bearing only.
     """
     target = EXAMPLE if target is None and fmu is None else target
     names = [*known_bearings(), *shipped_scenes()]
     if target is not None and str(target) not in names and not Path(target).is_file():
         raise unknown("info", "bearing, scene or file", target, names)
     if target is not None and is_bearing(target):
-        return bearing_case(target)
+        return bearing_case(target, cage=cage)
+    if cage is not None:
+        raise UserError(f"--cage {cage}: a scene runs in an FMU, whose cage is fixed; name a bearing")
     from .fmu import Model
 
     return scene_case(target, Model(fmu))

@@ -34,6 +34,7 @@ from .errors import UserError, extra, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .materials import PARTS
 from .results import cache_folder, make_folder, to_toml, write_atomically
+from .ribbon import is_ribbon
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 from .scene import Scene
 
@@ -202,7 +203,8 @@ def fmu_description(case, table):
     parts += [
         f"{case.Z} balls of {1e3 * case.values['bearing.D']:.4g} mm, rivets of {1e3 * shank:.4g} mm ({case.materials['rivet'].name})"
     ]
-    parts += [f"Cage: {case.materials['cage'].words()}"]
+    kind = "Pressed ribbon cage" if is_ribbon(case.values) else "Cage"
+    parts += [f"{kind}: {case.materials['cage'].words()}"]
     parts += [CAGE_MEANT] if case.bare else []
     parts += [f"Stress table of the rivets: {table_text(table)}"]
     return ". ".join(parts)

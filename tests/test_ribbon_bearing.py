@@ -27,7 +27,8 @@ def test_sizes_of_the_handbook(designation, sheet, depth, radius, ring, shank):
     assert case.rivet["shank_diameter"] == pytest.approx(shank * MM)
     assert case.rivet["head_diameter"] == pytest.approx(1.6 * shank * MM)
     assert v["cage.guidance"] == "balls" and case.materials["cage"].name == "DC04"
-    assert {case.origin[name] for name in ("cage.sheet", "cage.pocket_depth", "cage.pocket_fillet")} == {"rule"}
+    names = ("cage.sheet", "cage.pocket_depth", "cage.pocket_fillet", "cage.E", "fatigue.sigma_m")
+    assert {case.origin[name] for name in names} == {"rule"} and case.origin["cage.shape"] == "yours"
 
 
 @pytest.mark.parametrize("designation", ["6005", "6205", "6309", "6316", "6010", "6222"])
