@@ -17,7 +17,7 @@ void cage_kinematics(const Model *model, const scalar *y, Work *w)
 void cage_pockets(const Model *model, Work *w)
 {
     if (model->d->spheres.on)
-        spheres_rigid(model, w);
+        (model->modes ? spheres_elastic : spheres_rigid)(model, w);
     else
         (model->modes ? pocket_elastic : pocket_rigid)(model, w);
 }

@@ -54,6 +54,10 @@ static scalar spheres_energy(const Model *model, const Work *w)
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         wide V = wide_set(0.0);
         for (int h = 0; h < 2; h++) {
+            if (model->modes) {
+                V += wide_load(&w->elastic.wall_energy[h][j]);
+                continue;
+            }
             const SphereGap gap = sphere_gap(model->d, w, h, j);
             V += sphere_contact(s, wide_load(&s->slack[j]), gap.x, gap.r, gap.t).V;
         }

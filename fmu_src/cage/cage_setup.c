@@ -85,6 +85,9 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->touch_k[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
            values_are_within(fast->touch_rate[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
            values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
+           values_are_within(fast->touch_r[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch_chi[0], 2 * LANES, 2.0 * motion) &&
+           values_are_within(fast->touch_radius[0], 2 * LANES, 10.0 * motion) &&
            values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);

@@ -34,13 +34,22 @@
 #include "cage/common/pocket_spheres.h"
 
 #include "cage/common/pocket_forces.h"
+#include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 
 static const double LEAST = 1e-12;  // load of a pocket that counts as touched [N]
 
-// Forces in a packet of pockets, stored for the half and added to the balls.
+// The walls of a packet: velocity along the pocket's axes; force on the ball beside the contact's by the place's motion with
+// it, per load and unit of n, slope[i][c] of the motion c toward the pole, r, t over the ball's place i.
+typedef struct {
+    ball_array u_dot[3], slope[3][3];
+} SphereWalls;
+
+// Forces in a packet of pockets, stored for the half and added to the balls.  walls: of an elastic half, or NULL; their
+// forces (x, r, t) are stored in on_wall, the rate of the approach in rate.
 INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const SphereGap *gap,
-                          const SphereContact *at, bits pressed, bool mixed)
+                          const SphereContact *at, bits pressed, bool mixed, const SphereWalls *walls,
+                          ball_array on_wall[3], wide *rate)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -54,7 +63,12 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
     const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
     const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
-    const vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, gap->p));
+    vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, gap->p));
+    if (walls) {
+        const vec along = vec_axpy(wide_load(&walls->u_dot[0][j]), gap->a,
+                                   vec_scale(wide_load(&walls->u_dot[2][j]), gap->e_t));
+        v = vec_sub(v, vec_axpy(wide_load(&walls->u_dot[1][j]), gap->b, along));
+    }
     const wide delta_dot = vec_dot(n, v);
     const wide Q = wide_select(pressed, hertz_damped(at->Q, wide_set(p->cage.lambda), delta_dot), zero);
 
@@ -69,7 +83,22 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     const vec F_s = vec_scale(-g, slip);
 
     // A pocket without contact beside others in its packet adds -0, as in pocket.c.
-    const vec F = vec_where(pressed, vec_axpy(-Q, n, F_s)), M = vec_where(pressed, vec_cross(arm, F_s));
+    vec F = vec_axpy(-Q, n, F_s);
+    if (walls) {
+        wide tilt[3];
+        for (int i = 0; i < 3; i++)
+            tilt[i] = at->Q * (at->n_x * wide_load(&walls->slope[i][0][j]) +
+                               at->n_r * wide_load(&walls->slope[i][1][j]) +
+                               at->n_t * wide_load(&walls->slope[i][2][j]));
+        const vec along = vec_axpy((h == 0 ? -1.0 : 1.0) * tilt[0], gap->a, vec_scale(tilt[2], gap->e_t));
+        F = vec_add(F, vec_axpy(tilt[1], gap->b, along));
+        wide_store(&on_wall[0][j], Q * n_x - vec_dot(F_s, gap->a));
+        wide_store(&on_wall[1][j], Q * at->n_r - vec_dot(F_s, gap->b));
+        wide_store(&on_wall[2][j], Q * at->n_t - vec_dot(F_s, gap->e_t));
+        *rate = delta_dot;
+    }
+    F = vec_where(pressed, F);
+    const vec M = vec_where(pressed, vec_cross(arm, F_s));
     const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(gap->p, F_half), M);
 
     wide_store(&pocket->Q[j], Q);
@@ -119,10 +148,171 @@ void spheres_rigid(const Model *model, Work *w)
             }
             wide_store(&w->delta_c[h][j], at.delta);
             if (wide_any(pressed)) {
-                sphere_forces(model, w, h, j, &gap, &at, pressed, mixed);
+                sphere_forces(model, w, h, j, &gap, &at, pressed, mixed, NULL, NULL, NULL);
                 touched = true;
             } else
                 pocket_clear(&w->pocket[h], j);
+        }
+        if (touched) add_pockets(&w->pocket[h], &w->half[h]);
+    }
+}
+
+// ---- elastic halves -------------------------------------------------------------------------------------------------
+
+static const double APPROACH_FLOOR = 1e-12;  // least approach in the stiffness 3 Q/(2 delta) [m]
+
+enum { NEWTON = 4 };  // steps for the wall's compliance
+
+// The contact with the compliance c of the wall under it in series: the ball is at q - c Q n, by Newton's method; V with
+// the energy of the wall there.
+INLINE SphereContact sphere_approach(const Spheres *s, wide slack, wide c, const SphereGap *gap)
+{
+    SphereContact at = sphere_contact(s, slack, gap->x, gap->r, gap->t);
+    wide give = wide_set(0.0);
+    for (int i = 0; i < NEWTON; i++) {
+        const wide k = 1.5 * at.Q / wide_max(at.delta, wide_set(APPROACH_FLOOR));
+        give = wide_max(give - (give - c * at.Q) / (1.0 + c * k), wide_set(0.0));
+        at = sphere_contact(s, slack, gap->x - give * at.n_x, gap->r - give * at.n_r, gap->t - give * at.n_t);
+    }
+    at.V += 0.5 * c * at.Q * at.Q;
+    return at;
+}
+
+// The place where a ball at q touches the wall, and its slopes over q.  chi is clamped to the table's first node, the seam of
+// the fillet, beyond which it has no slope.
+typedef struct {
+    scalar chi[3], radius[3];
+} PlaceSlopes;
+
+static PlaceSlopes sphere_place(const Spheres *s, const ElasticHalf *half, const scalar q[3], RibbonWall *at)
+{
+    const scalar x = q[0], r = q[1], t = q[2], ahead = scalar_max(x, 0.0);
+    at->back = scalar_value(t) < 0.0;
+    const scalar aside = at->back ? -t : t, rho_2 = x * x + t * t + TIP * TIP;
+    at->chi = scalar_atan2(ahead, scalar_max(aside, 1e-30));
+    PlaceSlopes slopes = {{0.0}, {0.0}};
+    if (scalar_value(at->chi) > half->chi[0]) {
+        slopes.chi[0] = aside / rho_2;
+        slopes.chi[2] = (at->back ? ahead : -ahead) / rho_2;
+    } else
+        at->chi = half->chi[0];
+    const scalar s_2 = x * x + r * r + t * t + TIP * TIP, to_wall = s->radius / scalar_sqrt(s_2);
+    const scalar across = s->r + to_wall * r, along = to_wall * t;
+    at->radius = scalar_sqrt(across * across + along * along);
+    const scalar less = to_wall * ((across * r + along * t) / s_2) / at->radius;
+    slopes.radius[0] = -less * x;
+    slopes.radius[1] = to_wall * across / at->radius - less * r;
+    slopes.radius[2] = to_wall * along / at->radius - less * t;
+    return slopes;
+}
+
+// Motions of the walls of a packet of which the bits in `near` may be reached: taken from the gap.
+static void sphere_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
+                         SphereWalls *walls, RibbonWall at[LANE_WIDTH])
+{
+    const int side = 2 * h - 1;
+    ball_array q[3];
+    wide_store(&q[0][j], gap->x);
+    wide_store(&q[1][j], gap->r);
+    wide_store(&q[2][j], gap->t);
+    for (int c = 0; c < 3; c++) {
+        wide_store(&walls->u_dot[c][j], wide_set(0.0));
+        for (int i = 0; i < 3; i++) wide_store(&walls->slope[i][c][j], wide_set(0.0));
+    }
+    for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+        if (!(near >> lane & 1)) continue;
+        const int k = j + lane;
+        const scalar place[3] = {q[0][k], q[1][k], q[2][k]};
+        const PlaceSlopes by = sphere_place(&model->d->spheres, model->modes, place, &at[lane]);
+        ribbon_wall(model->modes, side, k, w->elastic.q[h], w->elastic.q_dot[h], &at[lane]);
+        for (int c = 0; c < 3; c++) {
+            const double poleward = c == 0 ? side : 1.0;
+            q[c][k] -= poleward * at[lane].u[c];
+            walls->u_dot[c][k] = at[lane].u_dot[c];
+            for (int i = 0; i < 3; i++)
+                walls->slope[i][c][k] =
+                    poleward * (at[lane].u_chi[c] * by.chi[i] + at[lane].u_radius[c] * by.radius[i]);
+        }
+    }
+    gap->x = wide_load(&q[0][j]), gap->r = wide_load(&q[1][j]), gap->t = wide_load(&q[2][j]);
+}
+
+// No contact in a packet.
+static void clear_walls(Work *w, int h, int j)
+{
+    const wide zero = wide_set(0.0);
+    ElasticWork *e = &w->elastic;
+    pocket_clear(&w->pocket[h], j);
+    wide_store(&e->touch_x[h][j], zero);
+    wide_store(&e->touch_r[h][j], zero);
+    wide_store(&e->touch_t[h][j], zero);
+    wide_store(&e->touch_k[h][j], zero);
+    wide_store(&e->touch_rate[h][j], zero);
+    wide_store(&e->touch_chi[h][j], zero);
+    wide_store(&e->touch_radius[h][j], zero);
+    wide_store(&e->wall_energy[h][j], zero);
+}
+
+// Contacts of a packet with the walls, modal forces on them.
+static void press_spheres(const Model *model, Work *w, int h, int j, const SphereGap *gap,
+                          const SphereContact *contact, bits pressed, const SphereWalls *walls,
+                          const RibbonWall at[LANE_WIDTH])
+{
+    ElasticWork *e = &w->elastic;
+    const wide zero = wide_set(0.0), side = wide_set(h == 0 ? -1.0 : 1.0);
+    ball_array on_wall[3];
+    wide rate;
+    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), walls, on_wall, &rate);
+    const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t}, k = 1.5 * contact->Q;
+    const wide stiffness = k / (wide_max(contact->delta, wide_set(1e-30)) + model->modes->compliance * k);
+    for (int c = 0; c < 3; c++) rate += n[c] * wide_load(&walls->u_dot[c][j]);
+    wide_store(&e->touch_x[h][j], wide_select(pressed, n[0], zero));
+    wide_store(&e->touch_r[h][j], wide_select(pressed, n[1], zero));
+    wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
+    wide_store(&e->touch_k[h][j], wide_select(pressed, stiffness, zero));
+    wide_store(&e->touch_rate[h][j], wide_select(pressed, rate, zero));
+    wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
+    wide_store(&e->touch_chi[h][j], zero);
+    wide_store(&e->touch_radius[h][j], zero);
+    const int mask = wide_mask(pressed);
+    for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+        if (!(mask >> lane & 1)) continue;
+        const int b = j + lane;
+        e->touch_chi[h][b] = at[lane].back ? -at[lane].chi : at[lane].chi;
+        e->touch_radius[h][b] = at[lane].radius;
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < N_MODES; i++) e->wall_force[h][i] += on_wall[c][b] * at[lane].shape[c][i];
+    }
+}
+
+void spheres_elastic(const Model *model, Work *w)
+{
+    const Spheres *s = &model->d->spheres;
+    const wide c = wide_set(model->modes->compliance);
+    for (int h = 0; h < 2; h++) {
+        bool touched = false;
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            SphereGap gap = sphere_gap(model->d, w, h, j);
+            const wide slack = wide_load(&s->slack[j]);
+            SphereWalls walls;
+            RibbonWall at[LANE_WIDTH];
+            SphereContact contact;
+            bits pressed = {0};
+            sphere_reached(slack, &gap, &contact.delta);
+            const int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0));
+            if (near != 0) {
+                sphere_walls(model, w, h, j, near, &gap, &walls, at);
+                if (sphere_reached(slack, &gap, &contact.delta)) {
+                    contact = sphere_approach(s, slack, c, &gap);
+                    pressed = wide_above(contact.Q, LEAST);
+                }
+            }
+            wide_store(&w->delta_c[h][j], contact.delta);
+            if (wide_any(pressed)) {
+                press_spheres(model, w, h, j, &gap, &contact, pressed, &walls, at);
+                touched = true;
+            } else
+                clear_walls(w, h, j);
         }
         if (touched) add_pockets(&w->pocket[h], &w->half[h]);
     }

@@ -17,6 +17,10 @@ void spheres_seams(const Parameters *p, double *sin_chi, double *sin_eta);
 #define spheres_rigid FOR_ISA(spheres_rigid)
 void spheres_rigid(const Model *model, Work *w);
 
+// The same of two elastic halves.
+#define spheres_elastic FOR_ISA(spheres_elastic)
+void spheres_elastic(const Model *model, Work *w);
+
 static const double TIP = 1e-7;  // over which the two ends of an arc change places [m]
 
 // Where the ball is in the sphere of a half, in the frame of the ball.
@@ -97,7 +101,8 @@ typedef struct {
 // Whether a ball of the packet may touch: no rim reaches farther than the sphere.
 INLINE bool sphere_reached(wide slack, const SphereGap *gap, wide *delta)
 {
-    *delta = wide_sqrt(gap->x * gap->x + gap->r * gap->r + gap->t * gap->t + 2.0 * TIP * TIP) - slack;
+    const wide R = wide_sqrt(gap->r * gap->r + TIP * TIP), T = wide_sqrt(gap->t * gap->t + TIP * TIP);
+    *delta = wide_sqrt(gap->x * gap->x + R * R + T * T) - slack;
     return wide_any(wide_above(*delta, -1e-9));
 }
 

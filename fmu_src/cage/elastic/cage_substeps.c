@@ -128,6 +128,9 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
         memcpy(fast->touch_k[h], w->elastic.touch_k[h], sizeof fast->touch_k[h]);
         memcpy(fast->touch_rate[h], w->elastic.touch_rate[h], sizeof fast->touch_rate[h]);
         memcpy(fast->touch_Q[h], w->pocket[h].Q, sizeof fast->touch_Q[h]);
+        memcpy(fast->touch_r[h], w->elastic.touch_r[h], sizeof fast->touch_r[h]);
+        memcpy(fast->touch_chi[h], w->elastic.touch_chi[h], sizeof fast->touch_chi[h]);
+        memcpy(fast->touch_radius[h], w->elastic.touch_radius[h], sizeof fast->touch_radius[h]);
     }
     memcpy(fast->e, joints->e, sizeof fast->e);
     memcpy(fast->u_y, joints->u_y, sizeof fast->u_y);
@@ -279,7 +282,8 @@ static double touch_motion(const Touch *touch, const double *q)
 }
 
 // The balls that touch walls at the step's start; returns how many.
-static int find_touches(const ElasticHalf *half, const FastState *fast, const double *q, Touch touches[2 * Z])
+static int find_touches(const ElasticHalf *half, bool ribbon, const FastState *fast, const double *q,
+                        Touch touches[2 * Z])
 {
     const double inv_root = 1.0 / 1.4142135623730951;
     int count = 0;
@@ -288,14 +292,20 @@ static int find_touches(const ElasticHalf *half, const FastState *fast, const do
             const int mask = wide_mask(wide_above(wide_load(&fast->touch_k[h][j]), 0.0)), side = 2 * h - 1;
             WallPlaces places;
             if (mask == 0) continue;
-            elastic_wall_places(half, side, j, wide_load(&fast->touch_x[h][j]),
-                                wide_load(&fast->touch_t[h][j]), &places);
+            if (!ribbon)
+                elastic_wall_places(half, side, j, wide_load(&fast->touch_x[h][j]),
+                                    wide_load(&fast->touch_t[h][j]), &places);
             for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
                 if (!(mask >> (k - j) & 1)) continue;
                 Touch *touch = &touches[count++];
                 *touch = (Touch){
                     fast->touch_k[h][k], fast->touch_rate[h][k], fast->touch_Q[h][k], side, 0.0, {0.0}};
-                elastic_wall_shape(half, side, k, &places, touch->shape);
+                if (ribbon) {
+                    const double n[3] = {fast->touch_x[h][k], fast->touch_r[h][k], fast->touch_t[h][k]};
+                    ribbon_wall_shape(half, side, k, fast->touch_chi[h][k], fast->touch_radius[h][k], n,
+                                      touch->shape);
+                } else
+                    elastic_wall_shape(half, side, k, &places, touch->shape);
                 for (int i = 0; i < N_MODES; i++) touch->shape[i] *= inv_root;
                 touch->from = touch_motion(touch, q);
             }
@@ -362,7 +372,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     rigid_velocities(model, w, &middle);
     between_halves(model, &w->half[0], f, slow);
     half_damping(half, sub, &damping);
-    const int count = find_touches(half, fast, q, touches);
+    const int count = find_touches(half, model->d->spheres.on, fast, q, touches);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
 
     for (int step = 1;; step++) {

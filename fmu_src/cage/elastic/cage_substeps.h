@@ -13,6 +13,7 @@ typedef struct {
     double T[LANES], N_plate[LANES];  // loads of rivets and plates [N]
     // contacts with the walls of each half (model.h), their loads [N]
     double touch_x[2][LANES], touch_t[2][LANES], touch_k[2][LANES], touch_rate[2][LANES], touch_Q[2][LANES];
+    double touch_r[2][LANES], touch_chi[2][LANES], touch_radius[2][LANES];
     double omega_2;             // square of the halves' speed in space [rad2/s2]
     double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
     double

@@ -27,7 +27,7 @@ static double wave_at(int n, int coordinate, int part, double theta)
 // Amplitudes of an entry at the walls [node][value, slope][x, r, t][U', U''].
 static const double *wall_of(const HalfModes *table, const ElasticHalf *half, int entry)
 {
-    return table->pocket + 12 * entry * half->nodes;
+    return table->pocket + 12 * entry * half->nodes * half->radii;
 }
 
 // Place e among the a (coordinate 0) or b (1), of an entry of the table.
@@ -57,7 +57,7 @@ static void take_mode(const HalfModes *table, int entry, int coordinate, double 
         half->turn[j][2][e] = mode->parity == 0 ? wave_at(mode->harmonic, 1, 0, nu) : 0.0;
     }
     const double *from = wall_of(table, half, entry);
-    for (int node = 0; node < half->nodes; node++)
+    for (int node = 0; node < half->radii * half->nodes; node++)
         for (int slope = 0; slope < 2; slope++)
             for (int c = 0; c < 3; c++, from += 2)
                 half->wall[node][slope][c][coordinate][e] = unit * from[coordinate];
@@ -208,15 +208,16 @@ static void take_forces(const Parameters *p, ElasticHalf *half)
 }
 
 // How far a wall can move; between the nodes a quarter farther at most.
-static void find_reach(ElasticHalf *half)
+static void find_reach(bool ribbon, ElasticHalf *half)
 {
     const double unit_2 = rivet_table.half.m;
     for (int i = 0; i < half->n; i++) half->weight[i] = half->uniform[i] ? 0.0 : half->omega_2[i];
-    for (int node = 0; node < half->nodes; node++) {
+    for (int node = 0; node < half->radii * half->nodes; node++) {
         double sum = 0.0;
         for (int i = 0; i < half->n; i++) {
             const double *U = wall_of(&rivet_table.modes, half, half->entry[i]) + 12 * node;
-            const double u_2 = unit_2 * (U[0] * U[0] + U[1] * U[1] + U[4] * U[4] + U[5] * U[5]);  // x and t
+            double u_2 = unit_2 * (U[0] * U[0] + U[1] * U[1] + U[4] * U[4] + U[5] * U[5]);  // x and t
+            if (ribbon) u_2 += unit_2 * (U[2] * U[2] + U[3] * U[3]);
             if (half->uniform[i])
                 half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
             else
@@ -295,10 +296,14 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
         half->step[node] = half->chi[node + 1] - half->chi[node];
         half->inv_step[node] = 1.0 / half->step[node];
     }
+    const bool ribbon = p->cage.shape == CAGE_SHAPE_RIBBON;
+    half->radii = path->radii > 0 ? path->radii : 1;
+    memcpy(half->radius, path->radius, (size_t)path->radii * sizeof *half->radius);
     half->compliance = table->wall[WALL_NODE];
+    if (ribbon) half->compliance = fmax(table->wall[half->radii / 2 * half->nodes + WALL_NODE], 0.0);
     take_modes(p, half);
     take_residual(&table->law, half);
-    find_reach(half);
+    find_reach(ribbon, half);
     half->of.m = p->cage.m, half->of.J_p = d->J_p, half->of.J_t = d->J_t;
     half->of.friction = d->k_plate_t + d->k_head;
     half->of.k_hole = -1.0;

@@ -36,7 +36,7 @@ enum { FIRST = (Z + 1) / 2, OUT_OCTETS = (PAD_OUT * FIRST + 7) / 8, IN_OCTETS = 
 
 enum { ENTRY_OCTETS = ENTRIES / 8 };
 
-enum { WALL_NODES = 16 };  // at most
+enum { WALL_NODES = 16, WALL_RADII = 3 };  // of a wall, at most
 
 struct ElasticHalf {
     int n, count[2];                                 // modes; coordinates a and b
@@ -51,10 +51,12 @@ struct ElasticHalf {
     _Alignas(64) double out_modes[2 * PAD_OUT][FIRST][ENTRIES];
     double in_modes[2 * PAD_IN][FIRST][ENTRIES];
     double turn[Z][3][ENTRIES];  // at the pockets: cos nu of the a, of the b, sin nu
-    double wall[WALL_NODES][2][3][2]
-               [ENTRIES];    // U by node, value and slope, (x, r, t), U' of the a and U'' of the b
-    int nodes;               // of the walls' angle
-    double chi[WALL_NODES];  // [rad]
+    // U by node, radius by radius of a ribbon, value and slope, (x, r, t), U' of the a and U'' of the b
+    double wall[WALL_RADII * WALL_NODES][2][3][2][ENTRIES];
+    int nodes;                                      // of the walls' angle
+    int radii;                                      // of the walls' radius: 1 unless the table is a ribbon's
+    double radius[WALL_RADII];                      // [m]
+    double chi[WALL_NODES];                         // [rad]
     double step[WALL_NODES], inv_step[WALL_NODES];  // from a node to the next one [rad], its inverse
     // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
     double reach_2;        // largest |u|^2 / sum omega^2 q^2 of the others [s2]
@@ -126,6 +128,25 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 #define elastic_wall_force FOR_ISA(elastic_wall_force)
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
                         mode_array modal);
+
+// A place on the wall of a ribbon's pocket j: angle chi, radius, whether t < 0; shapes and motions there (x, r, t) by all
+// coordinates: the value, its slopes over chi and over the radius.
+typedef struct {
+    scalar chi, radius;
+    bool back;
+    mode_array shape[3];
+    scalar u[3], u_dot[3], u_chi[3], u_radius[3];
+} RibbonWall;
+
+// Sets shapes and motions at the place in *at, with the coordinates q and their rates.
+#define ribbon_wall FOR_ISA(ribbon_wall)
+void ribbon_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot,
+                 RibbonWall *at);
+
+// Motion along n (x, r, t) by each mode at the place (chi, negative where t < 0, radius).
+#define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)
+void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, scalar radius, const scalar n[3],
+                       mode_array shape);
 
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);

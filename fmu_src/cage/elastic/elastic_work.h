@@ -43,6 +43,10 @@ typedef struct {
     // 0 without contact, and the rate of the approach by ball and half as rigid bodies [m/s]
     ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
 
+    // of a ribbon's walls (pocket_spheres.c) also: direction r, the place's angle chi, negative on the side t < 0, and radius
+    // [m]; elastic energy of contact and wall beside the modes [J]
+    ball_array touch_r[2], touch_chi[2], touch_radius[2], wall_energy[2];
+
     ElasticJoints joints;
     scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
 } ElasticWork;
