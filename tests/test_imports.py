@@ -23,6 +23,7 @@ READERS = {
         "rivet.rivet_splines",
         "cage.common.joint_law",
         "cage.two_half.half_path",
+        "cage.two_half.joint_open",
         "cage.elastic.half_modes",
         "numbers.lanes",
     )
