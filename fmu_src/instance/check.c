@@ -1,7 +1,6 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
 #include "cage/cage.h"
-#include "cage/common/pocket_spheres.h"
 #include "instance/log.h"
 #include "numbers/saved_numbers.h"
 #include "physics/ring_fit.h"
