@@ -442,7 +442,7 @@ static bool check_values(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
-    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b) && check_bodies(b);
+    return fine && check_built(b) && check_geometry(b) && check_table(b) && check_seat(b) && check_bodies(b);
 }
 
 bool check_all(Bearing *b)
