@@ -2,12 +2,15 @@
 twins alike.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from bearing_model.cage.two_half import half_path
 from bearing_model.generated.variables import Z
 from bearing_model.physics.derived import default_table
+from rivet_model import embed
 from rivet_model.half_loads import bolt_group
 
 D_M = 53.5e-3
@@ -159,3 +162,67 @@ def test_twins(core, rows):
             np.testing.assert_allclose(
                 rows(side, push, force), expected, rtol=1e-12, atol=1e-12 * max(np.abs(expected).max(), 1e-9)
             )
+
+
+# ------------------------------------------------------------------------------------------------------------- ribbons
+
+
+def ribbon_half():
+    """A ribbon's path of random rows: three radii, angles from a seam on."""
+    rng = np.random.default_rng(11)
+    chi, radii = np.append(np.linspace(0.3, 1.4, 5), np.pi / 2), np.array([24.2e-3, 26.7e-3, 29.2e-3])
+    path = rng.normal(size=(3, len(chi), Z, 8, 3)).astype(np.float32).astype(float)
+    # the bottom's rows are their own mirror image
+    path[:, -1] = 0.5 * (path[:, -1] + path[:, -1, ::-1] * half_path.PATH_MIRROR[:, None] * [1.0, 1.0, -1.0])
+    path = path.astype(np.float32).astype(float)
+    slope = np.stack([half_path.path_slopes(chi, one) for one in path]).astype(np.float32).astype(float)
+    return SimpleNamespace(chi=chi, radii=radii, path=path, path_slope=slope)
+
+
+def c_ribbon_rows(core, half, side, push, force, radius):
+    """Rows [Z, 8] of that half by the C core."""
+    ffi, both, found = core.ffi, core.new("PathForces", 2), core.new("PathRows")
+    numbers = np.ascontiguousarray(embed.path_rows(half), dtype=np.float32)
+    kept = [ffi.from_buffer("float[]", numbers), doubles(ffi, half.chi), doubles(ffi, half.radii)]
+    members = {"nodes": len(half.chi), "chi": kept[1], "rows": kept[0], "radii": len(half.radii), "radius": kept[2]}
+    path = ffi.new("HalfPath *", members)
+    for h in range(2):
+        acts = 1.0 if 2 * h - 1 == side else 0.0
+        for name, values in zip(
+            ("F_x", "F_r", "F_t", "push_x", "push_t", "radius"), (*force, *push, radius), strict=True
+        ):
+            kept.append(doubles(ffi, acts * values))
+            setattr(both[h], name, kept[-1])
+    assert core.model().kernel("half_path_rows")(path, both, found)
+    return np.array([list(row)[:Z] for row in found.row]).T
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_rows_over_the_sphere_of_a_ribbon(core, side):
+    """Both twins alike at places inside and outside of the nodes; at a node the rows are the table's."""
+    half, rng = ribbon_half(), np.random.default_rng(12)
+    push, force = random_forces(rng)
+    radius = rng.uniform(23.5e-3, 30e-3, Z)
+    expected = half_path.half_path_rows(half, side, push, force, radius)
+    assert np.abs(expected).max() > 10.0
+    found = c_ribbon_rows(core, half, side, push, force, radius)
+    np.testing.assert_allclose(found, expected, rtol=1e-11, atol=1e-9)
+
+    for node, chi in enumerate(half.chi):
+        for i, r in enumerate(half.radii):
+            push, force = np.zeros((2, Z)), np.zeros((3, Z))
+            push[:, 2], force[1, 2] = (np.sin(chi), np.cos(chi)), 1.0
+            rows_there = half_path.half_path_rows(half, 1, push, force, np.full(Z, r))
+            np.testing.assert_allclose(rows_there, np.roll(half.path[i, node, :, :, 1], 2, axis=0), atol=1e-9)
+
+
+def test_radius_weights_are_a_parabola():
+    """They add up to 1, return r and r^2, and their slopes are those by differences; clamped beyond the nodes."""
+    radii, r = np.array([1.0, 1.4, 2.0]), np.linspace(1.05, 1.95, 19)
+    weights, slopes = half_path.radius_weights(radii, r), half_path.radius_slopes(radii, r)
+    for power in range(3):
+        np.testing.assert_allclose(sum(w * a**power for w, a in zip(weights, radii, strict=True)), r**power, rtol=1e-13)
+        by = sum(s * a**power for s, a in zip(slopes, radii, strict=True))
+        np.testing.assert_allclose(by, power * r ** max(power - 1, 0), atol=1e-12)
+    assert np.allclose(half_path.radius_weights(radii, np.array([0.5, 3.0])), [[1, 0], [0, 0], [0, 1]])
+    assert not np.any(half_path.radius_slopes(radii, np.array([0.5, 3.0])))

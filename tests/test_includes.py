@@ -16,9 +16,9 @@ GROUPS = {  # from the bottom up
     "reserved_memory saved_numbers scalar statistics variable_table variables vec vector_ops viscosity",
     "data of the cage": "elastic_work half_modes half_path joint_law two_half_work",
     "laws and tables": "elastic_half elastic_wall frame hertz model outer_ring powers ring_fit rivet_joint rivet_rom "
-    "rivet_splines rotor temperature traction centrifugal",
+    "rivet_splines rotor temperature traction centrifugal spin_preload",
     "elements": "ball drag land_film race_contact ring ring_load",
-    "both cages": "cage_joint films halves pocket",
+    "both cages": "cage_joint films halves pocket pocket_forces pocket_spheres pocket_spheres_setup",
     "one cage": "cage_elastic cage_substeps joint_open two_half",
     "door of the cage": "cage cage_read cage_setup",
     "constants": "derived",
@@ -39,6 +39,8 @@ INNER = {
     "derived.c": {"centrifugal.h"},
 }
 ONE_KIND = {"two_half": "elastic/", "elastic": "two_half/"}
+# Elements of which the shape of the cage chooses one.
+TWINS_IN_TASK = {"pocket_spheres.c": "pocket.c"}
 # Sums to which several elements add.
 SUMS = set(
     "F_x F_r F_t M_x M_r M_t dissipated D_x D_r D_t D_omega_x D_omega_r D_omega_t pocket_dissipated ring half film "
@@ -138,7 +140,7 @@ def writers():
     for path in FILES:
         if path.suffix == ".c" and path.name not in ("start.c", "derived.c"):  # first values
             for stored, assigned in re.findall(store, code_of(path)):
-                found[stored or assigned].add(path.name)
+                found[stored or assigned].add(TWINS_IN_TASK.get(path.name, path.name))
     return {name: files for name, files in found.items() if name in members}
 
 

@@ -1,5 +1,6 @@
 // What the tests' library adds to the core's objects: the inline functions, callable over arrays, and memory
 // as the kernels want it.
+#include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
 #include "instance/part.h"
 #include "numbers/elementary.h"
@@ -14,6 +15,7 @@
 
 void *test_allocate(size_t size);
 ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d);
+void test_spin_bending(int n, int steps, const double *S, double P, const double *w, double *more);
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
 void test_ring_load_at(const InputTrajectory *trajectory, double t, RingLoad *ring_load);
 void test_pow(int n, double y, const double *x, double *power);
@@ -45,6 +47,12 @@ ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d)
     ElasticHalf *half = test_allocate(sizeof *half);
     if (half) elastic_half_derive(p, d, half);
     return half;
+}
+
+void test_spin_bending(int n, int steps, const double *S, double P, const double *w, double *more)
+{
+    const CageHalfData half = {.spin_steps = steps, .spin_preload = S};
+    for (int i = 0; i < n; i++) more[i] = spin_bending(&half, P, w[i]);
 }
 
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z)

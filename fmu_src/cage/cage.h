@@ -10,6 +10,7 @@
 #pragma once
 
 #include "cage/common/films.h"
+#include "cage/common/pocket_spheres.h"
 #include "cage/elastic/cage_substeps.h"
 #include "cage/two_half/two_half.h"
 #include "numbers/isa.h"

@@ -1,7 +1,6 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
 #include "cage/cage.h"
-#include "cage/common/pocket_spheres.h"
 #include "instance/log.h"
 #include "numbers/saved_numbers.h"
 #include "physics/ring_fit.h"
@@ -443,7 +442,7 @@ static bool check_values(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
-    return fine && check_geometry(b) && check_built(b) && check_table(b) && check_seat(b) && check_bodies(b);
+    return fine && check_built(b) && check_geometry(b) && check_table(b) && check_seat(b) && check_bodies(b);
 }
 
 bool check_all(Bearing *b)

@@ -2,7 +2,6 @@
 // the elements' files.
 #include "cage/cage.h"
 #include "cage/common/centrifugal.h"
-#include "cage/common/pocket_spheres.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/ring_fit.h"

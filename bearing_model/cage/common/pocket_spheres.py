@@ -44,7 +44,7 @@ from bearing_model.physics.traction import Q_FLOOR
 TIP = 1e-7  # over which the two ends of an arc change places [m]
 LEAST = 1e-12  # load of a pocket that counts as touched [N]
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
-NEWTON = 4  # steps for the wall's compliance
+NEWTON = 5  # steps for the wall's compliance
 
 
 def arc_reach(rim, u, v):
@@ -140,15 +140,18 @@ def spheres_gap(model, w, h):
 
 
 def spheres_approach(d, c, q):
-    """spheres_contact at q with the compliance c of the wall under the contact in series [m/N]: the ball is at q - c Q n, by Newton's method;
-    V with the energy of the wall there.
+    """spheres_contact at q with the compliance c of the wall under the contact in series [m/N]: the ball is at q - c Q n, by Newton's method
+    with the stiffness 3 Q/(2 delta) along n and Q/|q| across it; V with the energy of the wall there.
     """
     V, Q, n, delta = spheres_contact(d, *q)
-    give = 0.0
+    give = [0.0 * x for x in q]
     for _ in range(NEWTON):
-        k = 1.5 * Q / maximum(delta, APPROACH_FLOOR)
-        give = maximum(give - (give - c * Q) / (1.0 + c * k), 0.0)
-        V, Q, n, delta = spheres_contact(d, *(x - give * n_i for x, n_i in zip(q, n, strict=True)))
+        along = 1.0 / (1.0 + 1.5 * c * Q / maximum(delta, APPROACH_FLOOR))
+        across = 1.0 / (1.0 + c * Q / np.sqrt(sum((x - s) ** 2 for x, s in zip(q, give, strict=True)) + TIP**2))
+        off = [c * Q * n_i - s for n_i, s in zip(n, give, strict=True)]
+        normal = (along - across) * sum(n_i * o for n_i, o in zip(n, off, strict=True))
+        give = [s + across * o + normal * n_i for s, o, n_i in zip(give, off, n, strict=True)]
+        V, Q, n, delta = spheres_contact(d, *(x - s for x, s in zip(q, give, strict=True)))
     return V + 0.5 * c * Q * Q, Q, n, delta
 
 

@@ -4,8 +4,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearing_model.physics.hertz import hertz_contact
-
 CONFORMING = 0.7  # of a/R in the load of ball and sphere
 
 
@@ -55,6 +53,8 @@ def spheres_radius(p):
 
 def derive_rim(E_star, R, radius, rho, sine, middle, across):
     """A rim of the radius rho whose seam is at the angle of this sine; middle, across: of its arc's end, in its plane."""
+    from bearing_model.physics.hertz import hertz_contact  # SciPy, without which parameters can be checked
+
     reach, end = radius + rho, np.hypot(middle, across)
     K = hertz_contact(1.0 / R + 1.0 / rho, max(1.0 / R - 1.0 / radius, 1e-3 / R), E_star).K
     cosine = np.sqrt(1.0 - sine**2)

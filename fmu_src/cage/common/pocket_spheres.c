@@ -161,18 +161,25 @@ void spheres_rigid(const Model *model, Work *w)
 
 static const double APPROACH_FLOOR = 1e-12;  // least approach in the stiffness 3 Q/(2 delta) [m]
 
-enum { NEWTON = 4 };  // steps for the wall's compliance
+enum { NEWTON = 5 };  // steps for the wall's compliance
 
-// The contact with the compliance c of the wall under it in series: the ball is at q - c Q n, by Newton's method; V with
-// the energy of the wall there.
+// The contact with the compliance c of the wall under it in series: the ball is at q - c Q n, by Newton's method with the
+// stiffness 3 Q/(2 delta) along n and Q/|q| across it; V with the energy of the wall there.
 INLINE SphereContact sphere_approach(const Spheres *s, wide slack, wide c, const SphereGap *gap)
 {
     SphereContact at = sphere_contact(s, slack, gap->x, gap->r, gap->t);
-    wide give = wide_set(0.0);
+    wide x = wide_set(0.0), r = x, t = x;  // by which the wall gives way
     for (int i = 0; i < NEWTON; i++) {
-        const wide k = 1.5 * at.Q / wide_max(at.delta, wide_set(APPROACH_FLOOR));
-        give = wide_max(give - (give - c * at.Q) / (1.0 + c * k), wide_set(0.0));
-        at = sphere_contact(s, slack, gap->x - give * at.n_x, gap->r - give * at.n_r, gap->t - give * at.n_t);
+        const wide off_x = gap->x - x, off_r = gap->r - r, off_t = gap->t - t, cQ = c * at.Q;
+        const wide along = 1.0 / (1.0 + 1.5 * cQ / wide_max(at.delta, wide_set(APPROACH_FLOOR)));
+        const wide across =
+            1.0 / (1.0 + cQ / wide_sqrt(off_x * off_x + off_r * off_r + off_t * off_t + TIP * TIP));
+        const wide e_x = cQ * at.n_x - x, e_r = cQ * at.n_r - r, e_t = cQ * at.n_t - t;
+        const wide normal = (along - across) * (at.n_x * e_x + at.n_r * e_r + at.n_t * e_t);
+        x += across * e_x + normal * at.n_x;
+        r += across * e_r + normal * at.n_r;
+        t += across * e_t + normal * at.n_t;
+        at = sphere_contact(s, slack, gap->x - x, gap->r - r, gap->t - t);
     }
     at.V += 0.5 * c * at.Q * at.Q;
     return at;
