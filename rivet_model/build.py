@@ -16,7 +16,7 @@ from threadpoolctl import threadpool_limits
 
 from bearing_model.rivet import rivet_table
 
-from . import half, half_loads, half_modes, half_shape, impacts, plastic_fit, reduction, stiffness, table
+from . import half, half_loads, half_modes, half_shape, impacts, land_bending, plastic_fit, reduction, stiffness, table
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
@@ -53,7 +53,7 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
     fit = plastic_fit.plastic_fit(geometry, fine=fine, progress=stage("interference"))
     elastic = half_loads.elastic_half(geometry, half.COARSE if coarse else None)
     alone = half_loads.JointAlone(elastic)
-    cage = half_loads.make_half(elastic, alone, stage("cage half"))
+    cage = made_half(elastic, alone, stage("cage half"))
     vibration, report = made_modes(elastic, alone, cage, count, stage("modes"))
     result = assemble("fe_coarse" if coarse else "fe", joint, knots, samples, fit, cage, vibration)
     if hold_out:
@@ -62,6 +62,12 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
         )
     result.errors["modes"] = report
     return result
+
+
+def made_half(elastic, alone, progress=lambda done, total: None):
+    """HalfData of a condensed half, of a ribbon with the bending of its lands."""
+    made = half_loads.make_half(elastic, alone, progress)
+    return land_bending.with_bending(made, elastic, alone) if elastic.g.shape == "ribbon" else made
 
 
 def made_modes(elastic, alone, cage, count, progress=lambda done, total: None):

@@ -18,7 +18,7 @@ import numpy as np
 from bearing_model.cage.common.joint_law import AXES, CARRIED, NUMBERS, JointLaw, LawOfModes, joint_law, law_load
 from bearing_model.rivet.rivet_table import HalfData
 
-from . import half_lands, half_shape, land_bending, ribbon, splines
+from . import half_lands, half_shape, ribbon, splines
 from .cage_half import BODY, SPIN, CageHalf
 from .joint_contact import JointContact, rivet_compliance
 from .lcp import Contact
@@ -299,7 +299,7 @@ def pair_stiffness(contact, P=20.0):
 
 
 def make_half(elastic, alone, progress=lambda done, total: None):
-    """HalfData of a condensed half (elastic_half) with its pads (JointAlone)."""
+    """HalfData of a condensed half (elastic_half) with its pads (JointAlone); of a ribbon without land_bending.py's part."""
     law = make_law(elastic, alone)
     progress(1, 2)
     spin = uniform_rows(elastic, alone, centrifugal(elastic))
@@ -308,7 +308,7 @@ def make_half(elastic, alone, progress=lambda done, total: None):
     path = np.stack([path_at(elastic, alone, i) for i in range(len(nodes(elastic.g)))])
     k_closed, k_open = pair_stiffness(JointContact(elastic, alone.rivet, alike=True))
     progress(2, 2)
-    half = HalfData(
+    return HalfData(
         **half_shape.half_inertia(elastic.g)._asdict(),
         chi=chi,
         radii=radii,
@@ -319,7 +319,6 @@ def make_half(elastic, alone, progress=lambda done, total: None):
         k_closed=k_closed,
         k_open=k_open,
     )
-    return land_bending.with_bending(half, elastic, alone) if elastic.g.shape == "ribbon" else half
 
 
 def places(g):

@@ -9,7 +9,7 @@ from skfem import ElementHex2
 
 from bearing_model.cage.two_half import half_path, joint_open
 from bearing_model.rivet import rivet_table
-from rivet_model import embed, half, half_loads, half_shape, joint_contact, land_bending, table
+from rivet_model import build, embed, half, half_loads, half_shape, joint_contact, land_bending, table
 from rivet_model import ribbon_shape as shape
 from rivet_model.geometry import Geometry
 
@@ -157,7 +157,7 @@ class Chain:
 
     def __init__(self, elastic):
         self.elastic, self.alone = elastic, half_loads.JointAlone(elastic)
-        self.half = half_loads.make_half(elastic, self.alone)
+        self.half = build.made_half(elastic, self.alone)
         self.contact = joint_contact.JointContact(elastic, self.alone.rivet)
         self.rigid = [half_loads.rigid_rows(elastic, place) for place in elastic.point_places()]
 
