@@ -5,10 +5,11 @@
 
 The rivet: geometry -> elasticity (mesh, weak form) -> load_cases (unilateral contact) -> reduction (homogeneous
 coordinates) -> splines -> table. The cage half: half (solid, mass, limits) -> cage_half (elements by waves) ->
-joint_contact (pads and rivets) -> half_loads (load path, joint law) -> table; its vibration: half_modes (modes,
+joint_contact (pads and rivets) -> half_loads (load path, joint law) -> table; of a ribbon half: ribbon_shape, ribbon
+(mesh) and land_bending (its lands in the load path) by the same doors.  Its vibration: half_modes (modes,
 residual) -> impacts (their error) -> table. Commands: `python -m rivet_model.build`, `closed_form`, `embed`,
 `friction`; docs/rivet.md explains them. Of bearing_model this package knows the table's format and how a table is
-evaluated: rivet_table, rivet_rom, rivet_splines, joint_law, half_path, half_modes.
+evaluated: rivet_table, rivet_rom, rivet_splines, joint_law, joint_open, half_path, half_modes.
 """
 
 from importlib import import_module

@@ -150,6 +150,10 @@ def half_data(geometry):
 def make_table(geometry=None):
     """Table of kind closed_form for the geometry (default: that of Geometry)."""
     geometry = geometry or Geometry()
+    if geometry.shape != "machined":
+        raise ValueError(
+            f"geometry: shape = {geometry.shape!r}: closed forms are of a machined half; finite elements know both"
+        )
     knots = reduction.knots_for(geometry, KNOTS)
     a, c, xi = np.meshgrid(*(splines.sites(knots[name]) for name in rivet_table.SHANK_AXES), indexing="ij")
     loads = reduction.shank_loads(a, c, reduction.bending_length(geometry))

@@ -20,6 +20,7 @@ __all__ = [
     "Limit",
     "check_half",
     "half_inertia",
+    "has_bridges",
     "limits_of",
     "pocket_radius",
     "rivet_mass",
@@ -90,6 +91,11 @@ LIMITS = (
 def limits_of(g):
     """The limits of the shape of g."""
     return ribbon_shape.LIMITS if g.shape == "ribbon" else LIMITS
+
+
+def has_bridges(g):
+    """Whether there is metal between the pockets, without which a half has no mass by its drawing."""
+    return ribbon_shape.exists(g) if g.shape == "ribbon" else narrowest_half_bar(g) > 0.0
 
 
 def check_half(g):

@@ -78,6 +78,12 @@ def land_half_length(g):
     return float(np.min(r * np.sin(math.pi / g.Z - land_angle(g, r))))
 
 
+def exists(g):
+    """Whether seam, sphere and land are there over the whole width of the ring."""
+    widest = 0.5 * max(g.cage_outer_diameter - g.d_m, g.d_m - g.cage_inner_diameter)
+    return sphere_radius(g) * math.cos(seam(g)) > widest and land_half_length(g) > 0.0
+
+
 POCKET = ("pocket_clearance", "cage_half_width", "flange_thickness", "ball_diameter")
 LIMITS = (
     Limit(

@@ -86,7 +86,11 @@ def frames(result):
                 "cage.width",
                 "cage.pocket_clearance",
                 "cage.guide_clearance",
+                "cage.sheet",
+                "cage.pocket_depth",
+                "cage.pocket_fillet",
             )
+            if name in p
         },
         "settle": p.get("start.settle", 0.0),
         "gone": gone_from(result),

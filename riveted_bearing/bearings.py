@@ -33,7 +33,7 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, materials, oil, rivet_heads, scaling
+from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling
 from .errors import UserError, unknown
 from .origin import EXAMPLE, SOURCE
 from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
@@ -52,6 +52,8 @@ CAGE_SIZES = (
     "cage_outer_diameter",
     "cage_inner_diameter",
     "cage_half_width",
+    "shape",
+    "pocket_fillet",
 )
 CAGE_MATERIAL = tuple(materials.PARTS["cage"].geometry.values())
 # the rivet's own, with the defaults
@@ -59,8 +61,12 @@ RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in (*CAGE_SIZ
 RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
 RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
 CAGE_MEANT = (
-    "Meant with a machined two-piece riveted cage, guided by the outer ring; the pressed ribbon cage with spherical pockets "
-    "that many bearings of this designation carry is not modelled"
+    "Meant with a machined two-piece riveted cage, guided by the outer ring; for the pressed ribbon cage that many bearings "
+    "of this designation carry add --cage ribbon"
+)
+CAGES = ("machined", "ribbon")
+KINDS_OF_CAGE = dict(
+    zip(CAGES, ("a machined two-piece riveted cage", "a pressed two-piece riveted ribbon cage"), strict=True)
 )
 SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
 OF_HEAD = ("rivet.head_diameter", "rivet.head_height")  # what a standard's name decides
@@ -139,6 +145,7 @@ class Case:
             # without the rounding of the difference: the table's digest knows every bit
             "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),
             **materials.geometry_of("cage", self.materials["cage"]),
+            **({"shape": "ribbon", "pocket_fillet": v["cage.pocket_fillet"]} if ribbon.is_ribbon(v) else {}),
         } | self.rivet
 
     def equilibrium(self):
@@ -189,21 +196,23 @@ def is_bearing(source):
     return Path(source).is_file() and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
 
 
-def bearing_case(source, rivet=None):
+def bearing_case(source, rivet=None, cage=None):
     """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
 
     rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own
-    rivet.
+    rivet; cage: one of CAGES, None: the file's, else machined.
     """
+    if cage is not None and cage not in CAGES:
+        raise unknown("--cage", "shape", cage, CAGES)
     designation = str(source)
     if designation in catalogue.entries() and designation not in shipped_bearings():
-        description = f"Deep-groove ball bearing {designation} with a machined two-piece riveted cage"
+        description = f"Deep-groove ball bearing {designation} with {KINDS_OF_CAGE[cage or CAGES[0]]}"
         path, own, document = (
             f"catalogue bearing {designation}",
             "yours",
             {"designation": designation, "description": description},
         )
-        bare = True
+        bare = cage is None
     else:
         path = find_bearing(source)
         bare = designation in shipped_bearings()
@@ -215,7 +224,37 @@ def bearing_case(source, rivet=None):
         (path, keys), prefix = rivet, ""
         kept = {} if "shank_diameter" in keys else section_of(path, document, "rivet")
         document["rivet"] = kept | keys
-    return read_case(path, document, own, bare, prefix)
+    document, usual = with_cage(path, document, cage)
+    return read_case(path, document, own, bare, prefix, usual)
+
+
+def with_cage(path, document, cage):
+    """The document with the cage's shape in its parameters, and of a ribbon with its usual materials; parts that have them."""
+    parameters = section_of(path, document, "parameters")
+    written = dict(flat(parameters)).get("cage.shape")
+    if cage is not None and written not in (None, cage):
+        raise refusal(path, "parameters.cage.shape", written, f"--cage {cage} asks for another one")
+    if (cage is None and written != "ribbon") or cage == CAGES[0]:
+        return document, ()
+    if document.get("designation") == EXAMPLE and "bearing.D" in dict(flat(parameters)) and cage is not None:
+        raise refusal(
+            path,
+            "--cage",
+            cage,
+            f"the file is of the paper's bearing with its machined cage; name a file or {', '.join(['6205', '6309'])}",
+        )
+    of_cage = parameters.get("cage") if isinstance(parameters.get("cage"), dict) else {}
+    result, usual = document | {"parameters": parameters | {"cage": of_cage | {"shape": "ribbon"}}}, []
+    for part, material in (("cage", ribbon.MATERIAL), ("rivet", ribbon.RIVET_MATERIAL)):
+        section = section_of(path, document, part)
+        if (
+            "material" not in section
+            and "material" not in of_cage
+            and not set(section) & set(materials.PARTS[part].properties)
+        ):
+            result[part] = {"material": material} | section
+            usual.append(part)
+    return result, tuple(usual)
 
 
 def check_designation(path, document):
@@ -233,8 +272,10 @@ def check_designation(path, document):
         raise UserError(f"{problem}; one that the catalogue does not have needs {', '.join(missing)} too")
 
 
-def read_case(path, document, own, bare=False, prefix="rivet."):
-    """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages."""
+def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
+    """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages; usual:
+    parts whose material follows from the cage's shape.
+    """
     for key in document:
         if key not in KEYS:
             raise unknown(path, "key", key, KEYS)
@@ -262,6 +303,10 @@ def read_case(path, document, own, bare=False, prefix="rivet."):
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
+    for part in usual:
+        where = materials.PARTS[part]
+        origin |= dict.fromkeys((name for name in (where.named, *where.parameters.values()) if name in given), "rule")
+        found[part] = replace(found[part], given=())
     for part, material in found.items():  # a named material's, scaled to a strength of the file
         names = (materials.PARTS[part].parameters[key] for key in material.by_rule)
         origin |= dict.fromkeys((name for name in names if name in given), "rule")
@@ -371,16 +416,19 @@ def rules(Z, given, rivet, inputs, data, entry):
         )
     Z = Z or variables.Z
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
-    own_shape = bool(entry) or any(shape[name] != scaling.start(name) for name in SHAPE)
-    rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet)
+    own_shape = bool(entry) or ribbon.is_ribbon(given) or any(shape[name] != scaling.start(name) for name in SHAPE)
+    designation = entry.designation if entry else ""
+    rivet_by_rule = scaling.scaled_rivet(Z, D, d_m, given, rivet, data.get("bore"), designation)
     whole = rivet_by_rule | rivet
     if own_shape:
-        parameters = scaling.scaled_parameters(Z, D, d_m, given, whole, data.get("bore"), data.get("width"))
+        parameters = scaling.scaled_parameters(
+            Z, D, d_m, given, whole, data.get("bore"), data.get("width"), designation
+        )
         if "bore" in data and (P_d := catalogue.clearance(data["bore"])) is not None:
             parameters["bearing.P_d"] = P_d
         seats = {"ring.bore": "bore", "ring.outside": "outside_diameter"}
         parameters |= {name: data[key] for name, key in seats.items() if key in data}
-        parameters["cage.material"] = materials.PARTS["cage"].material
+        parameters["cage.material"] = given.get("cage.material", materials.PARTS["cage"].material)
         by_rule = scaling.scaled_inputs(Z, D, d_m, inputs, data.get("C"))
     else:
         known = {name: value for name, value in defaults().items() if name not in ("cage.m", "cage.rho")} | given
@@ -407,6 +455,7 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     rivet = RIVET | rivet_by_rule | rivet
     return (
         numbers
+        | {"cage.shape": given.get("cage.shape", CAGES[0])}
         | {f"rivet.{name}": value for name, value in rivet.items()}
         | {f"catalogue.{key}": value for key, value in data.items()}
     )
@@ -424,7 +473,7 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
     a value, if otherwise than a bearing file does; inside: in_cage of a rivet's file.
     """
     values = limited_values(*parts)
-    broken = next((limit for limit in limits.LIMITS if not limits.holds(limit, values)), None)
+    broken = next((limit for limit in limits.limits_of(values) if not limits.holds(limit, values)), None)
     if broken is None:
         return
     written = {
@@ -433,7 +482,11 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
         for name, value in flat(document.get(section, {}), f"{section}.")
     }
     written |= dict(flat(document.get("parameters", {}))) | {key: document[key] for key in ("Z",) if key in document}
-    own = [name for name in written if name in values and name not in broken.keys and not name.startswith("oil.")]
+    own = [
+        name
+        for name in written
+        if is_number(values.get(name)) and name not in broken.keys and not name.startswith("oil.")
+    ]
     keys = [*(key for key in broken.keys if key in written), *own, *(key for key in broken.keys if key not in written)]
     for key in keys:
         allowed = limits.bound(broken, values[key], lambda value, key=key: limited_values(*changed(parts, key, value)))
@@ -593,18 +646,20 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
-def case_of(target=None, fmu=None):
+def case_of(target=None, fmu=None, cage=None):
     """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the
     FMU itself, and without both EXAMPLE.
 
-    fmu: path of the FMU, None for the default one.
+    fmu: path of the FMU, None for the default one; cage: one of CAGES, of a bearing only.
     """
     target = EXAMPLE if target is None and fmu is None else target
     names = [*known_bearings(), *shipped_scenes()]
     if target is not None and str(target) not in names and not Path(target).is_file():
         raise unknown("info", "bearing, scene or file", target, names)
     if target is not None and is_bearing(target):
-        return bearing_case(target)
+        return bearing_case(target, cage=cage)
+    if cage is not None:
+        raise UserError(f"--cage {cage}: a scene runs in an FMU, whose cage is fixed; name a bearing")
     from .fmu import Model
 
     return scene_case(target, Model(fmu))

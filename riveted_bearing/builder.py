@@ -34,6 +34,7 @@ from .errors import UserError, extra, unknown
 from .fmu import FMU_NAME, PACKAGE, Instance, Model
 from .materials import PARTS
 from .results import cache_folder, make_folder, to_toml, write_atomically
+from .ribbon import is_ribbon
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 from .scene import Scene
 
@@ -51,7 +52,14 @@ STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's
 
 
 def build_fmu(
-    bearing=None, rivet=None, out=None, say=lambda text, share=None: None, platforms=(), kind=None, modes=None
+    bearing=None,
+    rivet=None,
+    out=None,
+    say=lambda text, share=None: None,
+    platforms=(),
+    kind=None,
+    modes=None,
+    cage=None,
 ):
     """Build an FMU and return its path.
 
@@ -59,17 +67,18 @@ def build_fmu(
     (TOML), None for the bearing's own rivet; out: the FMU to write, None for my.fmu here from my.toml,
     RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what is being done and the share
     done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's
-    compiler alone; kind, modes: of the rivet table, see table_of. Raises UserError with the reason; `out` is then left
+    compiler alone; kind, modes: of the rivet table, see table_of; cage: machined or ribbon, None: the file's, else
+    machined. Raises UserError with the reason; `out` is then left
     as it was.
     """
     sources = source_folder()
-    out = Path(out) if out else default_out(sources, bearing or rivet)
-    case, folder = case_with(bearing, rivet), build_folder(sources, bearing)
+    out = Path(out) if out else default_out(sources, bearing or rivet, cage)
+    case, folder = case_with(bearing, rivet, cage), build_folder(sources, bearing, cage)
     cmake, platforms = tool("cmake") or no_tool("cmake"), platforms or compiler_platforms()
     make_folder(out.parent)
     given = given_table(rivet, case, kind, say, modes)
     with alone_in(folder, say):
-        table = kept(given, table_copy(bearing))
+        table = kept(given, table_copy(bearing, cage))
         # said in any case: a build folder remembers what it was told before
         generated = folder / "generated" if bearing or rivet or kind or modes else ""
         options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}", f"-DGENERATED_DIR={generated}"]
@@ -194,7 +203,8 @@ def fmu_description(case, table):
     parts += [
         f"{case.Z} balls of {1e3 * case.values['bearing.D']:.4g} mm, rivets of {1e3 * shank:.4g} mm ({case.materials['rivet'].name})"
     ]
-    parts += [f"Cage: {case.materials['cage'].words()}"]
+    kind = "Pressed ribbon cage" if is_ribbon(case.values) else "Cage"
+    parts += [f"{kind}: {case.materials['cage'].words()}"]
     parts += [CAGE_MEANT] if case.bare else []
     parts += [f"Stress table of the rivets: {table_text(table)}"]
     return ". ".join(parts)
@@ -210,22 +220,27 @@ def source_folder():
     )
 
 
-def default_out(sources, source):
+def default_out(sources, source, cage=None):
     """Default path of the FMU: my.fmu in the working directory for the bearing or rivet my.toml; that of the 6207 in
     fmus/ of a checkout.
     """
     if source:
-        return Path.cwd() / f"{Path(source).stem}.fmu"
+        return Path.cwd() / f"{Path(source).stem}{of_cage(cage)}.fmu"
     return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
 
 
-def build_folder(sources, bearing):
+def of_cage(cage):
+    """What names of a bearing's files have behind them for a ribbon cage."""
+    return "-ribbon" if cage == "ribbon" else ""
+
+
+def build_folder(sources, bearing, cage=None):
     """Folder for intermediate files, one per bearing: in the build/ of a checkout that can be written to, else in the
     user's cache.
     """
     own = sources == PACKAGE.parent and os.access(sources, os.W_OK)
     base = sources / "build" / "bearings" if own else cache_folder("bearings")
-    folder = base / (Path(str(bearing)).stem if bearing else "default")
+    folder = base / ((Path(str(bearing)).stem if bearing else "default") + of_cage(cage))
     make_folder(folder)
     return folder
 
@@ -284,10 +299,12 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
-def case_with(bearing, rivet):
+def case_with(bearing, rivet, cage=None):
     """The Case of a bearing, with the rivet of a geometry file if there is one: preload and seat follow from its shank."""
     if rivet is None or Path(rivet).suffix != ".toml":
-        return bearing_case(bearing or "6207")
+        return bearing_case(bearing or "6207", cage=cage)
+    if cage is not None:
+        raise UserError(f"--cage {cage}: not beside a rivet's file; give cage.shape in the bearing file's [parameters]")
     return rivet_case(Path(rivet), bearing or "6207")
 
 
@@ -318,9 +335,9 @@ def check_material(path, table, case):
             )
 
 
-def table_copy(bearing=None):
+def table_copy(bearing=None, cage=None):
     """Where the rivet table lies that build_fmu put into the FMU of a bearing."""
-    return build_folder(source_folder(), bearing) / "rivet_table.json"
+    return build_folder(source_folder(), bearing, cage) / "rivet_table.json"
 
 
 def kept(source, copy):

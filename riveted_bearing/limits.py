@@ -8,10 +8,10 @@ Z, catalogue.*, rivet.*.
 
 import math
 
-from rivet_model import half_shape
+from rivet_model import half_shape, ribbon_shape
 from rivet_model.half_shape import LEAST_WALL, Limit
 
-from . import scaling
+from . import ribbon, scaling
 
 DENSEST = 2.3e4  # kg/m3: no metal is heavier
 
@@ -23,9 +23,9 @@ def shape_of(v):
     )
 
 
-def of_half(limit):
+def of_half(limit, names=scaling.SHAPE):
     """A limit of half_shape.py over the names of a bearing file."""
-    keys = tuple(scaling.SHAPE.get(key, f"rivet.{key}") for key in limit.keys)
+    keys = tuple(names.get(key, f"rivet.{key}") for key in limit.keys)
     return Limit(keys, lambda v: limit.margin(shape_of(v)), limit.reason)
 
 
@@ -79,7 +79,6 @@ LIMITS = (
         lambda v: v["cage.D_i"] - groove_bottom(v, -1) - 2.0 * v["bearing.h_i"] * v["bearing.D"],
         "a cage that passes over the inner ring's shoulder",
     ),
-    *(of_half(limit) for limit in half_shape.LIMITS),
     Limit(
         ("cage.x_c", "cage.width", "cage.D_o", "cage.D_i"),
         centre_of_mass_beside_shape,
@@ -178,6 +177,20 @@ LIMITS = (
         "balls inside the bearing's width",
     ),
 )
+
+
+FIRST = 6  # limits of balls and the cage's diameters, before those of the half
+MACHINED = tuple(of_half(limit) for limit in half_shape.LIMITS)
+RIBBON_NAMES = scaling.SHAPE | scaling.RIBBON | {"cage_half_width": "cage.pocket_depth"}
+RIBBON = tuple(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS)
+OF_LAND = ("cage.guide_clearance", "cage.land_x")  # a ribbon has none
+
+
+def limits_of(values):
+    """All limits that a bearing with these values must keep."""
+    if not ribbon.is_ribbon(values):
+        return LIMITS[:FIRST] + MACHINED + LIMITS[FIRST:]
+    return RIBBON + tuple(limit for limit in LIMITS if not set(limit.keys) & set(OF_LAND))
 
 
 def holds(limit, values):

@@ -19,7 +19,7 @@ from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
-from . import oil
+from . import oil, ribbon
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
 BY_BALL = ("cage.guide_clearance",)
@@ -46,6 +46,7 @@ SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's 
     "cage_half_width": "cage.width",
     "rho_flange": "cage.rho",
 }
+RIBBON = {"shape": "cage.shape", "pocket_fillet": "cage.pocket_fillet", "flange_thickness": "cage.sheet"}
 LOADS = ("shaft.F_x", "shaft.F_y", "shaft.F_z", "shaft.M_y", "shaft.M_z")
 PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 LAND = ("cage.E", "cage.nu", "bearing.E", "bearing.nu")  # of cage and rings
@@ -65,11 +66,12 @@ def rounded(value):
     return float(f"{value:.6g}")
 
 
-def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None):
+def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None, designation=""):
     """Parameters by rule for Z balls of the diameter D on the pitch diameter d_m [m]; what `given` holds stands, and
     others that follow from it do.
 
-    rivet: dimensions by the names of rivet_model.geometry; bore, width [m]: the 6207's in ball diameters, if not known.
+    rivet: dimensions by the names of rivet_model.geometry; bore, width [m]: the 6207's in ball diameters, if not known;
+    designation: whose series a ribbon's sheet goes by.
     """
     r = D / start("bearing.D")
     values = {"bearing.D": D, "bearing.d_m": d_m}
@@ -78,6 +80,8 @@ def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None):
         name: rounded(axial * start(name)) for name in AXIAL
     }
     values |= {name: value for name, value in cage_sizes(D, d_m).items() if name != "cage.width"}
+    if ribbon.is_ribbon(given):
+        values |= ribbon.cage_sizes(Z, D, d_m, given, rivet, designation)
     values |= scaled_joint(rivet) | given
     values |= half_inertia({"Z": Z} | values, rivet) | given
     bore = (d_m - (start("bearing.d_m") - BORE) * r) if bore is None else bore
@@ -130,6 +134,8 @@ def shape_of(values, rivet):
     rivet_model.geometry.
     """
     cage = {name: values[parameter] for name, parameter in SHAPE.items()}
+    if ribbon.is_ribbon(values):
+        cage |= {name: values[parameter] for name, parameter in RIBBON.items()}
     return SimpleNamespace(**RIVET | rivet | cage | {"cage_half_width": 0.5 * cage["cage_half_width"]})
 
 
@@ -140,7 +146,7 @@ def half_inertia(values, rivet):
     A mass beside a density scales the moments of inertia.  A shape that leaves no bars has none of these.
     """
     shape = shape_of({"cage.rho": start("cage.rho")} | values, rivet)
-    if half_shape.narrowest_half_bar(shape) <= 0.0:
+    if not half_shape.has_bridges(shape):
         return {}
     found = {}
     if "cage.m" in values and "cage.rho" not in values:
@@ -175,11 +181,17 @@ def cage_sizes(D, d_m):
     return values | {name: rounded(d_m + r * (start(name) - start("bearing.d_m"))) for name in ("cage.D_o", "cage.D_i")}
 
 
-def scaled_rivet(Z, D, d_m, given, rivet):
+def scaled_rivet(Z, D, d_m, given, rivet, bore=None, designation=""):
     """Lengths of the rivet and its seat by rule [m]; the seat's counterbore leaves metal around it, as far as the head
-    has room at all.
+    has room at all.  bore [m], designation: by which those of a ribbon cage go.
     """
     r = D / start("bearing.D")
+    if ribbon.is_ribbon(given):
+        bore = d_m - (start("bearing.d_m") - BORE) * r if bore is None else bore
+        values = ribbon.rivet_sizes(D, bore, given, rivet, designation)
+        s = values["shank_diameter"] / RIVET["shank_diameter"]
+        values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
+        return {name: value for name, value in values.items() if name not in rivet}
     values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
     s = values["shank_diameter"] / RIVET["shank_diameter"]
     values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values

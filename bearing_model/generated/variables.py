@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{562ad8a0-1959-15ca-f10c-c24baa381c9f}"
+MODEL_GUID = "{6fc5158d-44cb-719d-3eae-4f36ed43dc38}"
 Z = 9
 
 
@@ -49,6 +49,7 @@ class CageMaterial(IntEnum):
     PA66_GF25 = 4
     PEEK = 5
     OWN = 6
+    DC04 = 7
 
 
 class CageShape(IntEnum):

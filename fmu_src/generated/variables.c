@@ -123,7 +123,7 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"cage.centrifugal", "1", 1122, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.centrifugal), 2.0, 1.0, 2.0, false, NULL, 0},
     {"cage.modal_damping", "1", 1123, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.modal_damping), 0.01, 0.0, 0.2, false, NULL, 0},
     {"cage.rho", "kg/m3", 1124, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.rho), 8800.0, 500.0, 23000.0, true, "it is a property of a body", 0},
-    {"cage.material", "1", 1125, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.material), 1.0, 1.0, 6.0, true, "it is a property of a body", 0},
+    {"cage.material", "1", 1125, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.material), 1.0, 1.0, 7.0, true, "it is a property of a body", 0},
     {"cage.shape", "1", 1130, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.shape), 1.0, 1.0, 2.0, true, "it is part of the geometry", 0},
     {"cage.guidance", "1", 1131, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.guidance), 1.0, 1.0, 2.0, false, "it is part of the geometry", 0},
     {"cage.sheet", "m", 1132, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.sheet), 0.0, 0.0, 0.02, false, "it is part of the geometry", 0},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{562ad8a0-1959-15ca-f10c-c24baa381c9f}"  // digest of the table
+#define MODEL_GUID "{6fc5158d-44cb-719d-3eae-4f36ed43dc38}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -29,6 +29,7 @@ enum {  // CageMaterial
     CAGE_MATERIAL_PA66_GF25 = 4,  // polyamide 66 with 25 % glass fibres
     CAGE_MATERIAL_PEEK = 5,  // polyether ether ketone
     CAGE_MATERIAL_OWN = 6,  // the constants of the bearing file
+    CAGE_MATERIAL_DC04 = 7,  // pressed cold-rolled steel sheet
 };
 enum {  // CageShape
     CAGE_SHAPE_MACHINED = 1,  // solid halves with pockets drilled along their radius

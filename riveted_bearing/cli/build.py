@@ -37,6 +37,10 @@ def build(
         int | None,
         typer.Option(help="vibration modes of a cage half, a pair counted as two; default: 20 for three rivets"),
     ] = None,
+    cage: Annotated[
+        str | None,
+        typer.Option(help="shape of the cage; default: the bearing file's, else machined", metavar="machined|ribbon"),
+    ] = None,
     platforms: Annotated[
         str | None,
         typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler"),
@@ -58,10 +62,10 @@ def build(
                 messages.print(text)
             bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
 
-        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes)
+        path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes, cage)
     console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)
-    shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing)))}"
+    shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing, cage)))}"
     console.print(
         f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True
     )

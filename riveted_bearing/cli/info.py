@@ -13,12 +13,24 @@ from bearing_model.kinematics import fault_frequencies
 from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
 
+from ..ribbon import is_ribbon
 from ..summary import DEG, RPM
 from .terminal import FMU, command, console, print_basis
 
 BOUNDARY = ("bore", "outside_diameter", "width")
 ZERO = 273.15  # K of 0 degC
 RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
+
+
+MACHINED = (
+    ("cage: outer diameter, bore, width", ("cage.D_o", "cage.D_i", "cage.width")),
+    ("pocket, guide clearance (diametral)", ("cage.pocket_clearance", "cage.guide_clearance")),
+)
+RIBBON = (
+    ("ribbon cage: outer diameter, bore, width", MACHINED[0][1]),
+    ("sheet, pocket depth, fillet", ("cage.sheet", "cage.pocket_depth", "cage.pocket_fillet")),
+    ("pocket clearance (diametral)", ("cage.pocket_clearance",)),
+)
 
 
 @command
@@ -31,6 +43,12 @@ def info(
         ),
     ] = None,
     fmu: FMU = None,
+    cage: Annotated[
+        str | None,
+        typer.Option(
+            help="shape of the cage of a bearing; default: the file's, else machined", metavar="machined|ribbon"
+        ),
+    ] = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
     from ..basis import basis
@@ -38,7 +56,7 @@ def info(
     from ..fmu import Model
     from ..scene import load_scene
 
-    case = case_of(target, fmu)
+    case = case_of(target, fmu, cage)
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
     if target is None and fmu is None:
         console.print(
@@ -109,10 +127,7 @@ def geometry(case):
     left = bearing.clearance - 2.0 * ring_fit_growth(bearing.fit, case.load.omega)
     yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
     yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
-    for label, names in (
-        ("cage: outer diameter, bore, width", ("cage.D_o", "cage.D_i", "cage.width")),
-        ("pocket, guide clearance (diametral)", ("cage.pocket_clearance", "cage.guide_clearance")),
-    ):
+    for label, names in RIBBON if is_ribbon(values) else MACHINED:
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
     if case.rivet is not None:
         rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]

@@ -206,11 +206,20 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
     return see.value("r" + j) * see.value("lag" + j) - 0.5 * (across(0) + across(1)) >= 0 ? 1 : -1;
   }
 
+  // Height of a ribbon's sheet over the split at the distance from a pocket's axis and z from the balls' side: sphere, fillet, land.
+  function sheet(from, z) {
+    const f = mm("cage.pocket_fillet"), Rc = pocket, e = scale * (R + mm("cage.pocket_clearance") / 2 - mm("cage.pocket_depth"));
+    const seam = Math.asin((f + e) / (Rc + f)), circle = (Rc + f) * Math.cos(seam);
+    if (from < (Rc + z) * Math.cos(seam)) return Math.sqrt((Rc + z) ** 2 - from * from) - e;
+    return from < circle ? f - Math.sqrt((f - z) ** 2 - (circle - from) ** 2) : z;
+  }
+
   // The cage unrolled at the pitch circle: azimuth in the cage to the right, X up.
   function drawStrip(canvas, see) {
     const { g, width, height } = prepare(canvas);
     const length = 2 * Math.PI * pitch, zoom = Math.min(width / (length * 1.02), height / (2.6 * pocket + 8));
-    const psi = see.angle("psi"), step = length / Z, half = mm("cage.width") / 2, wall = Math.max(0.8, half - R), flange = 0.14 * mm("bearing.D");
+    const psi = see.angle("psi"), step = length / Z, half = mm("cage.width") / 2, ribbon = bearing["cage.sheet"] > 0;
+    const wall = Math.max(0.8, half - R), flange = ribbon ? mm("cage.sheet") : 0.14 * mm("bearing.D");
     g.save();
     g.translate(width / 2 - (zoom * length) / 2, height / 2);
     g.scale(zoom, -zoom);
@@ -230,8 +239,8 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
       const side = h ? 1 : -1, inner = [], outer = [];
       for (let i = 0; i <= 24 * Z; i++) {
         const s = (i / (24 * Z)) * length, local = Math.abs(((s + step) % step) - step / 2), [ds, dx] = shift(h, s);
-        inner.push([s + ds, dx + side * Math.sqrt(Math.max(pocket * pocket - local * local, 0))]);
-        outer.push([s + ds, dx + side * Math.max(Math.sqrt(Math.max((pocket + wall) ** 2 - local * local, 0)), flange)]);
+        inner.push([s + ds, dx + side * (ribbon ? sheet(local, 0) : Math.sqrt(Math.max(pocket * pocket - local * local, 0)))]);
+        outer.push([s + ds, dx + side * (ribbon ? sheet(local, flange) : Math.max(Math.sqrt(Math.max((pocket + wall) ** 2 - local * local, 0)), flange))]);
       }
       g.beginPath();
       [...inner, ...outer.reverse()].forEach(([s, x], i) => (i ? g.lineTo(s, x) : g.moveTo(s, x)));
