@@ -188,60 +188,82 @@ INLINE SphereContact sphere_approach(const Spheres *s, wide slack, wide c, const
 // The place where a ball at q touches the wall, and its slopes over q.  chi is clamped to the table's first node, the seam of
 // the fillet, beyond which it has no slope.
 typedef struct {
-    scalar chi[3], radius[3];
-} PlaceSlopes;
+    scalar chi, radius, chi_slope[3], radius_slope[3];
+    bool back;
+    RibbonNodes nodes;
+} SpherePlace;
 
-static PlaceSlopes sphere_place(const Spheres *s, const ElasticHalf *half, const scalar q[3], RibbonWall *at)
+static void sphere_place(const Spheres *s, const ElasticHalf *half, const scalar q[3], SpherePlace *at)
 {
     const scalar x = q[0], r = q[1], t = q[2], ahead = scalar_max(x, 0.0);
     at->back = scalar_value(t) < 0.0;
     const scalar aside = at->back ? -t : t, rho_2 = x * x + t * t + TIP * TIP;
     at->chi = scalar_atan2(ahead, scalar_max(aside, 1e-30));
-    PlaceSlopes slopes = {{0.0}, {0.0}};
+    at->chi_slope[0] = at->chi_slope[1] = at->chi_slope[2] = 0.0;
     if (scalar_value(at->chi) > half->chi[0]) {
-        slopes.chi[0] = aside / rho_2;
-        slopes.chi[2] = (at->back ? ahead : -ahead) / rho_2;
+        at->chi_slope[0] = aside / rho_2;
+        at->chi_slope[2] = (at->back ? ahead : -ahead) / rho_2;
     } else
         at->chi = half->chi[0];
     const scalar s_2 = x * x + r * r + t * t + TIP * TIP, to_wall = s->radius / scalar_sqrt(s_2);
     const scalar across = s->r + to_wall * r, along = to_wall * t;
     at->radius = scalar_sqrt(across * across + along * along);
     const scalar less = to_wall * ((across * r + along * t) / s_2) / at->radius;
-    slopes.radius[0] = -less * x;
-    slopes.radius[1] = to_wall * across / at->radius - less * r;
-    slopes.radius[2] = to_wall * along / at->radius - less * t;
-    return slopes;
+    at->radius_slope[0] = -less * x;
+    at->radius_slope[1] = to_wall * across / at->radius - less * r;
+    at->radius_slope[2] = to_wall * along / at->radius - less * t;
+    ribbon_wall_nodes(half, at->chi, at->radius, &at->nodes);
 }
 
-// Motions of the walls of a packet of which the bits in `near` may be reached: taken from the gap.
-static void sphere_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
-                         SphereWalls *walls, RibbonWall at[LANE_WIDTH])
+// Takes the motions of the walls of a packet, of which the bits in `near` may be reached, from the gap.
+static void move_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
+                       SpherePlace at[LANE_WIDTH])
 {
     const int side = 2 * h - 1;
     ball_array q[3];
     wide_store(&q[0][j], gap->x);
     wide_store(&q[1][j], gap->r);
     wide_store(&q[2][j], gap->t);
+    for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+        if (!(near >> lane & 1)) continue;
+        const int k = j + lane;
+        const scalar place[3] = {q[0][k], q[1][k], q[2][k]};
+        SpherePlace *there = &at[lane];
+        scalar u[3];
+        sphere_place(&model->d->spheres, model->modes, place, there);
+        ribbon_wall_moved(model->modes, side, k, there->back, &there->nodes, w->elastic.q[h], u);
+        q[0][k] -= side * u[0];
+        q[1][k] -= u[1];
+        q[2][k] -= u[2];
+    }
+    gap->x = wide_load(&q[0][j]), gap->r = wide_load(&q[1][j]), gap->t = wide_load(&q[2][j]);
+}
+
+// Velocities and slopes of the walls of a packet that are pressed, and their shapes.
+static void pressed_walls(const Model *model, const Work *w, int h, int j, int mask,
+                          SpherePlace at[LANE_WIDTH], SphereWalls *walls, WallShape shape[LANE_WIDTH])
+{
+    const int side = 2 * h - 1;
     for (int c = 0; c < 3; c++) {
         wide_store(&walls->u_dot[c][j], wide_set(0.0));
         for (int i = 0; i < 3; i++) wide_store(&walls->slope[i][c][j], wide_set(0.0));
     }
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
-        if (!(near >> lane & 1)) continue;
+        if (!(mask >> lane & 1)) continue;
         const int k = j + lane;
-        const scalar place[3] = {q[0][k], q[1][k], q[2][k]};
-        const PlaceSlopes by = sphere_place(&model->d->spheres, model->modes, place, &at[lane]);
-        ribbon_wall(model->modes, side, k, w->elastic.q[h], w->elastic.q_dot[h], &at[lane]);
+        SpherePlace *there = &at[lane];
+        RibbonWall wall;
+        ribbon_wall(model->modes, side, k, there->back, &there->nodes, w->elastic.q[h], w->elastic.q_dot[h],
+                    &wall);
+        shape[lane] = wall.shape;
         for (int c = 0; c < 3; c++) {
             const double poleward = c == 0 ? side : 1.0;
-            q[c][k] -= poleward * at[lane].u[c];
-            walls->u_dot[c][k] = at[lane].u_dot[c];
+            walls->u_dot[c][k] = wall.u_dot[c];
             for (int i = 0; i < 3; i++)
-                walls->slope[i][c][k] =
-                    poleward * (at[lane].u_chi[c] * by.chi[i] + at[lane].u_radius[c] * by.radius[i]);
+                walls->slope[i][c][k] = poleward * (wall.u_chi[c] * there->chi_slope[i] +
+                                                    wall.u_radius[c] * there->radius_slope[i]);
         }
     }
-    gap->x = wide_load(&q[0][j]), gap->r = wide_load(&q[1][j]), gap->t = wide_load(&q[2][j]);
 }
 
 // No contact in a packet.
@@ -262,17 +284,20 @@ static void clear_walls(Work *w, int h, int j)
 
 // Contacts of a packet with the walls, modal forces on them.
 static void press_spheres(const Model *model, Work *w, int h, int j, const SphereGap *gap,
-                          const SphereContact *contact, bits pressed, const SphereWalls *walls,
-                          const RibbonWall at[LANE_WIDTH])
+                          const SphereContact *contact, bits pressed, SpherePlace at[LANE_WIDTH])
 {
     ElasticWork *e = &w->elastic;
     const wide zero = wide_set(0.0), side = wide_set(h == 0 ? -1.0 : 1.0);
+    const int mask = wide_mask(pressed);
     ball_array on_wall[3];
     wide rate;
-    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), walls, on_wall, &rate);
+    SphereWalls walls;
+    WallShape shape[LANE_WIDTH];
+    pressed_walls(model, w, h, j, mask, at, &walls, shape);
+    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &rate);
     const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t}, k = 1.5 * contact->Q;
     const wide stiffness = k / (wide_max(contact->delta, wide_set(1e-30)) + model->modes->compliance * k);
-    for (int c = 0; c < 3; c++) rate += n[c] * wide_load(&walls->u_dot[c][j]);
+    for (int c = 0; c < 3; c++) rate += n[c] * wide_load(&walls.u_dot[c][j]);
     wide_store(&e->touch_x[h][j], wide_select(pressed, n[0], zero));
     wide_store(&e->touch_r[h][j], wide_select(pressed, n[1], zero));
     wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
@@ -281,14 +306,13 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
     wide_store(&e->touch_chi[h][j], zero);
     wide_store(&e->touch_radius[h][j], zero);
-    const int mask = wide_mask(pressed);
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(mask >> lane & 1)) continue;
         const int b = j + lane;
         e->touch_chi[h][b] = at[lane].back ? -at[lane].chi : at[lane].chi;
         e->touch_radius[h][b] = at[lane].radius;
-        for (int c = 0; c < 3; c++)
-            for (int i = 0; i < N_MODES; i++) e->wall_force[h][i] += on_wall[c][b] * at[lane].shape[c][i];
+        const scalar F[3] = {on_wall[0][b], on_wall[1][b], on_wall[2][b]};
+        elastic_wall_force(model->modes, b, &shape[lane], F, e->wall_force[h]);
     }
 }
 
@@ -301,14 +325,13 @@ void spheres_elastic(const Model *model, Work *w)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             SphereGap gap = sphere_gap(model->d, w, h, j);
             const wide slack = wide_load(&s->slack[j]);
-            SphereWalls walls;
-            RibbonWall at[LANE_WIDTH];
+            SpherePlace at[LANE_WIDTH];
             SphereContact contact;
             bits pressed = {0};
             sphere_reached(slack, &gap, &contact.delta);
             const int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0));
             if (near != 0) {
-                sphere_walls(model, w, h, j, near, &gap, &walls, at);
+                move_walls(model, w, h, j, near, &gap, at);
                 if (sphere_reached(slack, &gap, &contact.delta)) {
                     contact = sphere_approach(s, slack, c, &gap);
                     pressed = wide_above(contact.Q, LEAST);
@@ -316,7 +339,7 @@ void spheres_elastic(const Model *model, Work *w)
             }
             wide_store(&w->delta_c[h][j], contact.delta);
             if (wide_any(pressed)) {
-                press_spheres(model, w, h, j, &gap, &contact, pressed, &walls, at);
+                press_spheres(model, w, h, j, &gap, &contact, pressed, at);
                 touched = true;
             } else
                 clear_walls(w, h, j);

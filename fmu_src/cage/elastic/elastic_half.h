@@ -131,19 +131,30 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
                         mode_array modal);
 
-// A place on the wall of a ribbon's pocket j: angle chi, radius, whether t < 0; shapes and motions there (x, r, t) by all
-// coordinates: the value, its slopes over chi and over the radius.
+// Nodes of the wall of a ribbon's pocket around a place, and their weights for the motion there and its slopes.
 typedef struct {
-    scalar chi, radius;
-    bool back;
-    mode_array shape[3];
-    scalar u[3], u_dot[3], u_chi[3], u_radius[3];
+    int node;
+    scalar value[WALL_RADII][4], over_chi[WALL_RADII][4], over_radius[WALL_RADII][4];
+} RibbonNodes;
+
+// The nodes around the angle chi at the radius.
+#define ribbon_wall_nodes FOR_ISA(ribbon_wall_nodes)
+void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, RibbonNodes *nodes);
+
+// Motion (x, r, t) there by the coordinates q, on the side t < 0 (back) or t > 0 of pocket j.
+#define ribbon_wall_moved FOR_ISA(ribbon_wall_moved)
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
+                       const scalar *q, scalar u[3]);
+
+// Velocity there, slopes of the motion over chi and radius, shapes for elastic_wall_force.
+typedef struct {
+    scalar u_dot[3], u_chi[3], u_radius[3];
+    WallShape shape;
 } RibbonWall;
 
-// Sets shapes and motions at the place in *at, with the coordinates q and their rates.
 #define ribbon_wall FOR_ISA(ribbon_wall)
-void ribbon_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot,
-                 RibbonWall *at);
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes, const scalar *q,
+                 const scalar *q_dot, RibbonWall *wall);
 
 // Motion along n (x, r, t) by each mode at the place (chi, negative where t < 0, radius).
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)

@@ -199,78 +199,103 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 }
 
 // ---- ribbons --------------------------------------------------------------------------------------------------------
-// Weights of the nodes of the wall around a place: of the cubic over chi, and of the parabola over the radius.
-typedef struct {
-    int node;
-    scalar chi[4], chi_slope[4], radius[WALL_RADII], radius_slope[WALL_RADII];
-} RibbonWeights;
-
-static RibbonWeights ribbon_weights(const ElasticHalf *half, scalar chi, scalar radius)
+// Weights of the cubic over chi and of the parabola over the radius, for the value and for the slopes over both.
+void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, RibbonNodes *nodes)
 {
-    RibbonWeights w = {0};
-    while (w.node < half->nodes - 2 && scalar_value(chi) >= half->chi[w.node + 1]) w.node++;
-    const double step = half->step[w.node], inv = half->inv_step[w.node];
-    const scalar u = (chi - half->chi[w.node]) * inv, v = 1.0 - u;
+    int node = 0;
+    while (node < half->nodes - 2 && scalar_value(chi) >= half->chi[node + 1]) node++;
+    const double step = half->step[node], inv = half->inv_step[node];
+    const scalar u = (chi - half->chi[node]) * inv, v = 1.0 - u;
     const scalar value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
                              -step * u * u * v};
     const scalar slope[4] = {-6.0 * u * v * inv, v * (v - 2.0 * u), 6.0 * u * v * inv, u * (u - 2.0 * v)};
-    memcpy(w.chi, value, sizeof value);
-    memcpy(w.chi_slope, slope, sizeof slope);
-    if (half->radii == 1) {
-        w.radius[0] = 1.0;
-        return w;
+    scalar along[WALL_RADII] = {1.0}, along_slope[WALL_RADII] = {0.0};
+    if (half->radii > 1) {
+        const double *at = half->radius, r = scalar_value(radius);
+        const bool within = r > at[0] && r < at[WALL_RADII - 1];
+        radius = scalar_min(scalar_max(radius, at[0]), at[WALL_RADII - 1]);
+        for (int a = 0; a < WALL_RADII; a++) {
+            const int b = (a + 1) % WALL_RADII, c = (a + 2) % WALL_RADII;
+            const double inv_product = 1.0 / ((at[a] - at[b]) * (at[a] - at[c]));
+            along[a] = (radius - at[b]) * (radius - at[c]) * inv_product;
+            along_slope[a] = within ? (2.0 * radius - at[b] - at[c]) * inv_product : 0.0 * radius;
+        }
     }
-    const double *at = half->radius, r = scalar_value(radius);
-    const bool within = r > at[0] && r < at[half->radii - 1];
-    radius = scalar_min(scalar_max(radius, at[0]), at[half->radii - 1]);
-    for (int a = 0; a < half->radii; a++) {
-        const int b = (a + 1) % WALL_RADII, c = (a + 2) % WALL_RADII;
-        const double inv_product = 1.0 / ((at[a] - at[b]) * (at[a] - at[c]));
-        w.radius[a] = (radius - at[b]) * (radius - at[c]) * inv_product;
-        w.radius_slope[a] = within ? (2.0 * radius - at[b] - at[c]) * inv_product : 0.0 * radius;
-    }
-    return w;
+    nodes->node = node;
+    for (int a = 0; a < half->radii; a++)
+        for (int t = 0; t < 4; t++) {
+            nodes->value[a][t] = along[a] * value[t];
+            nodes->over_chi[a][t] = along[a] * slope[t];
+            nodes->over_radius[a][t] = along_slope[a] * value[t];
+        }
 }
 
-// Shape of component c by all coordinates with the weights of chi and of the radius.
-static void ribbon_shape(const ElasticHalf *half, int side, int j, bool back, int node, int c,
-                         const scalar chi[4], const scalar radius[WALL_RADII], mode_array shape)
+// Motion of component c by a few a' (part 0) or b' (1) side by side, without its sign.
+INLINE wide ribbon_motion(const ElasticHalf *half, int node, scalar weight[WALL_RADII][4], int c, int part,
+                          int m)
+{
+    wide u = wide_set(0.0);
+    for (int a = 0; a < half->radii; a++) {
+        const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + node];
+        for (int t = 0; t < 4; t++) u = wide_fma(wide_set(weight[a][t]), wide_load(&from[t][c][part][m]), u);
+    }
+    return u;
+}
+
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
+                       const scalar *q, scalar u[3])
 {
     const Turn turn = turn_of(half, j);
-    scalar b[ENTRIES];
-    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        wide by[2];
-        for (int part = 0; part < 2; part++) {
-            wide u = wide_set(0.0);
-            for (int i = 0; i < half->radii; i++) {
-                const double (*from)[3][2][ENTRIES] = half->wall[i * half->nodes + node];
-                for (int t = 0; t < 4; t++)
-                    u = wide_fma(wide_set(chi[t] * radius[i]), wide_load(&from[t][c][part][m]), u);
-            }
-            by[part] = wide_set(wall_sign(back, side, c, part)) * u;
+    wide sums[3][PARTS];
+    for (int c = 0; c < 3; c++)
+        for (int i = 0; i < PARTS; i++) sums[c][i] = wide_set(0.0);
+    for (int block = 0; block < ENTRY_OCTETS; block++)
+        for (int i = 0; i < PARTS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            for (int c = 0; c < 3; c++)
+                for (int part = 0; part < 2; part++)
+                    sums[c][i] = wide_fma(wide_set(wall_sign(back, side, c, part)) *
+                                              ribbon_motion(half, nodes->node, nodes->value, c, part, m),
+                                          place[part], sums[c][i]);
         }
-        wide_store(&shape[m], back_to_a(&turn, m, by[0], by[1]));
-        wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
-    }
-    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
+    for (int c = 0; c < 3; c++) u[c] = all_sums(sums[c]);
 }
 
-void ribbon_wall(const ElasticHalf *half, int side, int j, const scalar *q, const scalar *q_dot,
-                 RibbonWall *at)
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes, const scalar *q,
+                 const scalar *q_dot, RibbonWall *wall)
 {
-    const RibbonWeights w = ribbon_weights(half, at->chi, at->radius);
-    mode_array slope = {0.0};
+    enum { RATE, OVER_CHI, OVER_RADIUS, KINDS };
+
+    const Turn turn = turn_of(half, j);
+    wide sums[KINDS][3][PARTS];
+    for (int k = 0; k < KINDS; k++)
+        for (int c = 0; c < 3; c++)
+            for (int i = 0; i < PARTS; i++) sums[k][c][i] = wide_set(0.0);
+    for (int block = 0; block < ENTRY_OCTETS; block++)
+        for (int i = 0; i < PARTS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
+            for (int c = 0; c < 3; c++)
+                for (int part = 0; part < 2; part++) {
+                    const wide sign = wide_set(wall_sign(back, side, c, part)), moved = sign * place[part];
+                    const wide motion = sign * ribbon_motion(half, nodes->node, nodes->value, c, part, m);
+                    wide_store(&wall->shape.motion[c][part][m], motion);
+                    sums[RATE][c][i] = wide_fma(motion, rate[part], sums[RATE][c][i]);
+                    sums[OVER_CHI][c][i] =
+                        wide_fma(ribbon_motion(half, nodes->node, nodes->over_chi, c, part, m), moved,
+                                 sums[OVER_CHI][c][i]);
+                    if (half->radii > 1)
+                        sums[OVER_RADIUS][c][i] =
+                            wide_fma(ribbon_motion(half, nodes->node, nodes->over_radius, c, part, m), moved,
+                                     sums[OVER_RADIUS][c][i]);
+                }
+        }
     for (int c = 0; c < 3; c++) {
-        memset(at->shape[c], 0, sizeof at->shape[c]);
-        ribbon_shape(half, side, j, at->back, w.node, c, w.chi, w.radius, at->shape[c]);
-        at->u[c] = elastic_sum(at->shape[c], q);
-        at->u_dot[c] = elastic_sum(at->shape[c], q_dot);
-        ribbon_shape(half, side, j, at->back, w.node, c, w.chi_slope, w.radius, slope);
-        at->u_chi[c] = elastic_sum(slope, q);
-        at->u_radius[c] = 0.0;
-        if (half->radii == 1) continue;
-        ribbon_shape(half, side, j, at->back, w.node, c, w.chi, w.radius_slope, slope);
-        at->u_radius[c] = elastic_sum(slope, q);
+        wall->u_dot[c] = all_sums(sums[RATE][c]);
+        wall->u_chi[c] = all_sums(sums[OVER_CHI][c]);
+        wall->u_radius[c] = all_sums(sums[OVER_RADIUS][c]);
     }
 }
 
@@ -278,11 +303,18 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, sca
                        mode_array shape)
 {
     const bool back = scalar_value(chi) < 0.0;
-    const RibbonWeights w = ribbon_weights(half, back ? -chi : chi, radius);
-    mode_array along = {0.0};
-    memset(shape, 0, sizeof(mode_array));
-    for (int c = 0; c < 3; c++) {
-        ribbon_shape(half, side, j, back, w.node, c, w.chi, w.radius, along);
-        for (int i = 0; i < N_MODES; i++) shape[i] += n[c] * along[i];
+    const Turn turn = turn_of(half, j);
+    RibbonNodes nodes;
+    scalar b[ENTRIES];
+    ribbon_wall_nodes(half, back ? -chi : chi, radius, &nodes);
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
+        wide by[2] = {wide_set(0.0), wide_set(0.0)};
+        for (int part = 0; part < 2; part++)
+            for (int c = 0; c < 3; c++)
+                by[part] = wide_fma(wide_set(wall_sign(back, side, c, part) * n[c]),
+                                    ribbon_motion(half, nodes.node, nodes.value, c, part, m), by[part]);
+        wide_store(&shape[m], back_to_a(&turn, m, by[0], by[1]));
+        wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
     }
+    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }
