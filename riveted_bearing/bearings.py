@@ -215,8 +215,8 @@ def bearing_case(source, rivet=None, cage=None):
         bare = cage is None
     else:
         path = find_bearing(source)
-        bare = designation in shipped_bearings()
-        own, document = "shipped" if bare else "yours", read_toml(path)
+        bare = designation in shipped_bearings() and cage is None
+        own, document = "shipped" if designation in shipped_bearings() else "yours", read_toml(path)
         check_designation(path, document)
         document = {"designation": path.name.removesuffix(".toml")} | document
     prefix = "rivet."

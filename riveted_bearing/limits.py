@@ -182,7 +182,14 @@ LIMITS = (
 FIRST = 6  # limits of balls and the cage's diameters, before those of the half
 MACHINED = tuple(of_half(limit) for limit in half_shape.LIMITS)
 RIBBON_NAMES = scaling.SHAPE | scaling.RIBBON | {"cage_half_width": "cage.pocket_depth"}
-RIBBON = tuple(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS)
+RIBBON = (
+    Limit(
+        ("cage.width", "cage.pocket_depth", "cage.sheet"),
+        lambda v: 0.01 * v["cage.width"] - abs(v["cage.width"] - 2.0 * (v["cage.pocket_depth"] + v["cage.sheet"])),
+        "a ribbon as wide as pockets and sheets of both halves; without cage.width it follows",
+    ),
+    *(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS),
+)
 OF_LAND = ("cage.guide_clearance", "cage.land_x")  # a ribbon has none
 
 
