@@ -20,11 +20,7 @@ LIMITS = {  # words of a page
     "README.md": 800,
     "docs/api.md": 50,
     "docs/browser.md": 250,
-<<<<<<< HEAD
     "docs/cages.md": 1350,
-=======
-    "docs/cages.md": 1200,
->>>>>>> spheres
     "docs/cookbook.md": 470,
     "docs/coupling.md": 1550,
     "docs/developing.md": 1400,
@@ -48,11 +44,7 @@ LATER = {  # pages beside those, which together have a limit
     "docs/recipes.md": 1500,
     "docs/showing.md": 600,
 }
-<<<<<<< HEAD
 NOTE, ALL_PAGES = 400, 27_850
-=======
-NOTE, ALL_PAGES = 400, 27_700
->>>>>>> spheres
 SENTENCE, LINE, LONG_LINES = 35, 160, 0.01
 
 ABBREVIATIONS = "Fig Figs Eq Eqs eq eqs Ref Refs Sec Tab Nos Vol vol p pp e.g i.e cf vs al approx resp Dr".split()
