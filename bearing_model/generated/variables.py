@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{5996903a-9036-6923-c898-ad75a0a49bb5}"
+MODEL_GUID = "{880fd909-83a4-ce23-fba0-379cc5ab3ec0}"
 Z = 9
 
 
@@ -182,6 +182,20 @@ PARAMETERS = {
         Variable("ball.nu", 1014, "Real", "1", None, 0.0, 0.0, 0.49, 1, None, "Poisson's ratio of the balls", "0: bearing.nu", False, "it is a property of a body"),
         Variable("ball.expansion", 1015, "Real", "1/K", None, 0.0, 0.0, 0.0001, 1, None, "Thermal expansion of the balls", "0: bearing.expansion", False, "it is a property of a body"),
         Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls", False, "it is part of the geometry"),
+        Variable("outer.spall_angle", 9100, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 1, None, "Angle of the spall's middle on the outer ring at the start, from +Y toward +Z; it turns with the ring", "at +Y", False, "it is part of the geometry"),
+        Variable("outer.spall_length", 9101, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Length of the spall along the track", "no spall", False, "it is part of the geometry"),
+        Variable("outer.spall_width", 9102, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Width of the spall across the track, in the middle of the contacts", "no spall", False, "it is part of the geometry"),
+        Variable("outer.spall_depth", 9103, "Real", "m", "um", 0.0, 0.0, 0.01, 1, None, "Depth of the spall", "no spall", False, "it is part of the geometry"),
+        Variable("outer.spall_edge", 9104, "Real", "m", "mm", 5e-05, 1e-06, 0.01, 1, None, "Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge", "regularization: at most a quarter of the length is in force", False, "it is part of the geometry"),
+        Variable("inner.spall_angle", 9120, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 1, None, "Angle of the spall's middle on the inner ring at the start, from +Y toward +Z; it turns with the ring", "at +Y", False, "it is part of the geometry"),
+        Variable("inner.spall_length", 9121, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Length of the spall along the track", "no spall", False, "it is part of the geometry"),
+        Variable("inner.spall_width", 9122, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Width of the spall across the track, in the middle of the contacts", "no spall", False, "it is part of the geometry"),
+        Variable("inner.spall_depth", 9123, "Real", "m", "um", 0.0, 0.0, 0.01, 1, None, "Depth of the spall", "no spall", False, "it is part of the geometry"),
+        Variable("inner.spall_edge", 9124, "Real", "m", "mm", 5e-05, 1e-06, 0.01, 1, None, "Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge", "regularization: at most a quarter of the length is in force", False, "it is part of the geometry"),
+        Variable("outer.waviness[n]", 9200, "Real", "m", "um", 0.0, 0.0, 0.0001, 60, None, "Amplitude of n waves around the outer race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])", "perfect race", False, "it is part of the geometry"),
+        Variable("outer.waviness_phase[n]", 9300, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 60, None, "Phase of n waves around the outer race; phi from +Y toward +Z at the start, turning with the ring", "perfect race", False, "it is part of the geometry"),
+        Variable("inner.waviness[n]", 9400, "Real", "m", "um", 0.0, 0.0, 0.0001, 60, None, "Amplitude of n waves around the inner race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])", "perfect race", False, "it is part of the geometry"),
+        Variable("inner.waviness_phase[n]", 9500, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 60, None, "Phase of n waves around the inner race; phi from +Y toward +Z at the start, turning with the ring", "perfect race", False, "it is part of the geometry"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)", False, "it is part of the geometry"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts", False, "it is part of the geometry"),
         Variable("cage.D_o", 1103, "Real", "m", "mm", 0.0595, 0.005, 2.0, 1, None, "Cage outer diameter (guided by the outer ring)", "paper Table 1", False, "it is part of the geometry"),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{5996903a-9036-6923-c898-ad75a0a49bb5}"  // digest of the table
+#define MODEL_GUID "{880fd909-83a4-ce23-fba0-379cc5ab3ec0}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -95,6 +95,24 @@ typedef struct {
         double expansion;  // [1/K] Thermal expansion of the balls
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
     } ball;
+    struct {
+        double spall_angle;  // [rad] Angle of the spall's middle on the outer ring at the start, from +Y toward +Z; it turns with the ring
+        double spall_length;  // [m] Length of the spall along the track
+        double spall_width;  // [m] Width of the spall across the track, in the middle of the contacts
+        double spall_depth;  // [m] Depth of the spall
+        double spall_edge;  // [m] Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge
+        double waviness[60];  // [m] Amplitude of n waves around the outer race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])
+        double waviness_phase[60];  // [rad] Phase of n waves around the outer race; phi from +Y toward +Z at the start, turning with the ring
+    } outer;
+    struct {
+        double spall_angle;  // [rad] Angle of the spall's middle on the inner ring at the start, from +Y toward +Z; it turns with the ring
+        double spall_length;  // [m] Length of the spall along the track
+        double spall_width;  // [m] Width of the spall across the track, in the middle of the contacts
+        double spall_depth;  // [m] Depth of the spall
+        double spall_edge;  // [m] Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge
+        double waviness[60];  // [m] Amplitude of n waves around the inner race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])
+        double waviness_phase[60];  // [rad] Phase of n waves around the inner race; phi from +Y toward +Z at the start, turning with the ring
+    } inner;
     struct {
         double pocket_clearance;  // [m] Pocket diameter - ball diameter
         double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
@@ -603,4 +621,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 356 };  // time is the first
+enum { N_VARIABLES = 370 };  // time is the first

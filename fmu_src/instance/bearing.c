@@ -210,6 +210,7 @@ static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     input_trajectory_update(present_parameters(b), u, s->integrator.t, s->integrator.t, trajectory);
     trajectory->frame_angle = s->frame_angle;
+    trajectory->inner_angle = s->ring_angle[0], trajectory->outer_angle = s->ring_angle[1];
 }
 
 // Puts loads and motions of the present inputs u_now on the bearing and holds them: there is no trajectory to follow.
@@ -352,7 +353,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
     memcpy(&s->p_now, &s->p, sizeof s->p);
-    s->frame_angle = 0.0;
+    s->frame_angle = s->ring_angle[0] = s->ring_angle[1] = 0.0;
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
     s->integrator.h = FIRST_STEP;
@@ -382,16 +383,17 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 
 // ---- stepping ---------------------------------------------------------------------------------------------
 // Sets the trajectory of the inputs u from the present time to `stop`, the next edge of a pulse or the end of a step of
-// a fixed length, in a communication step that began at t_0 with the frame at frame_angle.  Where the load on the ring
+// a fixed length, in a communication step that began at t_0 with the frame and the rings at these angles.  Where the load on the ring
 // jumps, the derivative at the present state is no longer current.
 static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle,
-                             double stop)
+                             const double ring_angle[2], double stop)
 {
     InstanceState *s = &b->s;
     const RingLoad before = b->ring_load;
     input_trajectory_update(&s->p, u, t_0, s->integrator.t, &b->trajectory);
     if (is_fixed(b)) pulse_average(&s->p, stop, 0.5 * (stop - s->integrator.t), &b->trajectory);
     b->trajectory.frame_angle = frame_angle;
+    b->trajectory.inner_angle = ring_angle[0], b->trajectory.outer_angle = ring_angle[1];
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
 
@@ -406,6 +408,8 @@ static void end_trajectory(Bearing *b)
     InstanceState *s = &b->s;
     input_trajectory_rates_at(&b->trajectory, s->integrator.t, &s->u_now, &s->u_now_dot);
     s->frame_angle = frame_angle_at(&b->trajectory, s->integrator.t);
+    if (b->trajectory.angles_matter != 0.0)
+        ring_angles_at(&b->trajectory, s->integrator.t, &s->ring_angle[0], &s->ring_angle[1]);
     hold_ring_load(b);
     if (s->p.ring.motion == RING_MOTION_PRESCRIBED) ring_follow(&b->ring_load, s->integrator.now.y);
 }
@@ -446,6 +450,7 @@ PartStatus part_step(Bearing *b, double t_end)
 {
     InstanceState *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
+    const double ring_angle[2] = {s->ring_angle[0], s->ring_angle[1]};
     Inputs u[INPUT_ORDERS + 1];
     if (!check_change(b) || !check_inputs(b, t_end - t_begin)) return PART_ERROR;
     motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u, &s->lag);
@@ -467,7 +472,7 @@ PartStatus part_step(Bearing *b, double t_end)
     int status = 0;
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
-        begin_trajectory(b, u, t_begin, frame_angle, stop);
+        begin_trajectory(b, u, t_begin, frame_angle, ring_angle, stop);
         const long left = (long)fmax(most - (s->integrator.steps - steps_before), 1.0);
         status = integrator_advance(b->integrator, stop, left);
         end_trajectory(b);

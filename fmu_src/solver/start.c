@@ -57,8 +57,10 @@ static double ball_potential(const Equilibrium *eq, int j)
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    return hertz_stored(d->inner.hertz.K, w->delta_i[j]) + hertz_stored(d->outer.hertz.K, w->delta_e[j]) -
-           (eq->F_c + eq->F_r[j]) * w->r[j] - eq->F_x[j] * w->x[j] +
+    const double stored = d->rough ? w->race_stored[j]
+                                   : hertz_stored(d->inner.hertz.K, w->delta_i[j]) +
+                                         hertz_stored(d->outer.hertz.K, w->delta_e[j]);
+    return stored - (eq->F_c + eq->F_r[j]) * w->r[j] - eq->F_x[j] * w->x[j] +
            0.5 * K_0 * (w->x[j] - eq->x_0[j]) * (w->x[j] - eq->x_0[j]);
 }
 
