@@ -180,40 +180,53 @@ INLINE Contact outer_contact_at_rest(const Model *model, const BallMotion *ball)
     return c;
 }
 
-// The same where the race is not perfect; stored: elastic energy of the contact.  Of ring->b_y and b_z, which turn with the
-// ring, the angle of the ball on its race follows.
-INLINE Contact surface_contact(const Model *model, const Race *race, const BallMotion *ball, wide R_g,
-                               const Rotor *ring, wide cos_theta, wide sin_theta, vec *p, wide *stored)
+// Place of a packet of balls on a race that is not perfect, as in race_contact, with the rolling direction t and cos and sin
+// of the angle on the race, of ring->b_y and b_z, which turn with it.
+typedef struct {
+    vec p, v, Omega, n, t;
+    wide r, L, cos_phi, sin_phi;
+} SurfacePlace;
+
+INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor *ring, wide cos_theta,
+                                  wide sin_theta)
 {
     const wide tiny = wide_set(TINY);
-    const vec a = vec_local(ring->a, cos_theta, sin_theta), v = vec_local(ring->v, cos_theta, sin_theta);
-    const vec Omega = vec_local(ring->Omega, cos_theta, sin_theta);
-    *p = vec_sub(ball->x, vec_local(ring->x, cos_theta, sin_theta));
-    const wide along = vec_dot(*p, a);
-    const vec radial = vec_axpy(-along, a, *p);
-    const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
-    const vec e = vec_scale(1.0 / r, radial), t = vec_cross(a, e);
-    const wide across = r - R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
-    const vec n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a));
+    const vec a = vec_local(ring->a, cos_theta, sin_theta);
+    SurfacePlace at = {.p = vec_sub(ball->x, vec_local(ring->x, cos_theta, sin_theta)),
+                       .v = vec_local(ring->v, cos_theta, sin_theta),
+                       .Omega = vec_local(ring->Omega, cos_theta, sin_theta)};
+    const wide along = vec_dot(at.p, a);
+    const vec radial = vec_axpy(-along, a, at.p);
+    at.r = wide_sqrt(vec_dot(radial, radial) + tiny);
+    const vec e = vec_scale(1.0 / at.r, radial);
+    const wide across = at.r - R_g;
+    at.L = wide_sqrt(along * along + across * across + tiny);
+    const wide inv_L = 1.0 / at.L;
+    at.n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a));
+    at.t = vec_cross(a, e);
+    at.cos_phi = vec_dot(e, vec_local(ring->b_y, cos_theta, sin_theta));
+    at.sin_phi = vec_dot(e, vec_local(ring->b_z, cos_theta, sin_theta));
+    return at;
+}
 
-    // height and drop at the ball's angle
-    const RaceSurface *s = &race->surface;
-    const wide cos_phi = vec_dot(e, vec_local(ring->b_y, cos_theta, sin_theta));
-    const wide sin_phi = vec_dot(e, vec_local(ring->b_z, cos_theta, sin_theta));
-    wide w, dw, f = wide_set(0.0), df = f;
-    race_surface_waves(s, cos_phi, sin_phi, &w, &dw);
-    if (s->spalled) race_surface_drop(s, cos_phi, sin_phi, &f, &df);
-    const SurfaceLoad load = race_surface_load(s, &race->hertz, L - (race->r_g - ball->R) + w, f);
+// Contact there, under waves of the height w with the derivative dw; stored: elastic energy of the contact.
+INLINE Contact surface_contact(const Model *model, const Race *race, const BallMotion *ball,
+                               const SurfacePlace *at, wide w, wide dw, wide *stored)
+{
+    wide f = wide_set(0.0), df = f;
+    if (race->surface.spalled) race_surface_drop(&race->surface, at->cos_phi, at->sin_phi, &f, &df);
+    const SurfaceLoad load =
+        race_surface_load(&race->surface, &race->hertz, at->L - (race->r_g - ball->R) + w, f);
 
     // minus the gradient of the energy, Q (n + q t); its direction is the normal
-    const wide q = (dw - load.Q_spall / (load.Q + LEAST_LOAD) * df) / r, length = wide_sqrt(1.0 + q * q);
+    const wide q = (dw - load.Q_spall / (load.Q + LEAST_LOAD) * df) / at->r, length = wide_sqrt(1.0 + q * q);
     const wide inv_length = 1.0 / length;
     Contact c = {.R = ball->R,
-                 .n = vec_scale(inv_length, vec_axpy(q, t, n)),
-                 .t_1 = vec_scale(inv_length, vec_axpy(-q, n, t))};
+                 .n = vec_scale(inv_length, vec_axpy(q, at->t, at->n)),
+                 .t_1 = vec_scale(inv_length, vec_axpy(-q, at->n, at->t))};
     c.t_2 = vec_cross(c.n, c.t_1);
-    c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, *p));
-    c.spin = vec_sub(ball->omega, Omega);
+    c.approach = vec_sub(vec_sub(ball->v, at->v), vec_cross(at->Omega, at->p));
+    c.spin = vec_sub(ball->omega, at->Omega);
     c.delta = load.delta;
     c.sqrt_delta = wide_sqrt(wide_max(load.delta, wide_set(0.0)));
     const wide rate = length * vec_dot(c.n, c.approach);
@@ -221,7 +234,7 @@ INLINE Contact surface_contact(const Model *model, const Race *race, const BallM
     c.dissipated = (Q - load.Q) * rate;
     c.Q = Q * length;
     *stored = load.U;
-    contact_motion(ball, Omega, &c);
+    contact_motion(ball, at->Omega, &c);
     return c;
 }
 
@@ -618,6 +631,26 @@ static Rotor turned(const Rotor *ring, scalar angle)
     return out;
 }
 
+// Contacts of all balls with a race whose ring has body axes that turn with it; stored: their elastic energies.
+INLINE void surface_contacts(const Model *model, const Work *w, const Race *race, wide R_g, const Rotor *ring,
+                             vec p[PACKETS], Contact c[PACKETS], wide stored[PACKETS])
+{
+    SurfacePlace at[PACKETS];
+    for (int b = 0; b < PACKETS; b++) {
+        const int j = b * LANE_WIDTH;
+        const BallMotion ball = ball_motion(model, w, j);
+        at[b] = surface_place(&ball, R_g, ring, wide_load(&w->cos_theta[j]), wide_load(&w->sin_theta[j]));
+        p[b] = at[b].p;
+    }
+    wide cos_phi[PACKETS], sin_phi[PACKETS], height[PACKETS], slope[PACKETS];
+    for (int b = 0; b < PACKETS; b++) cos_phi[b] = at[b].cos_phi, sin_phi[b] = at[b].sin_phi;
+    race_surface_waves(&race->surface, cos_phi, sin_phi, height, slope);
+    for (int b = 0; b < PACKETS; b++) {
+        const BallMotion ball = ball_motion(model, w, b * LANE_WIDTH);
+        c[b] = surface_contact(model, race, &ball, &at[b], height[b], slope[b], &stored[b]);
+    }
+}
+
 // Balls between races that are not perfect.
 static __attribute__((noinline)) void race_contact_force_rough(const Model *model, Work *w, scalar inner_R_g,
                                                                bool mixed, bool sliced)
@@ -626,22 +659,17 @@ static __attribute__((noinline)) void race_contact_force_rough(const Model *mode
     const Rotor at_rest = outer_ring(given);
     const Rotor inner_ring = turned(&w->ring, given->inner_angle),
                 outer = turned(&at_rest, given->outer_angle);
-    vec p_i[PACKETS], p_e;
+    vec p_i[PACKETS], p_e[PACKETS];
     Contact inner_contact[PACKETS], outer_contact[PACKETS];
     Tangential T_i[PACKETS], T_e[PACKETS];
-    for (int b = 0; b < PACKETS; b++) {
-        const int j = b * LANE_WIDTH;
-        const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-        const BallMotion ball = ball_motion(model, w, j);
-        wide stored_i, stored_e;
-        inner_contact[b] = surface_contact(model, &model->d->inner, &ball, wide_set(inner_R_g), &inner_ring,
-                                           cos_theta, sin_theta, &p_i[b], &stored_i);
-        outer_contact[b] = surface_contact(model, &model->d->outer, &ball, wide_set(model->d->outer.R_g),
-                                           &outer, cos_theta, sin_theta, &p_e, &stored_e);
-        wide_store(&w->race_stored[j], stored_i + stored_e);
-    }
+    wide stored_i[PACKETS], stored_e[PACKETS];
+    surface_contacts(model, w, &model->d->inner, wide_set(inner_R_g), &inner_ring, p_i, inner_contact,
+                     stored_i);
+    surface_contacts(model, w, &model->d->outer, wide_set(model->d->outer.R_g), &outer, p_e, outer_contact,
+                     stored_e);
     race_tractions(model, inner_contact, outer_contact, mixed, sliced, T_i, T_e);
     for (int b = 0; b < PACKETS; b++) {
+        wide_store(&w->race_stored[b * LANE_WIDTH], stored_i[b] + stored_e[b]);
         store_contacts(w, b * LANE_WIDTH, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
         store_forces(w, b * LANE_WIDTH, p_i[b], &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
     }

@@ -48,21 +48,24 @@ static inline bool race_surfaces_given(const Parameters *p)
 
 static const double LEAST_LOAD = 1e-30;  // keeps shares of no load from dividing by 0 [N]
 
-// Height w of the waves and its derivative by phi.
-INLINE void race_surface_waves(const RaceSurface *s, wide cos_phi, wide sin_phi, wide *w, wide *dw)
+// Height w of the waves and its derivative by phi, of all packets, which go through each order together.
+INLINE void race_surface_waves(const RaceSurface *s, const wide cos_phi[PACKETS], const wide sin_phi[PACKETS],
+                               wide w[PACKETS], wide dw[PACKETS])
 {
-    // Horner's scheme in z = exp(i phi): w = Re sum c_n z^n, dw/dphi = -Im sum n c_n z^n
-    wide re = wide_set(0.0), im = re, n_re = re, n_im = re;
-    for (int n = s->waves; n > 0; n--) {
-        const wide a = re + s->re[n - 1], b = im + s->im[n - 1];
-        const wide c = n_re + n * s->re[n - 1], d = n_im + n * s->im[n - 1];
-        re = wide_fma(a, cos_phi, -(b * sin_phi));
-        im = wide_fma(a, sin_phi, b * cos_phi);
-        n_re = wide_fma(c, cos_phi, -(d * sin_phi));
-        n_im = wide_fma(c, sin_phi, d * cos_phi);
+    // Horner's scheme in z = exp(i phi): w = Re sum c_k z^k, dw/dphi = -Im sum k c_k z^k
+    wide re[PACKETS], im[PACKETS], k_re[PACKETS], k_im[PACKETS];
+    for (int i = 0; i < PACKETS; i++) re[i] = im[i] = k_re[i] = k_im[i] = wide_set(0.0);
+    for (int k = s->waves; k > 0; k--) {
+        const double re_k = s->re[k - 1], im_k = s->im[k - 1];
+        for (int i = 0; i < PACKETS; i++) {
+            const wide a = re[i] + re_k, b = im[i] + im_k, c = k_re[i] + k * re_k, d = k_im[i] + k * im_k;
+            re[i] = wide_fma(a, cos_phi[i], -(b * sin_phi[i]));
+            im[i] = wide_fma(a, sin_phi[i], b * cos_phi[i]);
+            k_re[i] = wide_fma(c, cos_phi[i], -(d * sin_phi[i]));
+            k_im[i] = wide_fma(c, sin_phi[i], d * cos_phi[i]);
+        }
     }
-    *w = re;
-    *dw = -n_im;
+    for (int i = 0; i < PACKETS; i++) w[i] = re[i], dw[i] = -k_im[i];
 }
 
 // Drop f of the ball's path in the spall and its derivative by phi.
