@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{880fd909-83a4-ce23-fba0-379cc5ab3ec0}"
+MODEL_GUID = "{ab1db8e3-ba34-2c2b-d523-37ea455935d2}"
 Z = 9
 
 
@@ -40,6 +40,11 @@ class TiltMode(IntEnum):
 class RingMotion(IntEnum):
     FREE = 1
     PRESCRIBED = 2
+
+
+class HousingMotion(IntEnum):
+    GIVEN = 1
+    SUPPORTED = 2
 
 
 class CageMaterial(IntEnum):
@@ -136,6 +141,7 @@ UNITS = {
     "rad/s2": {"rad/s2": (1.0, 0.0)},
     "N": {"N": (1.0, 0.0)},
     "N.m": {"N.m": (1.0, 0.0)},
+    "N/m": {"N/m": (1.0, 0.0)},
     "N.m/rad": {"N.m/rad": (1.0, 0.0)},
     "N.m.s/rad": {"N.m.s/rad": (1.0, 0.0)},
     "N.s/m": {"N.s/m": (1.0, 0.0)},
@@ -289,6 +295,19 @@ PARAMETERS = {
         Variable("housing.expansion", 8237, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the housing, whose seat has the outer ring's temperature", "steel", False, "it is a property of a body"),
         Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start", "off", False, None),
         Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z of the fixed frame", "off", False, None),
+        Variable("housing.motion", 9600, "HousingMotion", "1", None, 1, None, None, 1, None, "Whether the housing's motion is given or follows from springs", "outer ring given", False, "it decides on the states and their meaning"),
+        Variable("housing.m", 9601, "Real", "kg", None, 5.0, 0.01, 10000.0, 1, None, "Mass of the housing with the outer ring", "assumed: a small pillow block", False, "it is a property of a body"),
+        Variable("housing.J", 9602, "Real", "kg.m2", None, 0.01, 1e-06, 1000.0, 1, None, "Moment of inertia of the housing with the outer ring about Y and Z", "assumed: a small pillow block", False, "it is a property of a body"),
+        Variable("housing.k_x", 9603, "Real", "N/m", None, 100000000.0, 0.0, 1000000000000.0, 1, None, "Stiffness of the housing's support along X", "assumed: 700 Hz with housing.m", False, "it is a property of a body"),
+        Variable("housing.k_y", 9604, "Real", "N/m", None, 100000000.0, 0.0, 1000000000000.0, 1, None, "Stiffness of the housing's support along Y", "assumed: 700 Hz with housing.m", False, "it is a property of a body"),
+        Variable("housing.k_z", 9605, "Real", "N/m", None, 100000000.0, 0.0, 1000000000000.0, 1, None, "Stiffness of the housing's support along Z", "assumed: 700 Hz with housing.m", False, "it is a property of a body"),
+        Variable("housing.c_x", 9606, "Real", "N.s/m", None, 1000.0, 0.0, 10000000.0, 1, None, "Damping of the housing's support along X", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.c_y", 9607, "Real", "N.s/m", None, 1000.0, 0.0, 10000000.0, 1, None, "Damping of the housing's support along Y", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.c_z", 9608, "Real", "N.s/m", None, 1000.0, 0.0, 10000000.0, 1, None, "Damping of the housing's support along Z", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.k_tilt_y", 9609, "Real", "N.m/rad", None, 100000.0, 0.0, 10000000000.0, 1, None, "Stiffness of the housing's support about Y", "assumed", False, "it is a property of a body"),
+        Variable("housing.k_tilt_z", 9610, "Real", "N.m/rad", None, 100000.0, 0.0, 10000000000.0, 1, None, "Stiffness of the housing's support about Z", "assumed", False, "it is a property of a body"),
+        Variable("housing.c_tilt_y", 9611, "Real", "N.m.s/rad", None, 1.0, 0.0, 100000.0, 1, None, "Damping of the housing's support about Y", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.c_tilt_z", 9612, "Real", "N.m.s/rad", None, 1.0, 0.0, 100000.0, 1, None, "Damping of the housing's support about Z", "assumed: 2 % of critical", False, "it is a property of a body"),
         Variable("frame.radius", 1511, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Distance of the bearing from the axis of frame.omega, which lies on -Y", "no arm", False, "it is part of the geometry"),
         Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)", False, None),
         Variable("pulse.F_a", 1602, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along +X", "no impact (paper section 4.1 (3): 241 N)", False, None),
@@ -398,6 +417,14 @@ OUTPUTS = {
         Variable("housing.M_y", 2154, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Y, at the outer ring's centre", None, False, None),
         Variable("housing.M_z", 2155, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Z, at the outer ring's centre", None, False, None),
         Variable("housing.M_x", 2156, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about X, at the outer ring's centre", None, False, None),
+        Variable("housing.u_x", 9650, "Real", "m", "um", None, None, None, 1, "ring", "Displacement of the outer ring along X; on springs from its place at the start", None, False, None),
+        Variable("housing.u_y", 9651, "Real", "m", "um", None, None, None, 1, "ring", "Displacement of the outer ring along Y; on springs from its place at the start", None, False, None),
+        Variable("housing.u_z", 9652, "Real", "m", "um", None, None, None, 1, "ring", "Displacement of the outer ring along Z; on springs from its place at the start", None, False, None),
+        Variable("housing.u_tilt_y", 9653, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the outer ring about Y", None, False, None),
+        Variable("housing.u_tilt_z", 9654, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the outer ring about Z", None, False, None),
+        Variable("housing.a_x", 9655, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the outer ring along X: what an accelerometer on the housing measures; at the last step", None, False, None),
+        Variable("housing.a_y", 9656, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the outer ring along Y: what an accelerometer on the housing measures; at the last step", None, False, None),
+        Variable("housing.a_z", 9657, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the outer ring along Z: what an accelerometer on the housing measures; at the last step", None, False, None),
         Variable("shaft.R_x", 2161, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along X", None, False, None),
         Variable("shaft.R_y", 2162, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Y", None, False, None),
         Variable("shaft.R_z", 2163, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Z", None, False, None),

@@ -20,6 +20,7 @@ from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, 
 ENUMERATIONS = (
     variables.TiltMode,
     variables.RingMotion,
+    variables.HousingMotion,
     variables.CageMaterial,
     variables.CageModel,
     variables.Traction,

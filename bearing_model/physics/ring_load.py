@@ -78,6 +78,7 @@ class RingLoad:
     outer_beta_dot: float = 0.0
     outer_gamma_dot: float = 0.0
     outer_omega: float = 0.0
+    outer_a: tuple = (0.0, 0.0, 0.0)  # and its acceleration
     field: tuple = (0.0, 0.0, 0.0)  # gravity less the acceleration of the bearing's centre [m/s2]
     frame_omega: float = 0.0  # speed of the frame [rad/s] and its rate
     frame_omega_dot: float = 0.0
@@ -341,12 +342,14 @@ def ring_load_at(trajectory, t):
         u.shaft.tilt_y, u.shaft.tilt_z, u.shaft.tilt_y_dot, u.shaft.tilt_z_dot
     )
 
-    def rate(name):
-        return getattr(trajectory.u[1].shaft, name) + (t - trajectory.t_0) * getattr(trajectory.u[2].shaft, name)
+    def rate(name, group="shaft"):
+        first, second = (getattr(getattr(u, group), name) for u in trajectory.u[1:])
+        return first + (t - trajectory.t_0) * second
 
     def along_axes(group, name):
         return tuple(getattr(group, name + i) for i in "xyz")
 
+    inner_angle, outer_angle = ring_angles_at(trajectory, t)
     return RingLoad(
         F,
         M,
@@ -368,9 +371,12 @@ def ring_load_at(trajectory, t):
         outer_beta_dot=outer[2],
         outer_gamma_dot=outer[3],
         outer_omega=u.housing.omega,
+        outer_a=tuple(rate(f"v_{i}", "housing") for i in "xyz"),
         field=frame_field(trajectory, t, u),
         frame_omega=u.frame.omega,
         frame_omega_dot=u.frame.omega_dot,
+        inner_angle=inner_angle,
+        outer_angle=outer_angle,
     )
 
 

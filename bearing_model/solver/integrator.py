@@ -14,7 +14,7 @@ import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
 from bearing_model.cage.cage import cage_loads, cage_rubbing, cage_slip
-from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
+from bearing_model.generated.variables import OUTPUTS, WORK, HousingMotion, RingMotion, Stress, Switch, Z
 from bearing_model.instance.breakage import Breakage
 from bearing_model.instance.energy import energy_terms, energy_total
 from bearing_model.instance.fatigue import FatigueChannel, fatigue_law, fatigue_law_in_hole
@@ -264,6 +264,8 @@ def simulate(
         )
     if tolerance is not None and not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
+    if Parameters(parameters).housing.motion == HousingMotion.SUPPORTED:
+        raise ValueError("housing.motion = supported: the FMU alone integrates a housing on springs; given is allowed")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     here = input_trajectory_update(

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{880fd909-83a4-ce23-fba0-379cc5ab3ec0}"  // digest of the table
+#define MODEL_GUID "{ab1db8e3-ba34-2c2b-d523-37ea455935d2}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -21,6 +21,10 @@ enum {  // TiltMode
 enum {  // RingMotion
     RING_MOTION_FREE = 1,  // loads move the inner ring: shaft.F, shaft.M, impacts
     RING_MOTION_PRESCRIBED = 2,  // the inner ring moves as shaft.x, y, z, tilt_y, tilt_z and their rates say
+};
+enum {  // HousingMotion
+    HOUSING_MOTION_GIVEN = 1,  // the outer ring moves as housing.x, y, z, tilt_y, tilt_z and their rates say
+    HOUSING_MOTION_SUPPORTED = 2,  // the outer ring sits in a housing of mass m on springs, whose base moves as these inputs say
 };
 enum {  // CageMaterial
     CAGE_MATERIAL_BRONZE = 1,  // CuSn8
@@ -219,6 +223,19 @@ typedef struct {
         double E;  // [Pa] Young's modulus of the housing
         double nu;  // [1] Poisson's ratio of the housing
         double expansion;  // [1/K] Thermal expansion of the housing, whose seat has the outer ring's temperature
+        int motion;  // HousingMotion: Whether the housing's motion is given or follows from springs
+        double m;  // [kg] Mass of the housing with the outer ring
+        double J;  // [kg.m2] Moment of inertia of the housing with the outer ring about Y and Z
+        double k_x;  // [N/m] Stiffness of the housing's support along X
+        double k_y;  // [N/m] Stiffness of the housing's support along Y
+        double k_z;  // [N/m] Stiffness of the housing's support along Z
+        double c_x;  // [N.s/m] Damping of the housing's support along X
+        double c_y;  // [N.s/m] Damping of the housing's support along Y
+        double c_z;  // [N.s/m] Damping of the housing's support along Z
+        double k_tilt_y;  // [N.m/rad] Stiffness of the housing's support about Y
+        double k_tilt_z;  // [N.m/rad] Stiffness of the housing's support about Z
+        double c_tilt_y;  // [N.m.s/rad] Damping of the housing's support about Y
+        double c_tilt_z;  // [N.m.s/rad] Damping of the housing's support about Z
     } housing;
     struct {
         double y;  // [m/s2] Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start
@@ -372,6 +389,14 @@ typedef struct {
         scalar M_y;  // [N.m] Moment on the housing about Y, at the outer ring's centre
         scalar M_z;  // [N.m] Moment on the housing about Z, at the outer ring's centre
         scalar M_x;  // [N.m] Moment on the housing about X, at the outer ring's centre
+        scalar u_x;  // [m] Displacement of the outer ring along X; on springs from its place at the start
+        scalar u_y;  // [m] Displacement of the outer ring along Y; on springs from its place at the start
+        scalar u_z;  // [m] Displacement of the outer ring along Z; on springs from its place at the start
+        scalar u_tilt_y;  // [rad] Tilt of the outer ring about Y
+        scalar u_tilt_z;  // [rad] Tilt of the outer ring about Z
+        scalar a_x;  // [m/s2] Acceleration of the outer ring along X: what an accelerometer on the housing measures; at the last step
+        scalar a_y;  // [m/s2] Acceleration of the outer ring along Y: what an accelerometer on the housing measures; at the last step
+        scalar a_z;  // [m/s2] Acceleration of the outer ring along Z: what an accelerometer on the housing measures; at the last step
         scalar power;  // [W] Power of the housing into balls and cage
     } housing;
     struct {
@@ -621,4 +646,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 370 };  // time is the first
+enum { N_VARIABLES = 391 };  // time is the first

@@ -7,6 +7,7 @@
 #include "instance/outputs.h"
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
+#include "physics/housing.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
 #include "solver/start.h"
@@ -213,6 +214,14 @@ static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
     trajectory->inner_angle = s->ring_angle[0], trajectory->outer_angle = s->ring_angle[1];
 }
 
+// Puts the outer ring where a housing on springs is.
+static void place_housing(Bearing *b)
+{
+    const bool supported = present_parameters(b)->housing.motion == HOUSING_MOTION_SUPPORTED;
+    b->model.housing = supported ? &b->s.integrator.now.housing : NULL;
+    if (supported) housing_place(b->model.housing, &b->ring_load);
+}
+
 // Puts loads and motions of the present inputs u_now on the bearing and holds them: there is no trajectory to follow.
 static void hold_ring_load(Bearing *b)
 {
@@ -220,6 +229,7 @@ static void hold_ring_load(Bearing *b)
     present_trajectory(b, &present);
     b->model.trajectory = NULL;
     ring_load_at(&present, b->s.integrator.t, &b->ring_load);
+    place_housing(b);
 }
 
 // The parameters that the model has at the temperatures in u.
@@ -358,6 +368,10 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->integrator.t = t_start;
     s->integrator.h = FIRST_STEP;
     derive(b);
+    if (b->model.housing) {
+        housing_at_base(&b->ring_load, &s->integrator.now.housing);
+        place_housing(b);
+    }
 
     // quasi-static start
     const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
@@ -371,6 +385,10 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     }
 
     // first evaluation; the start counts as an accepted step of length 0
+    if (b->model.housing) {  // its springs carry the load of the start
+        b->kernels.rhs(&b->model, t_start, s->integrator.now.y, b->y_dot, &b->w);
+        housing_load(&b->model, &b->w, &s->integrator.now.housing, s->integrator.now.housing.rest);
+    }
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
@@ -396,6 +414,7 @@ static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], doubl
     b->trajectory.inner_angle = ring_angle[0], b->trajectory.outer_angle = ring_angle[1];
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
+    place_housing(b);
 
     // With fixed steps, the next evaluation is at the end of the next step: the new load grows over that step.
     if (is_fixed(b) || memcmp(&b->ring_load, &before, sizeof before) == 0) return;
@@ -532,7 +551,7 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     parameters_at(b, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
-    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes};
+    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes, b->model.housing};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
     const Evaluation at = {&model, s->integrator.now.y,   y_dot,
                            &w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};

@@ -322,13 +322,19 @@ static bool check_geometry(Bearing *b)
         check_spall(b, "inner", p->inner.spall_length, p->inner.spall_width, p->inner.spall_depth, d_m - D);
     fine &=
         check_spall(b, "outer", p->outer.spall_length, p->outer.spall_width, p->outer.spall_depth, d_m + D);
+    const bool moved = p->housing.motion != HOUSING_MOTION_SUPPORTED || p->solver.method != METHOD_EXPLICIT;
+    if (!moved)
+        bearing_log(b, LOG_ERROR,
+                    "housing.motion = supported: solver.method = explicit has no housing on springs; allowed "
+                    "is given, or "
+                    "solver.method = verlet or fixed");
     const bool counted = p->scene.breakage != SWITCH_ON || p->scene.stress == STRESS_FATIGUE;
     if (!counted)
         bearing_log(
             b, LOG_ERROR,
             "scene.breakage = on: rivets break by their damage, which scene.stress = fatigue alone counts; "
             "allowed is off, or on with scene.stress = fatigue");
-    return check_cage(b) && fine && counted;
+    return check_cage(b) && fine && counted && moved;
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a

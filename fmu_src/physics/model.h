@@ -163,6 +163,9 @@ typedef struct {
     scalar outer_x[3], outer_v[3];
     scalar outer_beta, outer_gamma, outer_beta_dot, outer_gamma_dot, outer_omega;
     scalar outer_moves;  // not 0 if any of these is not
+    scalar outer_a[3];   // its acceleration
+    scalar base[5],
+        base_dot[5];  // inputs housing.*: x, y, z, cosines beta, gamma and their rates (housing.h)
 
     // the frame: gravity less the acceleration of the bearing's centre [m/s2], speed [rad/s] and its rate
     scalar field[3], frame_omega, frame_omega_dot;
@@ -267,6 +270,13 @@ typedef struct {
     ElasticWork elastic;
 } Work;
 
+enum { HOUSING_DOF = 5 };  // x, y, z, beta, gamma
+
+// A housing on springs (housing.h): position, velocity, acceleration, and the load at the start, which its springs carry.
+typedef struct {
+    double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
+} Housing;
+
 // All that the right-hand side needs beside time and state.
 typedef struct {
     const Parameters *p;  // at the present temperatures (temperature.h)
@@ -274,6 +284,7 @@ typedef struct {
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
     const ElasticHalf *modes;  // of the cage's halves, where they are elastic, else NULL (cage/cage.h)
+    const Housing *housing;    // where it moves on springs; NULL: its motion is given
 } Model;
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.

@@ -177,6 +177,12 @@ INLINE void outer_motion(const Inputs *u, RingLoad *ring_load)
     ring_cosines(u->housing.tilt_y, u->housing.tilt_z, u->housing.tilt_y_dot, u->housing.tilt_z_dot,
                  &ring_load->outer_beta, &ring_load->outer_gamma, &ring_load->outer_beta_dot,
                  &ring_load->outer_gamma_dot);
+    for (int i = 0; i < 3; i++) {
+        ring_load->base[i] = ring_load->outer_x[i];
+        ring_load->base_dot[i] = ring_load->outer_v[i];
+    }
+    ring_load->base[3] = ring_load->outer_beta, ring_load->base_dot[3] = ring_load->outer_beta_dot;
+    ring_load->base[4] = ring_load->outer_gamma, ring_load->base_dot[4] = ring_load->outer_gamma_dot;
     bool moves = false;
     for (const scalar *value = ring_load->outer_x; value <= &ring_load->outer_omega; value++)
         moves |= scalar_value(*value) != 0.0;
@@ -240,6 +246,9 @@ INLINE void ring_load_at(const InputTrajectory *trajectory, scalar t, RingLoad *
     ring_load->beta_ddot = input_rate(tau, u_1->shaft.tilt_y_dot, u_2->shaft.tilt_y_dot);
     ring_load->gamma_ddot = input_rate(tau, u_1->shaft.tilt_z_dot, u_2->shaft.tilt_z_dot);
     outer_motion(&u, ring_load);
+    ring_load->outer_a[0] = input_rate(tau, u_1->housing.v_x, u_2->housing.v_x);
+    ring_load->outer_a[1] = input_rate(tau, u_1->housing.v_y, u_2->housing.v_y);
+    ring_load->outer_a[2] = input_rate(tau, u_1->housing.v_z, u_2->housing.v_z);
     frame_motion(trajectory, t, &u, ring_load);
     ring_load->inner_angle = ring_load->outer_angle = 0.0;
     if (scalar_value(trajectory->angles_matter) != 0.0)

@@ -20,6 +20,7 @@ from . import (
     rivet,
     run,
     sensitivity,
+    spectrum,
     study,
     summary,
     sweep,
