@@ -29,6 +29,8 @@ CHANNELS = ("housing.a_y", "housing.F_y", "ring.a_y", "ring.y")  # first of thes
 STEADY = 0.01  # relative change of the shaft's speed up to which frequencies stand for orders
 SEGMENTS = (16, 32, 64, 128, 256)  # samples of the short-time transforms
 FEWEST = 256  # samples
+FEWEST_BLOCKS = 16  # windows side by side in the signal, of which a kurtosis means something
+LOWEST = 0.01  # lower end of the band / rate
 HARMONICS = 3
 ABOVE = 4.0  # a line stands out where its amplitude is this many times the median around it
 
@@ -152,16 +154,15 @@ def kurtosis_band(x, rate):
     frequencies and lengths of the window.
     """
     best, found = -math.inf, (0.05 * rate, 0.45 * rate)
-    for segment in (n for n in SEGMENTS if 16 * n <= len(x)):
-        transform = ShortTimeFFT(hann(segment, sym=False), hop=segment // 4, fs=rate)
+    for segment in (n for n in SEGMENTS if 4 * FEWEST_BLOCKS * n <= len(x) or n == SEGMENTS[0]):
+        transform, width = ShortTimeFFT(hann(segment, sym=False), hop=segment // 4, fs=rate), 1.5 * rate / segment
         power = np.abs(transform.stft(x)) ** 2
         kurtosis = np.mean(power**2, axis=1) / np.maximum(np.mean(power, axis=1), 1e-300) ** 2 - 2.0
-        inner = slice(1, -1)
-        k = int(np.argmax(kurtosis[inner])) + 1
+        low, high = transform.f - 0.5 * width, transform.f + 0.5 * width
+        kurtosis[(low < LOWEST * rate) | (high > 0.49 * rate)] = -math.inf
+        k = int(np.argmax(kurtosis))
         if kurtosis[k] > best:
-            width = 1.5 * rate / segment  # of a Hann window
-            centre = transform.f[k]
-            best, found = kurtosis[k], (max(centre - 0.5 * width, 0.01 * rate), min(centre + 0.5 * width, 0.49 * rate))
+            best, found = kurtosis[k], (low[k], high[k])
     return tuple(float(f) for f in found)
 
 
