@@ -213,9 +213,9 @@ def find_lines(frequency, amplitude, kinematic):
 
 
 def line_at(frequency, amplitude, name, expected):
-    """The largest amplitude within two lines of the resolution, which a Hann window blurs, and the median around."""
+    """The largest amplitude within the resolution, and the median around."""
     step = frequency[1]
-    near = np.abs(frequency - expected) <= 2.0 * step
+    near = np.abs(frequency - expected) <= step
     around = np.abs(frequency - expected) <= 40.0 * step
     if not np.any(near):
         return Line(name, expected, math.nan, 0.0, 0.0)
@@ -248,20 +248,20 @@ def write_spectra(found, path):
     return path
 
 
-COLOURS = {"FTF": "#40495a", "BSF": "#e09f3e", "BPFO": "#c8442b", "BPFI": "#2a6f97"}
-
-
 def draw(figure, found):
     """Spectrum above, envelope spectrum with the kinematic frequencies below."""
+    from .plot import FORCE, HEAD, MIDDLE, MUTED
+
+    colours = {"FTF": MUTED, "BSF": "#e09f3e", "BPFO": HEAD, "BPFI": MIDDLE}
     above, below = figure.subplots(2, 1)
-    above.semilogy(found.frequency[1:], np.maximum(found.amplitude[1:], 1e-30), color="#40495a", linewidth=0.6)
+    above.semilogy(found.frequency[1:], np.maximum(found.amplitude[1:], 1e-30), color=FORCE, linewidth=0.6)
     floor = np.median(found.amplitude) * 1e-2
     above.set(ylabel=f"{found.channel} [{found.unit}]", xlabel=found.axis, ylim=(floor or None, None))
     above.axvspan(*found.band, color="#f3f4f6", zorder=0)
     last = 1.05 * HARMONICS * max(found.kinematic["BPFI"], found.kinematic["BPFO"])
     shown = (found.envelope_frequency > 0.0) & (found.envelope_frequency < last)
-    below.plot(found.envelope_frequency[shown], found.envelope[shown], color="#40495a", linewidth=0.8)
-    for name, colour in COLOURS.items():
+    below.plot(found.envelope_frequency[shown], found.envelope[shown], color=FORCE, linewidth=0.8)
+    for name, colour in colours.items():
         for k in range(1, HARMONICS + 1):
             place = k * found.kinematic[name]
             below.axvline(place, color=colour, linewidth=0.8, linestyle=":", label=name if k == 1 else None)
