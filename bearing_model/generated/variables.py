@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ab1db8e3-ba34-2c2b-d523-37ea455935d2}"
+MODEL_GUID = "{f8df304c-2c2e-5527-a4db-2274586241d6}"
 Z = 9
 
 

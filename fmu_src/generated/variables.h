@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ab1db8e3-ba34-2c2b-d523-37ea455935d2}"  // digest of the table
+#define MODEL_GUID "{f8df304c-2c2e-5527-a4db-2274586241d6}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
