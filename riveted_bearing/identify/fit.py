@@ -14,13 +14,13 @@ quantile grows by the ratio (Birge 1932).  The answer's errors come from runs wi
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import minimize
+from scipy.optimize import least_squares
 from scipy.stats import chi2, qmc
 from threadpoolctl import threadpool_limits
 
 from ..design.sensitivity import salib
 from ..errors import UserError
-from .surrogate import Surrogate
+from .surrogate import Surrogate, Together
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
 UNDECIDED = 0.9  # of the width of the prior's own interval
@@ -84,22 +84,23 @@ class Objective:
     def __init__(self, study, u, values):
         self.study = study
         chosen = np.flatnonzero(study.fitted)
-        self.surrogates = [Surrogate(u, values[:, :, k]) for k in chosen]
+        self.surrogates = {k: Surrogate(u, values[:, :, k]) for k in chosen}
+        self.parts = Together(list(self.surrogates.values()))  # mean and variance at points, [m, k]
         self.value = np.array([study.targets[k].value for k in chosen])
         self.variance = np.array([study.targets[k].uncertainty ** 2 for k in chosen])
 
-    def parts(self, u):
-        """Mean [m, k] and variance [m, k] of the surrogates."""
-        mean, variance = zip(*(surrogate(u) for surrogate in self.surrogates))
-        return np.column_stack(mean), np.column_stack(variance)
+    def residuals(self, u):
+        """Figures whose squares add up to J, at points [m, d]: deviations, the variances' logarithms, priors."""
+        mean, variance = self.parts(u)
+        total = self.variance + variance
+        prior = [np.sqrt(p.penalty(u[:, j])) for j, p in enumerate(self.study.parameters) if p.mean is not None]
+        return np.hstack(
+            [(mean - self.value) / np.sqrt(total), np.sqrt(np.log(total / self.variance)), *(x[:, None] for x in prior)]
+        )
 
     def __call__(self, u):
         """J at points [m, d]."""
-        u = np.atleast_2d(u)
-        mean, variance = self.parts(u)
-        total = self.variance + variance
-        found = ((mean - self.value) ** 2 / total + np.log(total / self.variance)).sum(axis=1)
-        return found + sum(p.penalty(u[:, j]) for j, p in enumerate(self.study.parameters))
+        return (self.residuals(np.atleast_2d(u)) ** 2).sum(axis=1)
 
     def squares(self, u):
         """The squared deviations of J alone."""
@@ -112,18 +113,27 @@ class Objective:
         if not free:
             return np.array(u), float(self(u)[0])
 
-        def both(x):
+        def at(x):
+            """Residuals at x, and their difference quotients for the call after it."""
             points = np.tile(u, (len(free) + 1, 1))
             points[:, free] = x
             h = np.where(x > 0.5, -STEP, STEP)
             points[np.arange(1, len(free) + 1), free] += h
-            J = self(points)
-            return J[0], (J[1:] - J[0]) / h
+            r = self.residuals(points)
+            at.slopes = ((r[1:] - r[0]) / h[:, None]).T
+            return r[0]
 
-        found = minimize(both, np.array(u)[free], jac=True, bounds=[(0.0, 1.0)] * len(free), method="L-BFGS-B")
+        def slopes(x):
+            at(x)
+            return at.slopes
+
+        start = np.clip(np.array(u, float)[free], 0.0, 1.0)
+        found = least_squares(
+            at, start, slopes, bounds=(0.0, 1.0), method="dogbox", ftol=1e-6, xtol=1e-6, gtol=1e-6, max_nfev=40
+        )
         best = np.array(u, float)
         best[free] = found.x
-        return best, float(found.fun)
+        return best, 2.0 * float(found.cost)
 
     def slopes(self, u):
         """d mean / d u of the fitted targets at a point [k, d]."""
@@ -181,7 +191,7 @@ def found_by(study, evaluate, start):
         C / np.sqrt(np.outer(np.diag(C), np.diag(C))),
         widened,
         misfit,
-        effects(study, u, values, best),
+        effects(study, objective, u, values, best),
         screen,
         answer,
         untuned,
@@ -310,11 +320,11 @@ def crossing(grid, rise, best, limit):
     return float(ends[0]), float(ends[1])
 
 
-def effects(study, u, values, best):
+def effects(study, objective, u, values, best):
     """Change of each target over each parameter's range at the answer, in uncertainties [parameters, targets]."""
     found = np.zeros((len(study.parameters), len(study.targets)))
     for k, target in enumerate(study.targets):
-        surrogate = Surrogate(u, values[:, :, k])
+        surrogate = objective.surrogates.get(k) or Surrogate(u, values[:, :, k])
         for j in range(len(study.parameters)):
             line = np.tile(best, (21, 1))
             line[:, j] = np.linspace(0.0, 1.0, 21)

@@ -50,7 +50,8 @@ class Measure:
 def amplitude_between(t, values, low, high):
     """RMS amplitude of a series between two frequencies [Hz], by Welch's density with Hann windows.
 
-    A sine of amplitude A inside the band gives A/sqrt(2).  nan if the times are not equally spaced or a window is too
+    A sine of amplitude A inside the band gives A/sqrt(2).  The windows' length depends on the band alone, so that run and
+    measurement blur it alike.  nan if the times are not equally spaced or a window is too
     short to tell the band from its neighbours.
     """
     steps = np.diff(t)
@@ -60,9 +61,10 @@ def amplitude_between(t, values, low, high):
     wanted = int(np.ceil(FEWEST * rate / min(max(low, 1e-300), high - low)))
     if wanted > len(t) or high > 0.5 * rate:
         return float("nan")
-    f, density = welch(values, rate, nperseg=min(len(t), max(wanted, 64)), detrend="constant")
-    inside = (f >= low) & (f <= high)
-    return float(np.sqrt(density[inside].sum() * (f[1] - f[0])))
+    f, density = welch(values, rate, nperseg=wanted, detrend="constant")
+    half = 0.5 * f[1]  # a line of the density stands for its neighbourhood
+    inside = np.clip(np.minimum(f + half, high) - np.maximum(f - half, low), 0.0, None)
+    return float(np.sqrt((density * inside).sum()))
 
 
 def of_result(measures, result):

@@ -53,13 +53,10 @@ class Surrogate:
         self.lengths, self.amplitude = np.exp(best.x[:d]), np.exp(best.x[d])
         if np.isnan(self.noise):
             self.noise = float(np.exp(best.x[d + 1]))
-        K = self.trend + self.bumps(self.squares) + (self.noise + JITTER) * np.eye(len(y))
+        G = self.amplitude**2 * np.exp(-0.5 * (self.squares / self.lengths**2).sum(axis=-1))
+        K = self.trend + G + (self.noise + JITTER) * np.eye(len(y))
         factor = cho_factor(K, lower=True)
         self.alpha, self.inverse = cho_solve(factor, self.y), cho_solve(factor, np.eye(len(self.y)))
-
-    def bumps(self, squares):
-        """Covariance of g for squared differences [..., d]."""
-        return self.amplitude**2 * np.exp(-0.5 * (squares / self.lengths**2).sum(axis=-1))
 
     def cost(self, x):
         """-ln of the marginal likelihood and prior, and its gradient; x: ln of lengths, amplitude and maybe noise."""
@@ -83,8 +80,36 @@ class Surrogate:
 
     def __call__(self, u):
         """Mean and variance of the target at points u [m, d]."""
+        mean, variance = Together([self])(u)
+        return mean[:, 0], variance[:, 0]
+
+
+class Together:
+    """Predictions of several surrogates over the same points at once."""
+
+    CHUNK = 256  # points at a time, for the memory
+
+    def __init__(self, surrogates):
+        self.u = surrogates[0].u
+        self.sharpness = np.array([one.lengths**-2.0 for one in surrogates]).T  # [d, k]
+        self.shift, self.size, self.common, self.amplitude = (
+            np.array([getattr(one, name) for one in surrogates]) for name in ("shift", "size", "common", "amplitude")
+        )
+        self.alpha = np.array([one.alpha for one in surrogates]).T  # [n, k]
+        self.inverse = np.array([one.inverse for one in surrogates])  # [k, n, n]
+
+    def __call__(self, u):
+        """Mean and variance at points u [m, d], both [m, k]."""
         u = np.atleast_2d(u)
-        cross = CONSTANT + SLOPE * u @ self.u.T + self.bumps((u[:, None, :] - self.u) ** 2)
-        own = CONSTANT + SLOPE * (u**2).sum(axis=1) + self.amplitude**2
-        variance = own - ((cross @ self.inverse) * cross).sum(axis=1)
-        return self.shift + self.size * (cross @ self.alpha), self.size**2 * np.maximum(variance, 0.0) + self.common
+        parts = [self.few(u[i : i + self.CHUNK]) for i in range(0, len(u), self.CHUNK)]
+        return tuple(np.concatenate(one) for one in zip(*parts))
+
+    def few(self, u):
+        squares = (u[:, None, :] - self.u) ** 2  # [m, n, d]
+        trend = CONSTANT + SLOPE * u @ self.u.T
+        cross = trend[..., None] + self.amplitude**2 * np.exp(-0.5 * squares @ self.sharpness)  # [m, n, k]
+        by_target = cross.transpose(2, 0, 1)
+        explained = ((by_target @ self.inverse) * by_target).sum(axis=2).T
+        own = (CONSTANT + SLOPE * (u**2).sum(axis=1))[:, None] + self.amplitude**2
+        mean = self.shift + self.size * (cross * self.alpha).sum(axis=1)
+        return mean, self.size**2 * np.maximum(own - explained, 0.0) + self.common
