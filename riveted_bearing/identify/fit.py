@@ -28,6 +28,7 @@ GRID = 11  # points of a profile over the whole range, beside those around the o
 AROUND = np.array([0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0])  # of the latter, in standard deviations
 CLOUD = 2048  # points at which J is looked at before it is minimized
 STEP = 1e-4  # of difference quotients, in shares of the range
+SIGNIFICANT = 1.96  # standard deviations
 SMALL = 0.1  # of a target's variance: the surrogate is good enough
 
 
@@ -283,8 +284,8 @@ def profiles(study, objective, best, J):
     squares = objective.squares(best)
     freedom = len(objective.value) - len(study.parameters)
     widened = 1.0
-    if freedom > 0 and squares > chi2.ppf(0.95, freedom):
-        widened = squares / freedom
+    if squares > chi2.ppf(0.95, max(freedom, 1)):
+        widened = squares / max(freedom, 1)
     limit = widened * chi2.ppf(confidence, 1)
     for j, (parameter, (grid, line)) in enumerate(zip(study.parameters, lines, strict=True)):
         rise = line - least
@@ -370,15 +371,19 @@ def notes(found, objective, best):
                 yield (
                     f"{study.names[j]} and {name} are decided only together: their correlation is {found.correlations[i, j]:.2f}."
                 )
+    for parameter in study.parameters:
+        one = found.intervals[parameter.name]
+        if one.decided != "no" and not 0.01 < parameter.share(one.value) < 0.99:
+            yield f"{parameter.name} lies at the end of the range that was searched."
     squares, freedom = found.misfit
-    if freedom <= 0:
+    if found.widened > 1.0:
+        yield (
+            f"The model misses the fitted targets by more than their uncertainty (chi-square {squares:.3g} of {len(objective.value)} "
+            f"targets with {len(study.names)} parameters): the intervals' squares are widened by {found.widened:.3g}."
+        )
+    elif freedom <= 0:
         yield (
             f"There are {len(objective.value)} fitted targets for {len(study.names)} parameters: the fit cannot show whether the model is right."
-        )
-    elif found.widened > 1.0:
-        yield (
-            f"The model misses the fitted targets by more than their uncertainty (chi-square {squares:.3g} for {freedom} degrees of "
-            f"freedom): the intervals' squares are widened by {found.widened:.3g}."
         )
     mean, variance = objective.parts(best)
     fresh = np.array(found.answer.mean)[study.fitted]
@@ -392,15 +397,24 @@ def notes(found, objective, best):
     if found.answer.held_out is None:
         yield "No target is held out: nothing shows what the fit predicts."
     else:
-        yield prediction(found.answer.held_out, found.before.held_out)
+        after, before = (np.array(one.deviation)[~study.fitted] for one in (found.answer, found.before))
+        yield prediction(after, before, found.answer.held_out[1], found.before.held_out[1])
 
 
-def prediction(fitted, before):
-    """What the fit is worth on targets that it has not seen: (RMS, scatter) after and before it."""
-    scatter = 2.0 * float(np.hypot(fitted[1], before[1]))
-    text = f"held-out error {fitted[0]:.3g} after, {before[0]:.3g} before the fit, in uncertainties; seeds scatter them by {0.5 * scatter:.2g}"
-    if fitted[0] < before[0] - scatter:
+def prediction(after, before, *scatter):
+    """What the fit is worth on targets that it has not seen, from their deviations after and before it, in
+    uncertainties; scatter: of both RMS by the seeds.
+
+    The sum of squares falls by D.  The targets' own uncertainty scatters D by 2 |after - before|, because their error
+    shifts both deviations alike; the seeds add theirs.
+    """
+    n, errors = len(after), [float(np.sqrt(np.mean(z**2))) for z in (after, before)]
+    D = n * (errors[1] ** 2 - errors[0] ** 2)
+    seeds = [2.0 * n * error * own for error, own in zip(errors, scatter, strict=True)]
+    limit = SIGNIFICANT * np.sqrt(4.0 * ((after - before) ** 2).sum() + sum(x**2 for x in seeds))
+    text = f"held-out error {errors[0]:.3g} after and {errors[1]:.3g} before the fit, in uncertainties"
+    if D > limit:
         return f"The fit predicts: {text}."
-    if fitted[0] > before[0] + scatter:
+    if D < -limit:
         return f"The fit predicts worse than the values before it: {text}."
-    return f"The fit predicts nothing: {text}."
+    return f"The fit predicts nothing: {text}, a difference within the scatter of targets and seeds."
