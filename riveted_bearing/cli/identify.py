@@ -42,6 +42,8 @@ def identify(
     if not study.is_file():
         raise UserError(f"{study}: no such study file")
     model, document = Model(fmu), read_toml(study)
+    if "claims" in document:
+        return identify_paper(study, document, model, out or Path("results") / study.stem, scheduler, workers)
     plan = plan_identify(study, document, model)
     salib("identify")  # before there is a folder
     folder = out or Path("results") / study.stem
@@ -59,6 +61,29 @@ def identify(
         ("page", write_page(found, basis, folder / "identify.html")),
     ):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def identify_paper(study, document, model, folder, scheduler, workers):
+    """The paper's claims as targets, in stages."""
+    from ..identify.claims import Bench, identify_claims, plan_claims, write_claims
+
+    plan = plan_claims(study, document, model)
+    make_folder(folder)
+    with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
+        found = identify_claims(plan, Bench(plan, model, folder, client, progress))
+    heads = ("set", *plan.names, "fitted", "held out")
+    rows = [
+        (
+            "own values" if i == 0 else str(i),
+            *(f"{value:.4g}" for value in one["values"].values()),
+            *(f"{one[key]} of {count}" for key, count in zip(("fit", "held_out"), one["of"], strict=True)),
+        )
+        for i, one in enumerate([found.untuned, *found.verified])
+    ]
+    print_table(heads, rows)
+    for note in found.notes:
+        console.print(escape(note), soft_wrap=True)
+    console.print(f"results  [cyan]{escape(str(write_claims(found, folder / 'claims.json')))}[/]", soft_wrap=True)
 
 
 def print_found(found):
