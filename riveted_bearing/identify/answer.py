@@ -60,7 +60,11 @@ def unit_of(target):
     if target.operation == "over" or target.column.startswith(("band(", "line(")):
         return ("" if target.unit == "1" else target.unit), 1.0, 0.0
     unit, factor, offset = display_of(target.column)
-    return (unit or ("" if target.unit == "1" else target.unit)), factor, 0.0 if target.operation == "minus" else offset
+    return (
+        (unit or ("" if target.unit == "1" else target.unit)),
+        factor,
+        0.0 if target.operation == "minus" or target.column.startswith("std(") else offset,
+    )
 
 
 def error_rows(found):
