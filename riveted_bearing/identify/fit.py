@@ -417,4 +417,7 @@ def prediction(after, before, *scatter):
         return f"The fit predicts: {text}."
     if D < -limit:
         return f"The fit predicts worse than the values before it: {text}."
-    return f"The fit predicts nothing: {text}, a difference within the scatter of targets and seeds."
+    within = f"{text}, a difference within the scatter of targets and seeds"
+    if D > 0.0:
+        return f"The held-out targets do not show whether the fit predicts: {within}."
+    return f"The fit predicts nothing: {within}."
