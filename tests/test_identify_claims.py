@@ -22,6 +22,7 @@ from riveted_bearing.identify.claims import (
     own_values,
     plan_claims,
     write_claims,
+    write_claims_page,
 )
 from riveted_bearing.paper_study.claims import PICTURES
 from riveted_bearing.paper_study.study import Runs
@@ -145,6 +146,9 @@ def test_a_fit_that_predicts_and_one_that_does_not(study, model, tmp_path, monke
     assert found.best[0].mean() > found.chance[0].mean() + 0.2  # the fit fits, either way
     assert len(found.verified) == 4 and np.all(np.abs(found.values[:, 0] - 0.2) < 0.05)
     assert write_claims(found, tmp_path / "claims.json").stat().st_size > 1000
+    page = write_claims_page(found, tmp_path / "claims.html").read_text()
+    assert found.notes[0].split(":")[0] in page and page.count("<td>held out") == len(held_out_conditions(study))
+    assert len(found.verified[0]["met"]) == len(conditions(PICTURES))
 
 
 def test_stages_resume(study, model, tmp_path, monkeypatch):

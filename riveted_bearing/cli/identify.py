@@ -65,25 +65,27 @@ def identify(
 
 def identify_paper(study, document, model, folder, scheduler, workers):
     """The paper's claims as targets, in stages."""
-    from ..identify.claims import Bench, identify_claims, plan_claims, write_claims
+    from ..identify.claims import (
+        Bench,
+        identify_claims,
+        plan_claims,
+        set_rows,
+        write_claims,
+        write_claims_page,
+    )
 
     plan = plan_claims(study, document, model)
     make_folder(folder)
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
         found = identify_claims(plan, Bench(plan, model, folder, client, progress))
-    heads = ("set", *plan.names, "fitted", "held out")
-    rows = [
-        (
-            "own values" if i == 0 else str(i),
-            *(f"{value:.4g}" for value in one["values"].values()),
-            *(f"{one[key]} of {count}" for key, count in zip(("fit", "held_out"), one["of"], strict=True)),
-        )
-        for i, one in enumerate([found.untuned, *found.verified])
-    ]
-    print_table(heads, rows)
+    print_table(*set_rows(found))
     for note in found.notes:
         console.print(escape(note), soft_wrap=True)
-    console.print(f"results  [cyan]{escape(str(write_claims(found, folder / 'claims.json')))}[/]", soft_wrap=True)
+    for label, path in (
+        ("results", write_claims(found, folder / "claims.json")),
+        ("page", write_claims_page(found, folder / "claims.html")),
+    ):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
 def print_found(found):

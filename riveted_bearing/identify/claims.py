@@ -21,16 +21,21 @@ import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import jinja2
 import numpy as np
 from scipy.stats import qmc, spearmanr
 from scipy.stats import t as student
 
+from .. import charts
+from ..design.bench import displayed, titled
 from ..errors import refusal, unknown
 from ..paper_study.claims import MEASURES, PICTURES, figures_of, others, repeated, sweep_of
 from ..paper_study.study import Runs, runs_of, study_sweep
+from ..plot import HEAD, MUTED
 from ..results import make_folder, write_atomically
 from ..scene import leaves, section_of
 from ..sweep import count_of, key_of, run_sweep
+from .answer import PARTS
 from .fit import FRESH
 from .study import parameters_of
 
@@ -368,6 +373,7 @@ def verified(bench, sets, sweeps, fitted, held):
                 "fit": sum(one[: len(fitted)]),
                 "held_out": sum(one[len(fitted) :]),
                 "of": [len(fitted), len(held)],
+                "met": one,
             }
         )
     return found, bench.spent - before
@@ -401,6 +407,57 @@ def claim_notes(found, fitted, held):
         f"Verified with fresh seeds, the best {len(kept)} sets meet {np.mean([one['fit'] for one in found.verified]):.1f} of {fitted} fitted "
         f"and {kept.mean():.1f} of {held} held-out conditions, the scene's own values {found.untuned['fit']} and {own}."
     )
+
+
+def set_rows(found):
+    """Heads and rows (set, values, conditions met) of the sets that were verified, as texts."""
+    rows = []
+    for i, one in enumerate([found.untuned, *found.verified]):
+        counts = [f"{one[key]} of {count}" for key, count in zip(("fit", "held_out"), one["of"], strict=True)]
+        values = [f"{displayed(name, value):.4g}" for name, value in one["values"].items()]
+        rows.append(("own values" if i == 0 else str(i), *values, *counts))
+    return ("set", *map(titled, found.study.names), "fitted", "held out"), rows
+
+
+def write_claims_page(found, path):
+    """Write the page, whole or not at all; returns the path."""
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    study, heads_rows = found.study, set_rows(found)
+    which = [*fitted_conditions(study), *held_out_conditions(study)]
+    fitted = len(fitted_conditions(study))
+    marks = {True: "met", False: "not"}
+    best = found.verified[0]["met"] if found.verified else []
+    rows = [
+        (picture, title, line, "fitted" if k < fitted else "held out", marks[found.untuned["met"][k]], marks[best[k]])
+        for k, (picture, title, line) in enumerate(which)
+    ]
+    text = environment.from_string((PARTS / "identify_claims.html").read_text(encoding="utf-8")).render(
+        name=study.path.stem,
+        description=study.description,
+        style=(PARTS / "style.css").read_text(encoding="utf-8"),
+        screens=study.settings["screens"],
+        figures=len(found.best[0]) + len(found.chance[0]),
+        verified=len(found.verified),
+        seeds=study.settings["seeds"],
+        notes=found.notes,
+        chart=charts.svg(lambda fig: shares_chart(fig, found), (4.9, 3.2), "fitted and held-out conditions"),
+        heads=heads_rows[0],
+        sets=heads_rows[1],
+        conditions=rows,
+    )
+    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return path
+
+
+def shares_chart(fig, found):
+    """Held-out against fitted conditions met, of the best sets and of those by chance."""
+    ax = fig.subplots()
+    for label, (x, y), colour, mark in (("best sets", found.best, HEAD, "o"), ("by chance", found.chance, MUTED, "x")):
+        ax.plot(100.0 * x, 100.0 * y, mark, color=colour, ms=4, label=label)
+    ax.set(xlabel="fitted conditions met [%]", ylabel="held-out conditions met [%]")
+    fig.legend(loc="outside upper right", ncols=2)
 
 
 def write_claims(found, path):
