@@ -186,7 +186,7 @@ def test_the_truth_of_a_cheap_rig_lies_in_the_intervals(model):
 
 @pytest.mark.slow
 def test_repeats_of_a_cheap_rig(model):
-    """60 repeats: observed inside 57, 55 and 60; width over scatter 0.99 and 0.93."""
+    """60 repeats with other seeds and noise.  20 of another draw: inside 18, 17 and 20; width over scatter 0.99, 0.78."""
     proven([cheap(number, model) for number in range(60)], TRUTH, NAMES, "joint.mu")
 
 

@@ -166,7 +166,7 @@ def test_sets_change_what_the_figures_leave_open(study, model, tmp_path):
     few = list(bench.scenes("preload", [0.17, 8e-3], True, 1))
     assert [scene.parameters["joint.preload"] for scene in few] == list(FEW["preload"]["preload"])
     assert {(scene.parameters["joint.mu"], scene.parameters["oil.eta"]) for scene in few} == {(0.17, 8e-3)}
-    assert {scene.t_end for scene in few} == {0.16}
+    assert {scene.t_end for scene in few} == {0.12}
     whole = list(bench.scenes("preload", [0.17, 8e-3], False, 2, 1000))
     assert len(whole) == 20 and {scene.parameters["start.seed"] for scene in whole} == {1001, 1002}
     assert {scene.t_end for scene in whole} == {0.3}

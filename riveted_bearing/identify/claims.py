@@ -53,12 +53,9 @@ FEW = {  # points of a screen, in the units of study.runs_of: those that the con
         "guide": (230.769, 171.429, 150.0, 128.571, 75.0),
     },
 }
-SHORT = {
-    "preload": (0.06, 0.16),
-    "fit": (0.06, 0.16),
-    "tilt": (0.06, 0.16),
-    "clearance": (0.06, 0.16),
-    "speed": (0.1, 0.2),
+SHORT = {  # start.settle and end of a screen's runs [s]; impacts keep their own
+    **dict.fromkeys(("preload", "fit", "tilt", "clearance"), (0.05, 0.12)),
+    "speed": (0.06, 0.12),
 }
 COLUMNS = {  # of a scene: name and factor to the unit of study.runs_of
     "preload": ("joint.preload", 1.0),
