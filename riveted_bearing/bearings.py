@@ -1,5 +1,5 @@
-"""Bearings: by designation or file, what is given, what the catalogue says, what follows by rule, and what can be said
-without a simulation.
+"""Bearings by designation or file: given values, values of the catalogue, values by rule, and results that need no
+simulation.
 
     designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8

@@ -1,8 +1,8 @@
 """One sheet of paper for people who do not run the model: bearing, loads, verdict, the assumptions that move it, the
 worst rivet, and digests of all files.
 
-A mission is judged by its runs and, for peaks, pressures and films, by one more run of each point and event: of the one
-that does most damage with its worst seed.  A result of `run` is judged as if it went on like that.  Utilisation is
+A mission is judged by its runs and, for peaks, pressures and films, by one more run of each point and event, with the
+seed whose run had the largest damage.  A result of `run` is judged as if it went on like that.  Utilisation is
 
     life                  target/life
     fatigue, per place    1/x; with all stresses x times as large (preload's share included) the place just reaches the
