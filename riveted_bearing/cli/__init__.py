@@ -12,6 +12,7 @@ from . import (
     compare,
     compare_designs,
     cookbook,
+    identify,
     info,
     life,
     matrices,
