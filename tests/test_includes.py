@@ -15,8 +15,8 @@ GROUPS = {  # from the bottom up
     "numbers": "aligned build_info cpu_clock dual elementary elimination fatigue float_environment isa lanes octet part "
     "reserved_memory saved_numbers scalar statistics variable_table variables vec vector_ops viscosity",
     "data of the cage": "elastic_work half_modes half_path joint_law two_half_work",
-    "laws and tables": "elastic_half elastic_wall frame hertz model outer_ring powers ring_fit rivet_joint rivet_rom "
-    "rivet_splines rotor temperature traction centrifugal",
+    "laws and tables": "elastic_half elastic_wall frame hertz housing model outer_ring powers ring_fit rivet_joint rivet_rom "
+    "race_surface rivet_splines rotor temperature traction centrifugal",
     "elements": "ball drag land_film race_contact ring ring_load",
     "both cages": "cage_joint films halves pocket",
     "one cage": "cage_elastic cage_substeps joint_open two_half",
