@@ -36,7 +36,7 @@ from bearing_model.solver.verlet import VerletState, advance_positions, verlet_e
 ELASTIC = {"scene.cage": CageModel.ELASTIC}
 SCENES = (
     {},
-    {"scene.lubrication": 2, "cage.pocket_clearance": 1e-4, "ring.tilt_mode": 2},
+    {"scene.lubrication": 2, "cage.pocket_clearance": 1e-4, "ring.tilt_mode": 2, "cage.pocket_filling": 0.5},
     {
         "cage.m": 0.04,
         "joint.fit": -3e-5,
@@ -143,7 +143,9 @@ def test_derivatives(core):
 
 
 @pytest.mark.parametrize(
-    "scene", [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1]], ids=["without", "centrifugal", "differing"]
+    "scene",
+    [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1], {"cage.pocket_filling": 1.0}],
+    ids=["without", "centrifugal", "differing", "flooded"],
 )
 def test_power_is_the_rate_of_energy(scene, record_property):
     """Net power against the energy's rate along dy/dt, by complex steps.

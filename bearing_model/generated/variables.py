@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{5996903a-9036-6923-c898-ad75a0a49bb5}"
+MODEL_GUID = "{596ec139-d535-63fd-70aa-35ca55be2afe}"
 Z = 9
 
 
@@ -184,6 +184,7 @@ PARAMETERS = {
         Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls", False, "it is part of the geometry"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)", False, "it is part of the geometry"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts", False, "it is part of the geometry"),
+        Variable("cage.pocket_filling", 1126, "Real", "1", None, 0.0, 0.0, 1.0, 1, None, "Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter", "assumed: dry; no measured filling of a pocket is known (docs/notes/pocket_oil.md)", False, None),
         Variable("cage.D_o", 1103, "Real", "m", "mm", 0.0595, 0.005, 2.0, 1, None, "Cage outer diameter (guided by the outer ring)", "paper Table 1", False, "it is part of the geometry"),
         Variable("cage.D_i", 1104, "Real", "m", "mm", 0.0497, 0.005, 2.0, 1, None, "Cage bore diameter", "paper Table 1", False, "it is part of the geometry"),
         Variable("cage.m", 1105, "Real", "kg", "g", 0.0279789, 1e-05, 10.0, 1, None, "Mass of one cage half", "rivet_model/half_shape.py: bronze, 8800 kg/m3, with its half of the steel rivets", False, "it is a property of a body"),
@@ -233,7 +234,7 @@ PARAMETERS = {
         Variable("oil.mu_b", 1311, "Real", "1", None, 0.12, 0.0, 1.0, 1, None, "Boundary friction coefficient of asperities (mixed lubrication)", "assumed (mild set L)", False, None),
         Variable("oil.s_0", 1312, "Real", "1", None, 0.006, 0.0001, 1.0, 1, None, "Slide-roll ratio at which asperity friction is 71 % of mu_b", "tangential creep of a Hertz contact saturates near 3 mu Q/(G a b C) = 0.5...0.7 %", False, None),
         Variable("oil.sigma_race", 1313, "Real", "m", "um", 2e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and race", "assumed (mild set L)", False, "it is part of the geometry"),
-        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket", "assumed (mild set L)", False, "it is part of the geometry"),
+        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket, floor of a film in the pocket", "assumed (mild set L)", False, "it is part of the geometry"),
         Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)", False, "it is part of the geometry"),
         Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil at the temperature oil.T_0", "aviation oil, hot", False, None),
         Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix", False, None),

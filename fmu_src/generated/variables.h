@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{5996903a-9036-6923-c898-ad75a0a49bb5}"  // digest of the table
+#define MODEL_GUID "{596ec139-d535-63fd-70aa-35ca55be2afe}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -98,6 +98,7 @@ typedef struct {
     struct {
         double pocket_clearance;  // [m] Pocket diameter - ball diameter
         double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
+        double pocket_filling;  // [1] Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter
         double D_o;  // [m] Cage outer diameter (guided by the outer ring)
         double D_i;  // [m] Cage bore diameter
         double m;  // [kg] Mass of one cage half
@@ -155,7 +156,7 @@ typedef struct {
         double mu_b;  // [1] Boundary friction coefficient of asperities (mixed lubrication)
         double s_0;  // [1] Slide-roll ratio at which asperity friction is 71 % of mu_b
         double sigma_race;  // [m] Composite RMS roughness of ball and race
-        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
+        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket, floor of a film in the pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
@@ -603,4 +604,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 356 };  // time is the first
+enum { N_VARIABLES = 357 };  // time is the first
