@@ -14,7 +14,11 @@ from test_pocket import R, one_ball
 from bearing_model.cage.common.pocket_squeeze import strip_integrals
 
 TWINS = True
-ETA, INNER, OUTER = 6e-3, 0.02675 - 0.0497 / 2, 0.0595 / 2 - 0.02675  # default oil; section of the cage about the pitch circle
+ETA, INNER, OUTER = (
+    6e-3,
+    0.02675 - 0.0497 / 2,
+    0.0595 / 2 - 0.02675,
+)  # default oil; section of the cage about the pitch circle
 SLOW = 1e-7  # at this speed and without roughness the floor of the gap is below 6 nm
 SMOOTH = {"cage.mu": 0.0, "oil.rolling": 0.0, "cage.lambda": 0.0, "oil.sigma_pocket": 1e-9, "oil.eta": ETA}
 WET = SMOOTH | {"cage.pocket_filling": 1.0}
@@ -82,7 +86,9 @@ def closing(core, h, C, speed=SLOW, angle=0.0, **changes):
     S, place = C - h, np.arcsin((C - h) * np.cos(angle) / 0.02675)
     axis_t = np.array([0.0, np.sin(place), np.cos(place)])  # the pocket's tangent in the ball's frame
     v = speed * (np.sin(angle) * np.array([1.0, 0.0, 0.0]) + np.cos(angle) * axis_t)
-    return one_ball(core, S * np.sin(angle), S * np.cos(angle), v=v, **WET | {"cage.pocket_clearance": 2.0 * C} | changes)
+    return one_ball(
+        core, S * np.sin(angle), S * np.cos(angle), v=v, **WET | {"cage.pocket_clearance": 2.0 * C} | changes
+    )
 
 
 def film_force(core, h, C, speed=SLOW, **changes):
@@ -140,7 +146,8 @@ def test_floor(core):
         found = film_force(core, h, C, speed, **{"oil.sigma_pocket": sigma})
         assert found == pytest.approx(ETA * speed * reynolds(h, C), rel=0.03)
     touched = [
-        film_force(core, -d, C, speed, **{"oil.sigma_pocket": sigma}) - m.d.pocket.K * d**1.5 for d in (0.0, floor, 3.0 * floor)
+        film_force(core, -d, C, speed, **{"oil.sigma_pocket": sigma}) - m.d.pocket.K * d**1.5
+        for d in (0.0, floor, 3.0 * floor)
     ]
     assert touched[1] / touched[0] == pytest.approx(np.sqrt(0.5), rel=1e-2)
     assert touched[2] / touched[0] == pytest.approx(np.sqrt(0.1), rel=1e-2)
@@ -174,10 +181,16 @@ def test_a_falling_ball(core):
 
 def restitution(force, m, v_0, h_0):
     """Speed after / before an impact from the gap h_0; force(gap, closing speed)."""
-    stop = lambda _t, y: y[0] - 1.001 * h_0  # noqa: E731
+    stop = lambda _t, y: y[0] - 1.001 * h_0
     stop.terminal, stop.direction = True, 1
     end = solve_ivp(
-        lambda _t, y: [-y[1], -force(*y) / m], (0.0, 5e-3), [h_0, v_0], rtol=1e-6, atol=1e-11, max_step=4e-6, events=stop
+        lambda _t, y: [-y[1], -force(*y) / m],
+        (0.0, 5e-3),
+        [h_0, v_0],
+        rtol=1e-6,
+        atol=1e-11,
+        max_step=4e-6,
+        events=stop,
     )
     return max(-end.y[1].min(), 0.0) / v_0
 
@@ -196,10 +209,17 @@ def test_impact_of_soft_bodies(core, speed):
         F = K * max(np.exp(y[2]) - y[0], 0.0) ** 1.5
         return [-y[1], -F / m, -F / c]
 
-    stop = lambda _t, y: y[0] - 1.001 * h_0  # noqa: E731
+    stop = lambda _t, y: y[0] - 1.001 * h_0
     stop.terminal, stop.direction = True, 1
     end = solve_ivp(
-        series, (0.0, 5e-3), [h_0, speed, np.log(h_0)], method="LSODA", rtol=1e-8, atol=1e-12, max_step=5e-6, events=stop
+        series,
+        (0.0, 5e-3),
+        [h_0, speed, np.log(h_0)],
+        method="LSODA",
+        rtol=1e-8,
+        atol=1e-12,
+        max_step=5e-6,
+        events=stop,
     )
     soft = max(-end.y[1].min(), 0.0) / speed
 
@@ -208,7 +228,11 @@ def test_impact_of_soft_bodies(core, speed):
         F = K * max(-gap, 0.0) ** 1.5
         return F + c * v / np.sqrt(gap**2 + (factor * (c * v / K) ** 0.4) ** 2) if v > 0.0 else F
 
-    for gap, v in ((1e-6, speed), (1e-7, 0.5 * speed), (-1e-6, 0.3 * speed)):  # near the wall the kernel's force is this law
+    for gap, v in (
+        (1e-6, speed),
+        (1e-7, 0.5 * speed),
+        (-1e-6, 0.3 * speed),
+    ):  # near the wall the kernel's force is this law
         assert film_force(core, gap, C, v) == pytest.approx(law(gap, v), rel=0.06)
     assert restitution(law, m, speed, h_0) == pytest.approx(soft, abs=0.03)
     hard = restitution(lambda gap, v: law(gap, v, 0.02), m, speed, h_0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{596ec139-d535-63fd-70aa-35ca55be2afe}"
+MODEL_GUID = "{86abb154-e60e-57b0-582d-ea4ef4c671b3}"
 Z = 9
 
 
@@ -486,7 +486,7 @@ OUTPUTS = {
         Variable("stat.Q_c_rms", 5003, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: RMS", None, False, None),
         Variable("stat.Q_c_p999", 5004, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: 99.9 % quantile", None, False, None),
         Variable("stat.Q_c_max", 5005, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: largest", None, False, None),
-        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball touches its pocket", None, False, None),
+        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball presses on its pocket, or on the oil in it", None, False, None),
         Variable("stat.cage_omega", 5007, "Real", "rad/s", "rev/min", None, None, None, 1, "stat", "Mean cage speed", None, False, None),
         Variable("stat.eccentricity", 5008, "Real", "1", None, None, None, None, 1, "stat", "Mean eccentricity of the cage", None, False, None),
         Variable("stat.dislocation_max", 5009, "Real", "m", "um", None, None, None, 1, "stat", "Largest dislocation of the cage halves", None, False, None),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{596ec139-d535-63fd-70aa-35ca55be2afe}"  // digest of the table
+#define MODEL_GUID "{86abb154-e60e-57b0-582d-ea4ef4c671b3}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -466,7 +466,7 @@ typedef struct {
         scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
         scalar Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
         scalar Q_c_max;  // [N] Pocket force of all balls pooled: largest
-        scalar contact_duty;  // [1] Part of the time that a ball touches its pocket
+        scalar contact_duty;  // [1] Part of the time that a ball presses on its pocket, or on the oil in it
         scalar cage_omega;  // [rad/s] Mean cage speed
         scalar eccentricity;  // [1] Mean eccentricity of the cage
         scalar dislocation_max;  // [m] Largest dislocation of the cage halves

@@ -58,11 +58,11 @@ enum { SQUEEZE_NODES = 9 };  // of the polynomial of a pocket's film
 
 // Films of oil in the pockets (pocket_squeeze.h).
 typedef struct {
-    bool filled;                                         // false: dry pockets, nothing else is written
-    double node[SQUEEZE_NODES], newton[SQUEEZE_NODES];   // G(z) in Newton's form
-    double reach;                                        // largest gap that has a film [m]
-    double roughness_2, elastic;                         // sigma^2 [m2], h_e^2 / v^0.8
-    constants c, C, inv_reach;                           // c [N.s], radial clearance [m], 1/reach of each pocket
+    bool filled;                                        // false: dry pockets, nothing else is written
+    double node[SQUEEZE_NODES], newton[SQUEEZE_NODES];  // G(z) in Newton's form
+    double reach;                                       // largest gap that has a film [m]
+    double roughness_2, elastic;                        // sigma^2 [m2], h_e^2 / v^0.8
+    constants c, C, inv_reach;  // c [N.s], radial clearance [m], 1/reach of each pocket
 } PocketSqueeze;
 
 typedef struct {

@@ -324,7 +324,8 @@ void pocket_elastic(const Model *model, Work *w)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
             *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
-            const int near = wide_mask(wide_above(at->gap.delta + (w->elastic.reach[h] + model->d->squeeze.reach), 0.0));
+            const int near =
+                wide_mask(wide_above(at->gap.delta + (w->elastic.reach[h] + model->d->squeeze.reach), 0.0));
             if (near != 0)
                 at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h], &at->pressed);
             if (at->touched != 0)
