@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{86abb154-e60e-57b0-582d-ea4ef4c671b3}"  // digest of the table
+#define MODEL_GUID "{96fa143d-68d2-a8e0-0182-d80d7f97e2b5}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -121,6 +121,7 @@ typedef struct {
         double width;  // [m] Axial width of the whole cage
         int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
+        double modal_damping_high;  // [1] Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency
     } cage;
     struct {
         double dtheta[Z];  // [rad] Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation
@@ -604,4 +605,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 357 };  // time is the first
+enum { N_VARIABLES = 358 };  // time is the first
