@@ -1,5 +1,5 @@
-"""Bearings: by designation or file, what is given, what the catalogue says, what follows by rule, and what can be said
-without a simulation.
+"""Bearings by designation or file: given values, values of the catalogue, values by rule, and results that need no
+simulation.
 
     designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8
@@ -63,6 +63,7 @@ CAGE_MEANT = (
     "that many bearings of this designation carry is not modelled"
 )
 SHAPE = ("bearing.D", "bearing.d_m", "cage.D_o", "cage.D_i", "cage.width")  # what the rules follow from
+OF_HEAD = ("rivet.head_diameter", "rivet.head_height")  # what a standard's name decides
 # the 6207's in a file that says neither them nor a designation
 OF_EXAMPLE = ("Z", "bearing.D", "bearing.d_m", "shaft.F_x", "shaft.F_y", "shaft.omega")
 
@@ -442,6 +443,11 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
                 f"{names(name)} = {shown(name, values[name], written.get(name))}" for name in broken.keys if name != key
             )
             reason = f"{words} {shown(key, number, written.get(key), words)} is allowed for {broken.reason}{f', with {others}' if others else ''}{inside}"
+            if key in OF_HEAD and key not in written and "rivet.head" in written:
+                size = shown(key, values[key], None)
+                raise refusal(
+                    path, names("rivet.head"), written["rivet.head"], f"{names(key)} is {size} by it; {reason}"
+                )
             raise refusal(path, names(key), written.get(key, values[key]), reason)
     raise refusal(path, names(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}{inside}")
 

@@ -123,6 +123,11 @@ LIMITS = (
         "a head wider than the relieved hole",
     ),
     Limit(
+        ("joint.preload", "rivet.shank_diameter"),
+        lambda v: v["rivet.yield_rivet"] * 0.25 * math.pi * v["rivet.shank_diameter"] ** 2 - v["joint.preload"],
+        "a shank that does not yield by its preload",
+    ),
+    Limit(
         ("rivet.head_height", "rivet.fillet_radius"),
         lambda v: v["rivet.head_height"] - v["rivet.fillet_radius"],
         "a fillet below the head",

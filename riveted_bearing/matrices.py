@@ -5,7 +5,8 @@
 K by the quasi-static equilibrium: balls follow, their inertia loads stay; mean over the azimuths that the balls pass.
 K and C by the FMU: the inner ring is prescribed at the equilibrium and shaken
 along one direction after the other, q_i = A sin(w t); the first harmonic of R over whole periods gives column i of K +
-i w C.  Each shake runs with +A and with -A: half the difference leaves out what balls that pass do of themselves.
+i w C.  Each shake runs with +A and with -A: half the difference of the two runs no longer contains the
+forces by which passing balls alone change R.
 """
 
 import math

@@ -1,7 +1,7 @@
-"""An oil that a user gives: by its viscosity at oil.T_0, or by two points of a data sheet, each of which says all of it.
+"""An oil that a user gives: by its viscosity at oil.T_0, or by two points of a data sheet; either one defines it.
 
-In the FMU a viscosity left at its start value is that of the two points.  Files, scenes and --set know more: which of
-both was given.  Two that contradict each other are refused; of two documents the later one decides.
+In the FMU a viscosity left at its start value is that of the two points.  Files, scenes and --set also record which of
+the two was given.  Both together are refused if they contradict each other; of two documents the later one decides.
 """
 
 import math

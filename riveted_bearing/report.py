@@ -26,6 +26,7 @@ from .summary import (
     assumed_rows,
     breaks,
     columns,
+    count_note,
     early_rows,
     flag_note,
     has_statistics,
@@ -128,7 +129,7 @@ def render(result, decides=None, measured=()):
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
         as_bronze=assumed_as_bronze(result),
-        settle_note=settle_note(result),
+        notes=[note for note in (settle_note(result), count_note(result)) if note],
         decides=decides,
         measured=views(measured),
         display_of=display_of,
@@ -286,7 +287,12 @@ def cards(result, lives):
             "µm",
             f"largest · mean {figure(rows['cage dislocation'].mean)}",
         )
-    if lives:
+    broken = breaks(result)
+    if broken:
+        k, place, t = broken[0]
+        count = len(broken)
+        yield "Broken rivets", str(count), "", f"first rivet {k}, {place}, at {figure(1e3 * t)} ms · no life is told"
+    if lives and not broken:
         shortest = min(
             (life[place].life, f"rivet {life['k']}, {'head' if place == 'head' else 'middle'}")
             for life in lives

@@ -203,7 +203,7 @@ def origin_problem(name, value):
             if isinstance(value, dict) and all(isinstance(one, str) for one in value.values())
             else "not a table of texts"
         )
-    if name in ("t_end", "step", "settle_turns"):
+    if name in ("t_end", "step", "settle_turns", "count_turns"):
         return "" if is_number(value) else "not a number"
     return ""
 

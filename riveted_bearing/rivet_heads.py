@@ -1,8 +1,8 @@
 """Heads of solid rivets by the standards that makers deliver: head diameter and height by the shank's nominal diameter
 (data/rivet_heads.csv).
 
-The head that riveting forms is taken to be like the one that the rivet brings along.  The fillet below the head follows
-the shank by rule (scaling.py): the standards give its upper limit only.
+The closing head, which riveting forms, is taken to have the dimensions of the set head.  The fillet below
+the head follows the shank by rule (scaling.py): the standards give its upper limit only.
 """
 
 import csv

@@ -142,15 +142,23 @@ def vibrations(model, parameters):
     return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"]]}
 
 
-def settle_turns(model, scene):
-    """Revolutions of the shaft against the housing before statistics begin."""
-    settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
-    t = np.linspace(0.0, min(settle, scene.t_end), 101)
+def turns(model, scene):
+    """Revolutions of the shaft against the housing before statistics begin, and from there to the end."""
+    settle = min(scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])), scene.t_end)
+    return {
+        "settle_turns": turns_between(model, scene, 0.0, settle),
+        "count_turns": turns_between(model, scene, settle, scene.t_end),
+    }
+
+
+def turns_between(model, scene, start, end):
+    """Revolutions of the shaft against the housing between two times [s]."""
+    t = np.linspace(start, end, 101)
     inner, outer = (
         scene.inputs[name](t) if name in scene.inputs else model.default(model.inputs[name])
         for name in ("shaft.omega", "housing.omega")
     )
-    return float(np.mean(np.abs(inner - outer)) * t[-1] / (2.0 * np.pi))
+    return float(np.mean(np.abs(inner - outer)) * (end - start) / (2.0 * np.pi))
 
 
 def changes_in_words(scene):
@@ -167,7 +175,7 @@ def provenance(model, scene):
         "scene": scene.name,
         "description": scene.description,
         "t_end": scene.t_end,
-        "settle_turns": settle_turns(model, scene),
+        **turns(model, scene),
         "step": scene.step,
         "inputs": {
             name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold}

@@ -4,8 +4,9 @@ Cage and clearances are geometrically similar: lengths grow with the ball's diam
 distances from the pitch circle in ball diameters.  The rivet's shank grows with the ball; head, relief, chamfer, fit
 and swell grow with the shank, the seat with the head, the preload with the shank's section (equal stress).  A half's
 mass, centre of mass and inertia follow from its shape and density (rivet_model/half_shape.py), the inner ring's (with
-its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio. Loads: a tenth of C
-radially, a sixth of that axially where no load is given, else 0 for those that are not; speed: n d_m = 480,000 mm/min,
+its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.  If no
+load is given, the radial one is C/10 and the axial one a sixth of it; if any is given, the others are 0;
+speed: n d_m = 480,000 mm/min,
 70 % of the usual limit with grease.  Parts whose temperature is not given have that of the oil, if it is given.
 """
 

@@ -11,6 +11,7 @@ DEG = 180.0 / np.pi
 OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
 FLAGS = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}  # by bit
 SETTLED = 10.0  # revolutions of the shaft that statistics should leave out
+COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
 
 @dataclass(frozen=True)
@@ -87,6 +88,17 @@ def settle_note(result):
     return (
         f"statistics and damage begin at start.settle = {settle:g} s, after {turns:.2g} revolutions of the shaft: start and "
         f"first contacts count; start.settle = {enough:.2g} s leaves out {SETTLED:g} revolutions"
+    )
+
+
+def count_note(result):
+    """A warning where statistics rest on few revolutions of the shaft; else ""."""
+    turns = result.about.get("count_turns", 0.0)
+    if not 0.0 < turns < COUNTED or not has_statistics(result):
+        return ""
+    return (
+        f"statistics and life rest on {turns:.2g} revolutions of the shaft after start.settle; from {COUNTED:g} on they are "
+        "steady enough to compare (t_end)"
     )
 
 

@@ -1,4 +1,4 @@
-"""What a sweep ends with: means over seeds with their confidence for each point of the design, as a table, a picture
+"""Results of a sweep: means over seeds with their confidence for each point of the design, as a table, a picture
 and a page.
 """
 

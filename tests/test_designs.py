@@ -157,7 +157,9 @@ def test_two_designs_of_one_fmu(fmu, tmp_path, browser):
     first, copy, strong = found["designs"]
     assert copy["life_ratio"] == {"ratio": 1.0, "low": 1.0, "high": 1.0, "correlation": 1.0}
     assert copy["life_h"] == first["life_h"] and copy["responses"]["calm"]["stat.Q_c_p999"]["ratio"]["ratio"] == 1.0
-    assert found["differences"] == [{"name": "fatigue.sigma_D", "values": ["1000 MPa", "1000 MPa", "2000 MPa"]}]
+    curves, strength = found["differences"]
+    assert strength == {"name": "fatigue.sigma_D", "values": ["1000 MPa", "1000 MPa", "2000 MPa"]}
+    assert curves["name"] == "S-N curve" and ["2000" in text for text in curves["values"]] == [False, False, True]
     ratio = strong["life_ratio"]
     assert [ratio[key] for key in ("ratio", "low", "high")] == pytest.approx([2.0**15] * 3, rel=1e-6)
     assert strong["responses"]["shock"]["stat.sigma_head_p999"] == first["responses"]["shock"][

@@ -281,30 +281,67 @@ def test_ecos_tunes(ecospy, fmu, tuned):
 
 def test_ssp_of_fmpy(fmu, expected, tmp_path):
     """A system of one component, start values in its parameter set.  Observed: 8e-12."""
+    result = simulate_ssp_of(fmu, tmp_path, START)
+    rows = np.array([result[f"bearing.{name}"] for name in OUTPUTS]).T
+    assert difference(rows, expected[1:]) < SAME
+
+
+def simulate_ssp_of(fmu, folder, start, inputs=None):
+    """Result of fmpy for a system of the bearing alone, with parameters wired to connectors of the system: {parameter:
+    function of time}.
+    """
     from fmpy.ssp.simulation import simulate_ssp
     from fmpy.ssp.ssd import Parameter, ParameterSet
 
-    path = tmp_path / "system.ssp"
+    inputs, path = inputs or {}, folder / "system.ssp"
+    wires = [CONNECTOR.format(name=name, kind="input") for name in inputs]
+    system = SYSTEM.format(
+        fmu=fmu.name,
+        connectors="".join([*(CONNECTOR.format(name=name, kind="output") for name in OUTPUTS), *wires]),
+        outer=group("Connectors", wires),
+        connections=group("Connections", [CONNECTION.format(name=name) for name in inputs]),
+    )
     with zipfile.ZipFile(path, "w") as archive:
         archive.write(fmu, f"resources/{fmu.name}")
-        archive.writestr(
-            "SystemStructure.ssd",
-            SYSTEM.format(fmu=fmu.name, connectors="".join(CONNECTOR.format(name=name) for name in OUTPUTS)),
-        )
-    start = ParameterSet(parameters=[Parameter(name=f"bearing.{name}", value=value) for name, value in START.items()])
-    result = simulate_ssp(str(path), stop_time=(STEPS - 0.5) * STEP, step_size=STEP, parameter_set=start)
+        archive.writestr("SystemStructure.ssd", system)
+    values = ParameterSet(parameters=[Parameter(name=f"bearing.{name}", value=value) for name, value in start.items()])
+    return simulate_ssp(str(path), stop_time=(STEPS - 0.5) * STEP, step_size=STEP, parameter_set=values, input=inputs)
+
+
+def group(name, elements):
+    """Elements inside one of the system's, which the schema has only with elements."""
+    return f"<ssd:{name}>{''.join(elements)}</ssd:{name}>" if elements else ""
+
+
+def test_ssp_of_fmpy_tunes(fmu, tmp_path):
+    """A parameter wired to a connector of the system changes in the run.  This master begins every connector at 0 and passes a
+    value on one step late, so that the rivets have no preload in the first step; the same history as a column of fmpy's input.
+    """
+    start, before, after = START | {"joint.preload": 0.0}, 30.0, 60.0
+    history = {"joint.preload": lambda t: after if t > (HALF - 1.5) * STEP else before}
+    result = simulate_ssp_of(fmu, tmp_path, start, history)
     rows = np.array([result[f"bearing.{name}"] for name in OUTPUTS]).T
+    signals = np.zeros(6, dtype=[("time", float), ("joint.preload", float)])
+    signals["time"] = np.array([0, 1, 1, HALF, HALF, STEPS]) * STEP
+    signals["joint.preload"] = [0.0, 0.0, before, before, after, after]
+    times = {"stop_time": STEPS * STEP, "step_size": STEP, "output_interval": STEP}
+    expected = fmpy.simulate_fmu(str(fmu), **times, start_values=start, input=signals, output=OUTPUTS)
+    expected = np.array([expected[name] for name in OUTPUTS]).T
     assert difference(rows, expected[1:]) < SAME
+    constant = simulate(fmu, start=start)
+    assert difference(rows, constant[1:]) > 1e-3
 
 
 SYSTEM = """<ssd:SystemStructureDescription xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
     xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon" name="system" version="1.0">
   <ssd:System name="system">
-    <ssd:Elements>
+    {outer}<ssd:Elements>
       <ssd:Component name="bearing" type="application/x-fmu-sharedlibrary" source="resources/{fmu}">
         <ssd:Connectors>{connectors}</ssd:Connectors>
       </ssd:Component>
     </ssd:Elements>
+    {connections}
   </ssd:System>
 </ssd:SystemStructureDescription>"""
-CONNECTOR = '<ssd:Connector name="{name}" kind="output"><ssc:Real/></ssd:Connector>'
+CONNECTOR = '<ssd:Connector name="{name}" kind="{kind}"><ssc:Real/></ssd:Connector>'
+CONNECTION = '<ssd:Connection startConnector="{name}" endElement="bearing" endConnector="{name}"/>'

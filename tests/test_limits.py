@@ -57,6 +57,7 @@ IMPOSSIBLE = [  # what the file says, the key that is refused; the value must be
     ({"rivet.head_diameter": '"2.5 mm"'}, "rivet.head_diameter"),
     ({"rivet.head_height": '"8 mm"'}, "rivet.head_height"),
     ({"rivet.shank_diameter": '"3 mm"'}, "rivet.shank_diameter"),
+    ({"joint.preload": '"900 N"', "rivet.shank_diameter": '"1.3 mm"'}, "joint.preload"),
     ({"rivet.fillet_radius": '"0.5 mm"'}, "rivet.fillet_radius"),
     ({"rivet.relief_depth": '"2 mm"'}, "rivet.relief_depth"),
     ({"rivet.edge_break": '"0.4 mm"'}, "rivet.edge_break"),
@@ -151,3 +152,11 @@ def test_possible_bearings_are_accepted(settings, tmp_path):
 
 def test_there_are_forty_of_each():
     assert len(IMPOSSIBLE) >= 40 and len(POSSIBLE) >= 40
+
+
+def test_a_standards_head_is_refused_by_its_name(tmp_path):
+    """DIN 660 has a head of 2.8 mm for a shank of 1.6 mm, which a 6205's bar has no room for: the file says no diameter."""
+    path = tmp_path / "mine.toml"
+    path.write_text('designation = "6205"\n[rivet]\nhead = "DIN 660"\nshank_diameter = "1.6 mm"\n')
+    text = complaint(path)
+    assert text.startswith(f"{path}: rivet.head = 'DIN 660': rivet.head_diameter is 2.8 mm by it; at most 2."), text

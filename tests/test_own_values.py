@@ -278,6 +278,17 @@ def test_a_run_says_when_it_has_not_settled(model, speed, said):
     assert not said or ("0.42 revolutions" in note and "start.settle = 1.2 s" in note)
 
 
+def test_a_run_says_when_it_counts_few_revolutions(model):
+    """From 10 ms to 30 ms at 6,000 r/min there are two revolutions; a shaft at rest is not told."""
+    parts = {"parameters": {"start.settle": 0.01}, "inputs": {"shaft.omega": "6000 rev/min"}}
+    result = run(None, fmu=model.path, t_end=0.03, **parts)
+    assert result.about["count_turns"] == pytest.approx(2.0)
+    assert "rest on 2 revolutions" in summary.count_note(result)
+    for turns in (0.0, 10.0):
+        result.about["count_turns"] = turns
+        assert summary.count_note(result) == ""
+
+
 def test_what_stays_as_of_bronze_is_said():
     """Friction and damping have no source for other materials."""
     values = {"cage.mu": 0.05, "cage.mu_land": 0.08, "cage.modal_damping": 0.01, "joint.mu": 0.15}

@@ -21,7 +21,7 @@ from bearing_model.generated.variables import Lubrication
 TWINS = True
 R, GAP = 0.0111125 / 2, 1e-4
 R_PITCH = 0.02675
-ELASTIC = {"cage.mu": 0.0, "oil.rolling": 0.0, "cage.lambda": 0.0}
+FRICTIONLESS = {"cage.mu": 0.0, "oil.rolling": 0.0, "cage.lambda": 0.0}
 
 
 def force(model):
@@ -54,7 +54,7 @@ def one_ball(core, x, t, v=(0, 0, 0), omega=(0, 0, 0), **changes):
 
 def test_cylinder(core):
     """Tangential offset gap + 2 um: each half carries K delta^1.5/2; inside the gap none."""
-    m, w = one_ball(core, 0.0, GAP + 2e-6, **ELASTIC)
+    m, w = one_ball(core, 0.0, GAP + 2e-6, **FRICTIONLESS)
     assert w.delta_c[:, :Z] == pytest.approx(np.full((2, Z), 2e-6), abs=1e-16)
     assert pocket_loads(m) == pytest.approx(np.full((2, Z), 0.5 * m.d.pocket.K * 2e-6**1.5), rel=1e-9)
     F, M = on_ball(w)
@@ -63,7 +63,7 @@ def test_cylinder(core):
     # rounding of places, 1e-17 of 2e-6 m
     assert F == pytest.approx(np.tile([0.0, -Q * np.sin(angle), -Q * np.cos(angle)], (Z, 1)), rel=1e-9, abs=1e-9)
     assert not M.any()
-    m, w = one_ball(core, 0.0, GAP - 1e-9, **ELASTIC)
+    m, w = one_ball(core, 0.0, GAP - 1e-9, **FRICTIONLESS)
     assert not pocket_loads(m).any()
 
 
@@ -86,7 +86,7 @@ def test_shares_are_those_of_the_pressure(core, angle):
     """
     delta = 3e-6
     S = GAP + delta
-    m, _w = one_ball(core, S * np.sin(angle), S * np.cos(angle), **ELASTIC)
+    m, _w = one_ball(core, S * np.sin(angle), S * np.cos(angle), **FRICTIONLESS)
     Q = pocket_loads(m)[:, 0]
     assert Q.sum() == pytest.approx(m.d.pocket.K * delta**1.5, rel=1e-9)
     a, b = pocket_contact().semi_axes(Q.sum())
@@ -98,11 +98,11 @@ def test_shares_are_those_of_the_pressure(core, angle):
 def test_the_patch_lets_go_smoothly(core):
     """A half's load goes to 0 with its slope where the patch leaves it: 3/4 (1 - xi)^2 of the whole."""
     delta = 3e-6
-    m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
+    m, _w = one_ball(core, 0.0, GAP + delta, **FRICTIONLESS)
     a, _b = pocket_contact().semi_axes(pocket_loads(m)[:, 0].sum())
     for rest in (1e-2, 1e-3, -1e-3):
         angle = np.arcsin((1.0 - rest) * a / (R + GAP))
-        m, _w = one_ball(core, (GAP + delta) * np.sin(angle), (GAP + delta) * np.cos(angle), **ELASTIC)
+        m, _w = one_ball(core, (GAP + delta) * np.sin(angle), (GAP + delta) * np.cos(angle), **FRICTIONLESS)
         Q = pocket_loads(m)[:, 0]
         assert Q[0] / Q.sum() == pytest.approx(0.75 * max(rest, 0.0) ** 2, rel=1e-2)  # 1 - rest/3
 
@@ -112,7 +112,7 @@ def test_the_split_is_pushed_open(core):
     Q a/R_c along the axis.
     """
     delta = 3e-6
-    m, _w = one_ball(core, 0.0, GAP + delta, **ELASTIC)
+    m, _w = one_ball(core, 0.0, GAP + delta, **FRICTIONLESS)
     F_x = np.array([pocket_wrench(m, h)[0][0, 0] for h in range(2)])
     Q = pocket_loads(m)[:, 0].sum()
     a, _b = pocket_contact().semi_axes(Q)
@@ -192,7 +192,7 @@ def test_forces_are_the_gradient_of_the_energy(core):
     Difference over 1e-9 m and 1e-9/R rad: truncation (1e-9/delta)^2, rounding 1e-7; observed 2e-7 of the largest force.
     """
     rng = np.random.default_rng(1)
-    m, w, ball, bodies = random_scene(core, rng, **ELASTIC)
+    m, w, ball, bodies = random_scene(core, rng, **FRICTIONLESS)
     axes = frames(ball["theta"])
     sides = (-1, 1)
     F, M = on_ball(w)

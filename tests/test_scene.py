@@ -11,6 +11,7 @@ from riveted_bearing.fmu import Model
 from riveted_bearing.scene import History, load_scene, shipped_scenes
 from riveted_bearing.units import scales_of, suffix, to_si
 
+VISCOSITY = {"m2/s": (1.0, 0.0), "mm2/s": (1e6, 0.0)}
 SPEED = scales_of("rad/s", {"rev/min": (30.0 / math.pi, 0.0)})
 TEMPERATURE = scales_of("K", {"degC": (1.0, -273.15)})
 MORE = {unit: scales_of(unit, {}) for unit in ("m", "N", "Pa", "1")}
@@ -54,6 +55,8 @@ def scene_file(tmp_path):
         ("70 degF", TEMPERATURE, 294.26111111111111),  # NIST SP 811: (70 + 459.67)/1.8
         ("1 psi", MORE["Pa"], 6894.757293168361),  # NIST SP 811
         ("2 %", MORE["1"], 0.02),
+        ("25 cSt", VISCOSITY, 25e-6),  # BIPM SI brochure, 8th edition: 1 St = 1e-4 m2/s
+        ("25 mm²/s", VISCOSITY, 25e-6),
     ],
 )
 def test_values_become_si(value, scales, si):

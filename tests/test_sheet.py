@@ -14,7 +14,7 @@ from commands import command
 
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
-from riveted_bearing import UserError, run
+from riveted_bearing import UserError, report, run
 from riveted_bearing.duty import sheet
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
@@ -151,6 +151,16 @@ def test_the_command_reads_a_result(tmp_path, fmu):
 def test_a_run_without_stress_is_refused(result):
     with pytest.raises(UserError, match=r"a summary needs a longer run, with stress"):
         sheet.result_sheet(replace(result, parameters=result.parameters | {"scene.stress": "off"}), Path("x.parquet"))
+
+
+def test_a_run_with_a_broken_rivet_tells_no_life(result):
+    """Its loads before and after are not alike: the sheet says which rivet broke, the report's cards count it."""
+    broken = replace(result, summary=result.summary | {"rivet[4].break_time": 0.0123, "rivet[4].broken": 1.0})
+    verdict = sheet.result_sheet(broken, Path(__file__), target=1000.0).verdict
+    assert verdict[1] == "No life can be told" and verdict[2].startswith("rivet 4 broke in the head at 12.3 ms")
+    titles = {title: (value, remark) for title, value, _, remark in report.cards(broken, report.all_lives(broken))}
+    assert titles["Broken rivets"] == ("1", "first rivet 4, head, at 12.3 ms · no life is told")
+    assert not any("Life" in title for title in titles)
 
 
 # --------------------------------------------------------------------------------------------------------------- paper

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{96fa143d-68d2-a8e0-0182-d80d7f97e2b5}"
+MODEL_GUID = "{8bed5310-f8d9-2265-d714-67877cba67e1}"
 Z = 9
 
 
@@ -177,7 +177,7 @@ PARAMETERS = {
         Variable("bearing.h_i", 1010, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)", False, "it is part of the geometry"),
         Variable("bearing.h_e", 1011, "Real", "1", None, 0.2, 0.01, 0.5, 1, None, "Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it", "assumed (usual 0.17...0.25)", False, "it is part of the geometry"),
         Variable("bearing.p_limit", 1012, "Real", "Pa", "MPa", 4200000000.0, 1000000.0, 1000000000000.0, 1, None, "Contact pressure of the races beyond which a warning is given", "ISO 76: permanent deformation of 1e-4 D", False, None),
-        Variable("bearing.expansion", 8231, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the rings, and of the balls unless ball.expansion says otherwise; dimensions are those at assembly temperature", "bearing steel, Harris", False, "it is a property of a body"),
+        Variable("bearing.expansion", 8231, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the rings, and of the balls unless ball.expansion is set; dimensions are those at assembly", "bearing steel, Harris", False, "it is a property of a body"),
         Variable("ball.E", 1013, "Real", "Pa", "GPa", 0.0, 0.0, 1000000000000.0, 1, None, "Young's modulus of the balls", "0: bearing.E", False, "it is a property of a body"),
         Variable("ball.nu", 1014, "Real", "1", None, 0.0, 0.0, 0.49, 1, None, "Poisson's ratio of the balls", "0: bearing.nu", False, "it is a property of a body"),
         Variable("ball.expansion", 1015, "Real", "1/K", None, 0.0, 0.0, 0.0001, 1, None, "Thermal expansion of the balls", "0: bearing.expansion", False, "it is a property of a body"),
@@ -222,7 +222,7 @@ PARAMETERS = {
         Variable("rivet[k].intact", 8600, "Integer", "1", None, 1, 0, 1, Z, None, "0: the rivet is broken and carries nothing; the plates still meet under pressure", "whole rivets", False, None),
         Variable("rivet[k].strength_factor", 8640, "Real", "1", None, 1.0, 0.01, 100.0, Z, None, "Strength of this rivet: factor on fatigue.sigma_D, sigma_m and sigma_f", "rivets all alike", False, None),
         Variable("rivet.fit_model", 1208, "FitModel", "1", None, 2, None, None, 1, None, "Interference: elastic, or with yield of the flange", "flange yields between +2 and +5 um of interference", False, "it is part of the geometry"),
-        Variable("oil.eta", 1301, "Real", "Pa.s", "mPa.s", 0.006, 1e-05, 10.0, 1, None, "Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force (oil.nu_1, oil.nu_2)", "assumed (aviation oil, hot)", True, None),
+        Variable("oil.eta", 1301, "Real", "Pa.s", "mPa.s", 0.006, 1e-05, 10.0, 1, None, "Dynamic viscosity of the oil at oil.T_0; left at its start value it follows from oil.nu_1, oil.nu_2; one set in a run is in force", "assumed (aviation oil, hot)", True, None),
         Variable("oil.alpha", 1302, "Real", "1/Pa", "1/GPa", 1.3e-08, 1e-10, 1e-07, 1, None, "Pressure-viscosity coefficient at the temperature oil.T_0", "assumed (synthetic aviation oil, hot)", False, None),
         Variable("oil.A", 1303, "Real", "1", None, -0.04, -1.0, 0.0, 1, None, "Traction law mu(s) = (A + B s) exp(-C s) - A", "assumed in the range of fits for 4109 aviation oil; D = -A", False, None),
         Variable("oil.B", 1304, "Real", "1", None, 2.2, 0.0, 100.0, 1, None, "Traction law: linear term", "assumed in the range of fits for 4109 aviation oil", False, None),
@@ -239,7 +239,7 @@ PARAMETERS = {
         Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)", False, "it is part of the geometry"),
         Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil at the temperature oil.T_0", "aviation oil, hot", False, None),
         Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix", False, None),
-        Variable("oil.beta", 8202, "Real", "1/K", None, 0.022, 0.0, 0.2, 1, None, "Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force", "MIL-PRF-23699 oil of 25 and 5 mm2/s at 40 and 100 degC, ASTM D341, at 6 mPa.s", True, None),
+        Variable("oil.beta", 8202, "Real", "1/K", None, 0.022, 0.0, 0.2, 1, None, "Fall of the viscosity's logarithm with temperature at oil.T_0; left at its start value it follows from oil.nu_1, oil.nu_2; one set in a run is in force", "MIL-PRF-23699 oil of 25 and 5 mm2/s at 40 and 100 degC, ASTM D341, at 6 mPa.s", True, None),
         Variable("oil.T_0", 8206, "Real", "K", "degC", 359.0006, 200.0, 600.0, 1, None, "Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given", "where MIL-PRF-23699 oil has 6 mPa.s", False, None),
         Variable("oil.nu_1", 8207, "Real", "m2/s", "mm2/s", 2.5e-05, 1e-06, 1.0, 1, None, "Kinematic viscosity of the oil at the lower temperature oil.T_1", "MIL-PRF-23699", False, None),
         Variable("oil.T_1", 8208, "Real", "K", "degC", 313.15, 200.0, 600.0, 1, None, "Lower temperature of the viscosity's two points", "MIL-PRF-23699", False, None),
@@ -307,7 +307,7 @@ PARAMETERS = {
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5", False, "it decides on the states and their meaning"),
         Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, a tenth of a pocket's pulse for rigid ones", False, "it decides on the states and their meaning"),
         Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms", False, None),
-        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0", "work limit instead of a hung host: some 0.15 s of processor time for 0.1 ms", False, None),
+        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 10000 for each 0.1 ms begun, without limit for solver.method = fixed", "work limit instead of a hung host: some 0.15 s of processor time for 0.1 ms", False, None),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default", False, "it belongs to the start"),
         Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed", False, "it belongs to the start"),
         Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point", False, "it belongs to the start"),

@@ -31,8 +31,8 @@ the film's force; Sommerfeld's substitution from the narrowest gap,
     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 
 spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the narrowest
-gap. Of rigid halves alone: the gap
-is that of round lands, and the modes of elastic halves do not feel their lands yet.
+gap. The harmonics G_p load rigid halves only.
+The gap is that of undeformed, round lands, and a film does not load the modes of elastic halves yet.
 """
 
 from types import SimpleNamespace

@@ -1,4 +1,5 @@
-// The door to the cage: the one place that asks which kind of halves runs.
+// Functions of cage.h for an evaluation and for a step of the default method: each calls the code of rigid or of
+// elastic halves (cage_setup.c and cage_read.c have the other functions of cage.h).
 #include "cage/cage.h"
 
 #include "cage/common/cage_joint.h"

@@ -1,6 +1,6 @@
 // The cage as the rest of the core knows it: all that may be called from outside this folder.
 //
-// Two kinds of cage stand behind these functions, and only cage.c asks which one runs:
+// These functions serve two kinds of cage; cage.c, cage_setup.c and cage_read.c choose between them:
 //   two_half/   two rigid halves held by springs and friction of their joints; a static load path to the rivets
 //   elastic/    two halves that vibrate; their joints follow from the motion of both pads
 // common/ has what both share: poses and accelerations of the halves, films, pockets, joints' friction.

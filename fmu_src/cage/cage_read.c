@@ -1,4 +1,5 @@
-// Read from an evaluation: energies of the cage, slip of its joints, motion of its modes.
+// Functions of cage.h that read the results of an evaluation: energy of the cage, slip and rubbing of its joints,
+// motion of the halves by their modes.
 #include "cage/cage.h"
 #include "cage/common/cage_joint.h"
 #include "cage/common/halves.h"

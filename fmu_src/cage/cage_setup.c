@@ -1,4 +1,5 @@
-// The door to the cage, its other half: the choice between the kinds of halves, and whatever happens outside of a step.
+// Functions of cage.h outside an evaluation: whether the kind of cage is possible, its constants, its rest state, the
+// longest step, the check of a saved state.
 #include "cage/cage.h"
 
 #include "cage/elastic/elastic_half.h"

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{96fa143d-68d2-a8e0-0182-d80d7f97e2b5}"  // digest of the table
+#define MODEL_GUID "{8bed5310-f8d9-2265-d714-67877cba67e1}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -87,7 +87,7 @@ typedef struct {
         double h_i;  // [1] Height of the inner ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double h_e;  // [1] Height of the outer ring's shoulder above the groove's bottom / ball diameter: reported when the contact ellipse reaches over it
         double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
-        double expansion;  // [1/K] Thermal expansion of the rings, and of the balls unless ball.expansion says otherwise; dimensions are those at assembly temperature
+        double expansion;  // [1/K] Thermal expansion of the rings, and of the balls unless ball.expansion is set; dimensions are those at assembly
     } bearing;
     struct {
         double E;  // [Pa] Young's modulus of the balls
@@ -144,7 +144,7 @@ typedef struct {
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
     struct {
-        double eta;  // [Pa.s] Dynamic viscosity of the oil at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force (oil.nu_1, oil.nu_2)
+        double eta;  // [Pa.s] Dynamic viscosity of the oil at oil.T_0; left at its start value it follows from oil.nu_1, oil.nu_2; one set in a run is in force
         double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
         double B;  // [1] Traction law: linear term
@@ -161,7 +161,7 @@ typedef struct {
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
-        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at the temperature oil.T_0; left at its start value it is that of the two points; one set in a run is in force
+        double beta;  // [1/K] Fall of the viscosity's logarithm with temperature at oil.T_0; left at its start value it follows from oil.nu_1, oil.nu_2; one set in a run is in force
         double T_0;  // [K] Temperature at which oil.eta, oil.alpha, oil.rho and oil.beta are given
         double nu_1;  // [m2/s] Kinematic viscosity of the oil at the lower temperature oil.T_1
         double T_1;  // [K] Lower temperature of the viscosity's two points
@@ -247,7 +247,7 @@ typedef struct {
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
         int clock;  // Switch: Measure solver.cpu_time
-        int max_steps;  // Largest number of internal steps in one communication step; 0: 10000, and 10000 for each 0.1 ms of a longer one; those of solver.method = fixed are not limited by 0
+        int max_steps;  // Largest number of internal steps in one communication step; 0: 10000 for each 0.1 ms begun, without limit for solver.method = fixed
     } solver;
     struct {
         int seed;  // Seed of the balls' initial spacing (splitmix64)

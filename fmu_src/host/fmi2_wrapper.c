@@ -1,9 +1,9 @@
 // A part (part.h) as an FMI 2.0 co-simulation slave: call order, value references, host time, logging, saved
 // states.  No physics.
 //
-// Every function that returns fmi2Error has changed nothing but the phase: the instance then stands in
-// ERRONEOUS until fmi2Reset or fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN with
-// fmi2Warning, so that a host which ignores the status shows no plausible result.
+// A function that returns fmi2Error changes only the instance's phase (fmi2_calls.h).  It stays ERRONEOUS until
+// fmi2Reset or fmi2SetFMUstate (FMI 2.0.4, section 2.1.3), and its outputs read NaN with fmi2Warning,
+// so that a host which ignores the status shows no plausible result.
 // fmi2Discard comes with fmi2Terminated and fmi2LastSuccessfulTime; the outputs then are those of the last good state.
 #include "instance/part.h"
 

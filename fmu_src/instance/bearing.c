@@ -516,7 +516,7 @@ void part_update(Bearing *b, OutputGroup group)
 
 // ---- derivatives ------------------------------------------------------------------------------------------
 // All outputs that follow from one evaluation at the present state, with the inputs u in the place of their
-// temperatures.
+// temperatures.  The constants of the cage are derived in their own memory and restored at the end.
 static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
 {
     const InstanceState *s = &b->s;
@@ -527,13 +527,14 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     parameters_at(b, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
-    const Model model = {&hot, &d, &b->ring_load, NULL, b->model.modes};
+    const Model model = {&hot, &d, &b->ring_load, NULL, cage_derive(&hot, &d, b->cage)};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
     const Evaluation at = {&model, s->integrator.now.y,   y_dot,
                            &w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     memset(out, 0, sizeof *out);
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, out);
     out->bearing.energy_residual = 0.0;  // the work of expansion is no part of the balance
+    cage_derive(&b->hot, &b->d, b->cage);
 }
 
 // Adds the derivatives of all outputs along the temperatures of du: central differences over +-1 mK, because

@@ -1,6 +1,6 @@
 // Rivets that break by their damage (scene.breakage = on): at the end of a communication step in which the damage of a
-// rivet's head or middle has reached 1.  The joint then is that of rivet[k].intact = 0: what it carried goes to its
-// neighbours with the next step, and its damage is counted no further.
+// rivet's head or middle has reached 1.  The joint then behaves as with rivet[k].intact = 0: from the next
+// step on its neighbours carry its load, and no more damage of this rivet is counted.
 #pragma once
 
 #include "instance/fatigue.h"

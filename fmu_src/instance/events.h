@@ -1,10 +1,10 @@
-// Events: what the model's laws do not cover, or what a user wants to know at once.  For each kind the model
+// Events: conditions that the model's laws do not cover, or that a user has to know at once.  For each kind the model
 // counts the elements concerned at present and the onsets since the start, and reports the first, second,
 // fourth, eighth ... onset to the log.
 //
 //   land contact   land of a half beyond the guide clearance: e > C (land_film.c has a dry contact there)
-//   pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a real pocket ends there, that of
-//                  pocket.c does not
+//   pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a real pocket ends there, the
+//                  cylinder of pocket.c does not
 //   ellipse cut    |alpha| + a/R_m > arccos(1 - h D/r_g): the contact ellipse reaches over the shoulder, which
 //                  race_contact.c does not cut off
 //   overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know

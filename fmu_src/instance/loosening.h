@@ -1,12 +1,13 @@
 // Loosening: preload lost by wear of the joint's faces, off while joint.wear = 0.
 //
 //   V' = K F s'                    Archard (1953): volume worn off per time, F normal force, s slip;  K = k/H = joint.wear
-//   P' = -k_stack V'/A             the faces press on A, the rivet's seat about its shank; the worn layer is strain that the
-//                                  rivet loses against the flanges, k_stack [N/m]
+//   P' = -k_stack V'/A             the faces press on A, the rivet's seat about its shank; the rivet loses the worn
+//                                  thickness as elongation against the flanges, k_stack [N/m]
 //
-// F s' is summed over plates (F = N_plate) and heads (F = T): what their friction dissipates over mu, which holds under
-// partial slip too, for every point that slips is at mu times its pressure (cage_rubbing).  The loss grows with every accepted step; the preload follows it at communication points, once it is off
-// by PRELOAD_SHARE of joint.preload: a slow state.
+// F s' is summed over plates (F = N_plate) and heads (F = T).  It is the power that their friction dissipates, divided
+// by mu.  This holds under partial slip too, because the friction stress at every slipping point is mu times the
+// pressure there (cage_rubbing).  The loss grows with every accepted step.  The preload changes at a communication
+// point, once the loss not yet applied exceeds PRELOAD_SHARE of joint.preload.
 #pragma once
 
 #include "variables.h"

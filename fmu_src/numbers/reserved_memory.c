@@ -1,4 +1,4 @@
-// A stack of blocks: memory comes back when the block taken last is freed, and all of it with the stack.
+// A stack of blocks: freeing the block allocated last makes its memory available again; freeing the stack frees all.
 #include "numbers/reserved_memory.h"
 
 #include <stdint.h>

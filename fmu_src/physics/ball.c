@@ -6,8 +6,8 @@
 //   m (r omega_m' + 2 r' omega_m) = F_t          J omega_t' = M_t - J omega_m omega_r
 //
 // Beside the forces acts the field of gravity and of the frame's acceleration (frame.h).  In a frame that
-// turns at omega_f all of them hold with omega_m + omega_f on the right, and omega_f' is taken from omega_m'
-// and omega_x'.
+// turns at omega_f all equations, solved for the accelerations, hold with omega_m + omega_f in place of omega_m,
+// and omega_f' is subtracted from omega_m' and omega_x'.
 //
 // Gupta (1979), J. Lubr. Technol. 101, 293.  The last terms on the right are the gyroscopic moments: they
 // arise because the frame turns with the orbit; the sphere itself needs no orientation.

@@ -8,8 +8,8 @@
 //                M_f = -d(I W)/dt - W x I (Omega + W)
 //                d(I W)/dt = (J_p - J_t) (a' (a.W) + a (a'.W)) + I W'
 //
-// Coriolis forces do no work; the power of the others is that on m v and M_f.Omega.  A ball is a sphere:
-// M_f = -J (W' + W x omega).
+// Coriolis forces do no work; the power of the other inertia forces is force times v plus M_f.Omega.  A ball is a
+// sphere: M_f = -J (W' + W x omega).
 #pragma once
 
 #include "physics/rotor.h"

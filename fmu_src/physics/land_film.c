@@ -1,4 +1,5 @@
-// Land and outer ring: short journal bearing whose film carries where the gap closes, dry contact behind it.
+// Land and outer ring: short journal bearing whose film carries load where the gap closes, and dry
+// contact where e exceeds the clearance C.
 //
 //         outer ring       e    land's centre from the ring's axis, eps = e/C, gap h = C - e.n(phi)
 //      .-----------.       V    pure squeeze velocity e_dot - (omega/2) e_x x e: the land turns, the ring stands

@@ -181,7 +181,7 @@ typedef struct {
     scalar re[LAND_HARMONICS], im[LAND_HARMONICS];
 } LandLoad;
 
-// ---- the balls in the pockets of one half; written by pocket_force, 0 for pockets without contact ---------
+// ---- the balls in the pockets of one half; written by cage_pockets, 0 for pockets without contact ---------
 typedef struct {
     ball_array Q;                             // contact load [N]
     ball_array F_x, F_r, F_t;                 // force on the half in the pocket's frame [N]
@@ -200,13 +200,13 @@ typedef struct {
     // of the outer ring and of the frame, for what is recorded over steps (evaluate in rhs.c)
     scalar outer_x[3], outer_gamma, outer_beta, frame_omega;
 
-    // total force and moment on the ball about its centre (set by race_contact_force, then pocket_force and
+    // total force and moment on the ball about its centre (set by race_contact_force, then cage_pockets and
     // drag_force add theirs), power dissipated by contacts and drag [W]
     ball_array F_x, F_r, F_t, M_x, M_r, M_t;
     ball_array dissipated;
 
     // its parts [W]: races, of it the inlet's rolling friction and the spin about the normal
-    // (race_contact_force), pockets (cleared there, added by pocket_force), drag (drag_force)
+    // (race_contact_force), pockets (cleared there, added by cage_pockets), drag (drag_force)
     ball_array race_dissipated, inlet_dissipated, spin_dissipated, pocket_dissipated, drag_dissipated;
 
     // stiff rates of the race contacts (race_contact_force): |traction|/|slip| [N.s/m], moment/spin about the
@@ -214,7 +214,7 @@ typedef struct {
     ball_array g_i, g_e, g_spin_i, g_spin_e;
 
     // stiff rates of the ball's velocities by the pockets, -d(acceleration)/d(velocity) [1/s] (cleared by
-    // race_contact_force, added by pocket_force)
+    // race_contact_force, added by cage_pockets)
     ball_array D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
 
     // sum over the halves of D m m^T of the pockets' films, xx, rx, rr, tx, tr, tt [N.s/m]; not written in dry pockets

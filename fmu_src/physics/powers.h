@@ -1,7 +1,7 @@
 // Reactions on the rings, and the powers by which shaft, housing and frame change the energy of balls and cage.
 //
-// All forces on balls and cage together accelerate them; the outer ring carries the forces that the inner ring
-// puts on balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these
+// The sum of all forces on balls and cage accelerates them.  So the load on the outer ring is the force of the inner
+// ring on balls and cage, less that sum.  Gravity and the frame's inertia forces are not among these
 // forces.
 #pragma once
 

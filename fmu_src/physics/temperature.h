@@ -10,9 +10,11 @@
 //   oil      eta = eta_0 rho(T) nu(T)/(rho(T_0) nu(T_0)), nu by Walther's law (viscosity.h), rho = rho_0 (1 - a (T - T_0)),
 //            alpha = alpha_0 exp(-c (T - T_0)), beta = beta_0 beta(T)/beta(T_0)
 //
-// T_a: temperature at which the rivet table gives preload and fit.  eta_0 and beta_0 that the host has not given
-// (left at their start values before the run, never set in it) are those of the variable table's oil, so that the two points alone decide.  At the start values of
-// all temperatures no parameter changes, not even its last bit.  Neglected: expansion of the widths and of
+// T_a: temperature at which the rivet table gives preload and fit.  If the host has not given eta_0 or beta_0
+// (left at the start value before the run, never set in it), the ratio is taken against the variable table's oil, so
+// that the oil's two points alone decide.  At the start values of all temperatures no parameter changes, not
+// even its last bit.
+// Neglected: expansion of the widths and of
 // the circle of rivets, growth of ring and cage inertia, elastic constants over temperature.  Masses stay as they are.
 #pragma once
 

@@ -2,16 +2,18 @@
 // friction of the inlet.
 //
 //   film        mu(s) = (A + B s) exp(-C s) - A,  s = |Delta u| / U; four-parameter law of aviation oils, mu(0) = 0
-//               mu <= 0.048 at any slip: the law is a limiting shear stress gamma p with gamma = 0.048 by itself;
-//               measured ones depend on temperature and pressure too (Wikstrom & Hoglund (1994), J. Tribol. 116, 612: 5.8 to 7 GPa)
+//               mu <= 0.048 at any slip: so the law itself limits the shear stress to gamma p, gamma = 0.048;
+//               measured limits depend on temperature and pressure too
+//               (Wikstrom & Hoglund (1994), J. Tribol. 116, 612: 5.8 to 7 GPa)
 //   asperities  mu_b s / sqrt(s^2 + s_0^2)        on their share of the load
 //   share       f_a = exp(-1.8 Lambda^1.2);  Aihara (1987), J. Tribol. 109, 471, eq. 13
 //   Lambda      film / roughness, h/R_x = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k));  Hamrock & Dowson
 //               (1977), central film
 //   inlet       F_R = 2.86 E' R_x^2 (R_y/R_x)^0.348 G^0.022 U^0.66 W^0.47;  Houpert (1987), as in Balan et al.,
 //               Lubricants 3 (2015), 222
-//   heating     by shear in the inlet: of the races F_R is 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) times as large, and
-//   starvation  exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) times;       SKF, Rolling Bearings (catalogue, 2018)
+//   heating     by shear in the inlet, races only: factor 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) of F_R
+//   starvation  races only: factor exp(-K_rs nu n (d + D) sqrt(K_Z/(2 (D - d)))) of F_R
+//               SKF, Rolling Bearings (catalogue, 2018)
 //               n d_m [r/min mm] from U = n d_m (1 - gamma^2)/4, D - d = ball diameter/0.3, nu [mm2/s]
 //   thermal     the race films are 3.94/(3.94 + L^0.62) times as thick, L = eta beta u^2/k;
 //               Murch & Wilson (1975), J. Lubr. Technol. 97, 212

@@ -1,5 +1,5 @@
-// Preload, fit and stiffness of a joint from the rivet table and the temperature, for the constants derived
-// once.
+// Preload, fit and hole stiffness of a joint from the rivet table and the temperature.  temperature.c and derived.c
+// call these functions, not the right-hand side.
 #include "rivet/rivet_rom.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 // The block Jacobian of the default step, W = M (1 + gamma A + gamma^2 K) with the inertia M, and its
 // solution.
 //
-// Each contact adds B^T C B to M A or M K, where B takes the velocities to the relative velocity that it
-// holds back:
+// Each contact adds B^T C B to M A or M K, where the matrix B of the contact gives the relative velocity
+// that the contact resists:
 //
 //   contact                 relative velocity B v                        coefficient C
 //   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = |traction|/|slip|
@@ -12,7 +12,7 @@
 //   pocket, oil             v.m of the ball by itself                    D
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
 //   land, Couette and dry   spin s                                       film_spin
-//   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; stiffness of what is in touch
+//   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; k of tense rivets, pressed plates
 //   sticking, hole contact  v_y - s z, v_z + s y, half 1 - 0             stiffness k/(1 + gamma D), k_hole
 //   ring support            each velocity of the ring by itself          c; tilts: c_tilt, k_tilt or filter
 //

@@ -1,4 +1,4 @@
-// Work around the steps that all solvers share: error weights, acceptance of a state, trial states without a
+// Functions that the steps of all methods share: error weights, acceptance of a state, trial states without a
 // derivative, messages.
 #pragma once
 

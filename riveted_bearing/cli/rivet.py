@@ -34,6 +34,7 @@ def rivet(
     if source or bearing:
         source_geometry(source, bearing)  # a wrong file leaves no folder
     make_folder(out)
+    messages.print("[dim]finite elements of the rivet and of a cage half: up to some minutes[/]")
     with messages.status("finite elements"):
         title, curves, joint = rivet_curves(source, bearing)
         paths = write_pictures(out, title, curves, joint)

@@ -153,6 +153,7 @@ def print_summary(result):
     from ..summary import (
         assumed_as_bronze,
         assumed_rows,
+        count_note,
         flag_note,
         has_statistics,
         no_statistics,
@@ -205,7 +206,7 @@ def print_summary(result):
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if names := assumed_as_bronze(result):
         console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
-    for note in filter(None, (settle_note(result), flag_note(result), table_note(result))):
+    for note in filter(None, (settle_note(result), count_note(result), flag_note(result), table_note(result))):
         messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:

@@ -14,8 +14,8 @@ each rivet's head and middle, mean over the seeds.  Damage adds up over the stat
 joints that stand are open at one communication point -, or when nothing is damaged any more.
 
 The same as one simulation for each seed (run_single): rivets break by themselves (scene.breakage = on), and
-fatigue.acceleration is so large that the first one breaks in the middle of the run.  Its times, multiplied by the
-factor, are those of the restarts but for the scatter of short runs.
+fatigue.acceleration is so large that the first one breaks in the middle of the run.  Its times of breakage, multiplied
+by fatigue.acceleration, equal those of the restarted runs apart from the scatter of short runs.
 
 How sure the order is: the share of bootstrap resamples of the seeds in which the same place is the next to break.
 """

@@ -38,6 +38,7 @@ RESPONSES = {  # column of a run: in words
 }
 TABLE_SOURCE = "sources/rivet_table.c"
 RECORD, PAGE = "designs.json", "designs.html"
+LINES = ("loads", "speed", "oil", "temperatures", "preload", "S-N curve", "damage")  # of basis.py
 COLOURS = (FORCE, MIDDLE, HEAD, RING, MUTED)
 SAME_INPUTS = 1e-9
 
@@ -189,16 +190,25 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
         )
         for k, design in enumerate(designs)
     ]
-    first = dict(missions[0].basis)
+    rests_on = rested_on(missions)
     return Comparison(
         Path(path).stem,
         missions[0].description,
         settings["confidence"],
         tuple(counts.tolist()),
         tuple(outcomes),
-        tuple(differences(designs, common_parameters(path, designs[0].model))),
-        {key: first[key] for key in ("loads", "speed", "temperatures") if key in first},
+        (
+            *(row for key, texts in rests_on.items() for row in differing(key, texts)),
+            *differences(designs, common_parameters(path, designs[0].model)),
+        ),
+        {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1},
     )
+
+
+def rested_on(missions):
+    """{line of the basis: its text in each mission}, of the lines that any mission has."""
+    lines = [dict(mission.basis) for mission in missions]
+    return {key: [own.get(key, "–") for own in lines] for key in LINES if any(key in own for own in lines)}
 
 
 def counted(runs, c):

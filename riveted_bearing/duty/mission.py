@@ -85,6 +85,7 @@ EVENT = ("name", "count", "preload_factor", "scene", "simulation", "parameters",
 TABLE = ("file", "hours", "inputs", "parameters")
 HISTORY = ("file", "time", "hours", "inputs", "parameters")
 LOSS = ("hours", "factor")
+FEWEST = 3  # seeds
 LIFE = {
     "confidence": 0.9,
     "half_width": 0.25,
@@ -222,13 +223,13 @@ def life_settings(path, section):
         settings[key] = value
     for key in ("min_seeds", "max_seeds", "seed"):
         count_of(path, f"life.{key}", settings[key])
-    if not 3 <= settings["min_seeds"] <= settings["max_seeds"]:
+    if settings["max_seeds"] < FEWEST:
         raise refusal(
-            path,
-            "life.min_seeds",
-            settings["min_seeds"],
-            f"from 3, which show scatter, to max_seeds = {settings['max_seeds']} is allowed",
+            path, "life.max_seeds", settings["max_seeds"], f"at least {FEWEST} is allowed: fewer show no scatter"
         )
+    if not FEWEST <= settings["min_seeds"] <= settings["max_seeds"]:
+        bounds = f"from {FEWEST}, which show scatter, to life.max_seeds = {settings['max_seeds']}"
+        raise refusal(path, "life.min_seeds", settings["min_seeds"], f"{bounds} is allowed")
     if settings["rivets"] not in RIVETS:
         raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
     return settings

@@ -1,5 +1,5 @@
-"""What a reader of a mission's life has to know: what was simulated, what was left out and why, what the figure does
-not hold.
+"""What a reader of a mission's life has to know: which points were simulated, which were left out and why, and
+which effects the life does not contain.
 """
 
 import math

@@ -1,8 +1,8 @@
 """One sheet of paper for people who do not run the model: bearing, loads, verdict, the assumptions that move it, the
 worst rivet, and digests of all files.
 
-A mission is judged by its runs and, for peaks, pressures and films, by one more run of each point and event: of the one
-that does most damage with its worst seed.  A result of `run` is judged as if it went on like that.  Utilisation is
+A mission is judged by its runs and, for peaks, pressures and films, by one more run of each point and event, with the
+seed whose run had the largest damage.  A result of `run` is judged as if it went on like that.  Utilisation is
 
     life                  target/life
     fatigue, per place    1/x; with all stresses x times as large (preload's share included) the place just reaches the
@@ -30,7 +30,17 @@ from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
 from ..report import PARTS, curve, figure
 from ..results import write_atomically
 from ..runner import simulate
-from ..summary import assumed_rows, columns, flag_note, has_statistics, life_is_known, rivet_rows, settled, table_note
+from ..summary import (
+    assumed_rows,
+    breaks,
+    columns,
+    flag_note,
+    has_statistics,
+    life_is_known,
+    rivet_rows,
+    settled,
+    table_note,
+)
 from ..units import hours_text
 from ..version import __version__
 from .assess import part_duty, places, used_cases
@@ -74,7 +84,7 @@ class Check:
 class Evidence:
     """What a sheet judges.
 
-    life, low, high [h], None where nothing is known, with place and interval in words; scaled(x): shortest lives [h] of
+    life, low, high [h], None where nothing is known (untold: why not), with place and interval in words; scaled(x): shortest lives [h] of
     heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
     [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
     one that decides; rivet: number of the one that fails first.
@@ -91,6 +101,7 @@ class Evidence:
     results: dict = field(repr=False)
     worst: str
     rivet: int
+    untold: str = ""
 
 
 @dataclass(frozen=True)
@@ -254,7 +265,8 @@ def of_result(result, name):
 
     damage = damage_by(None, laws, matrix, 1.0)
     k, place = divmod(int(damage.argmax()), 2)
-    life = min(scaled(1.0)) if life_is_known(result) else None
+    untold = why_no_life(result)
+    life = None if untold else min(scaled(1.0))
     scene = result.about.get("scene") or "run"
     return Evidence(
         life,
@@ -268,7 +280,16 @@ def of_result(result, name):
         {scene: result},
         scene,
         k + 1,
+        untold,
     )
+
+
+def why_no_life(result):
+    """Why no life follows from a run that is taken to go on as it did; "" if one does."""
+    if broken := breaks(result):
+        k, place, t = broken[0]
+        return f"rivet {k} broke in the {place} at {1e3 * t:.4g} ms: loads before and after are not alike"
+    return "" if life_is_known(result) else "the rivets' stress rests on closed forms"
 
 
 # Verdict --------------------------------------------------------------------------------------------------------------
@@ -277,7 +298,7 @@ def of_result(result, name):
 def judged(evidence, target):
     """State, headline and reason; target: hours or None."""
     if evidence.life is None:
-        return "open", "No life can be told", "the rivets' stress rests on closed forms"
+        return "open", "No life can be told", evidence.untold
     life = hours_text(evidence.life)
     if target is None:
         return "", f"Life {life}", "no target was given (--target)"

@@ -1,5 +1,5 @@
-"""The cage's own centrifugal load, which the rivet table has per (rad/s)^2 for a half of its own mass: for the bonded
-joints of rigid halves, and for the modes of elastic ones.
+"""The centrifugal load of the cage halves.  The rivet table gives this load per (rad/s)^2 for the mass of the table's
+half.  It loads the bonded joints of rigid halves and the modes of elastic halves.
 """
 
 from bearing_model.generated.variables import Switch

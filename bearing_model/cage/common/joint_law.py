@@ -8,9 +8,9 @@ half's stiffness K, a circulant matrix:
     L_0,k = L_k + K_0 delta_k = L_b,k - sum_(j != k) K_(k-j) delta_j,      (delta, T, m_r, m_t)_k = law(L_0,k, P_k)
 
 L_0 is the load that the joint would carry if it too were bonded.  The law is the contact of one pad with its rivet while
-the neighbours are at rest (joint_contact.py): the compliance of the half around the joint is in the law, that of the
-rest in K, and nothing is in both.  Rigid motions of the half relieve nothing, so that a load which equilibrium imposes
-remains.  The law is positively homogeneous of degree 1 in (L_0, P), so that with a length l
+the neighbours are at rest (joint_contact.py): the law contains the compliance of the half around the joint, K that
+of the rest of the half, and no compliance is counted twice.  Rigid motions of the half relieve no load, so a load that
+equilibrium imposes remains.  The law is positively homogeneous of degree 1 in (L_0, P), so that with a length l
 
     M = |(M_r, M_t)|/l,   W = |(N, M)|,   s = P + W,   tau = W/s,   q = N/(|N| + M),   psi = M_t/(|M_t| + |M_r|)
     (u, |phi_r|, phi_t, T, |m_r|, m_t) = s S(tau, q, psi);      phi_r and m_r have the sign of M_r

@@ -10,10 +10,12 @@
 A half bears the part of the Hertz pressure on its side of the split plane, which cuts the contact ellipse across its
 long half axis a:
     w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
-w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 along x.  e: the work of pressing the half
-in, of w K delta^1.5 over delta at its place; so -dV/d(delta) is w K delta^1.5, and both halves together store and bear
-what one contact does.  The slope of V along the wall is a force across n that pushes the halves apart; without this
-force energy would not be conserved. Friction P_S at the contact point p + R n with the slip v + omega x R n; the
+w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 along x.  e: the integral
+of w K delta^1.5 over delta at the contact's position, as part of the energy of a whole contact.  So dV/d(delta) is
+w K delta^1.5, and both halves together store and bear as much as one whole contact.  The slope of V along the wall is a
+force across n that pushes the halves apart; without this force energy would
+not be conserved.
+Friction P_S at the contact point p + R n with the slip v + omega x R n; the
 coefficient goes from that of the film to that of the asperities by Lambda (mixed lubrication); P_R and its horizontal
 counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.  The half gets
 the opposite forces at the same points.  Oil between ball and wall adds the force -F m through the ball's centre, where both

@@ -1,9 +1,9 @@
 """Vibration modes of a free cage half in cyclic form, and the static flexibility beside them; rivet_model/half_modes.py
 makes the numbers.
 
-The half is a ring of Z equal pitches, each its own mirror image in its pocket's plane.  A mode of harmonic n (0...Z//2)
-moves pitch j as pitch 0, turned on by 2 pi j/Z, with the phase 2 pi n j/Z.  With the coordinates a (cos) and b (sin)
-its displacement at a place whose amplitude on pitch 0 is U is
+The half is a ring of Z equal pitches, each its own mirror image in its pocket's plane.  In a mode of harmonic n
+(0...Z//2) pitch j moves as pitch 0 does, turned by 2 pi j/Z about the axis, with the phase 2 pi n j/Z.  With the
+coordinates a (cos) and b (sin) its displacement at a place whose amplitude on pitch 0 is U is
 
     u_j = Re[(a - i b) U exp(i nu)] = a (U' cos nu - U'' sin nu) + b (U' sin nu + U'' cos nu),     U = U' + i U''
     pocket j, side t > 0    nu = 2 pi n j/Z           U as in `pocket`, over the wall's angle chi, along (x, r, t) of the pocket
@@ -16,12 +16,13 @@ its rigid motions:
 
     q'' + omega^2 q = sum over places u . f + spin omega_c^2            u: displacement by q = 1; f: force or moment there
 
-What the other modes add is their static displacement, the residual: statics of the free half, whose inertia balances
-the loads, less the modes' share. Pads: displacements (x, r, t) and rotations (about x, r, t) at the rivet,
-work-conjugate to the loads of the bonded joint (half_loads.py: N, M_r, M_t of pads that do not move along x; V_r, V_t
-of friction below the head's cone).  Rivet: what the rivet gets because the half gives under its head, as the rows dP,
-dm_r, dm_t of half_path.py: zero if the half moves about the joint as a rigid body; the law of the joint has the part
-that its own load makes.
+The other modes contribute their static displacement only, the residual: the static displacement of the free half, whose
+inertia balances the loads, less the part of the modes in the table.  Pads: displacements (x, r, t) and
+rotations (about x, r, t) at the rivet, work-conjugate to the loads of the bonded joint
+(half_loads.py: N, M_r, M_t of pads that do not move along x; V_r, V_t
+of friction below the head's cone).  Rivet: change of preload and bending moments of the rivet by the elastic
+deformation of the half under its head, as the rows dP, dm_r, dm_t of half_path.py.  They are zero if the
+half moves about the joint as a rigid body; the part caused by the joint's own load is in the law of the joint.
 """
 
 from dataclasses import dataclass, replace

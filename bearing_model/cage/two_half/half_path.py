@@ -2,8 +2,9 @@
 the numbers.
 
 Rows of a joint's loads, on the +x half in the frame (x, r, t) at the rivet: N, V_r, V_t, M_r, M_t of the joint [N, N.m]
-(N and V: elastic less the rigid halves' share, which the dynamics has), then dP, dm_r, dm_t: what the rivet gets beside
-it because the half gives under its head.
+(N and V: elastic less the rigid halves' share, which the dynamics has), then dP, dm_r, dm_t: change of
+the rivet's preload and bending moments of its shank, beside those of the joint's law, by the elastic deformation of the
+half under the rivet's head.
 
 All pockets are alike, so the rows of rivet k by a force on pocket j depend on (k - j) mod Z only.  push_t < 0 acts as the
 mirror image about the pocket does (rivet -1 - i for i; V_t, M_r and dm_r change sign), a force on the -x half as its

@@ -5,9 +5,9 @@ where all joints are alike,
 
     delta = s d(c/s),   c: bonded M_t of the centrifugal load / l,  s = P + c            (UniformStates; linear between its knots)
 
-A joint whose L_0 and P differ from that state by less than NEAR s answers by its tangent there; another one by the law
-if its L_0 has changed by more than CHANGE s since its last answer.  The sweeps end when there are none.  A joint is
-hardly felt beyond its second neighbour.
+If L_0 and P of a joint differ from that state by less than NEAR s, the tangent of that state gives its move.  Otherwise
+the law is evaluated again for this joint if its L_0 has changed by more than CHANGE s since the last evaluation.  The
+sweeps end when no joint needs the law.  A joint hardly influences others beyond its second neighbour.
 
 In the plane a joint slips, by s along V: of the bonded V the part that friction and hole do not take is relieved
 through the slip stiffness (joint_slip).

@@ -7,10 +7,10 @@ Joint k, along the axis: springs between the halves, u_x the distance of the hol
 
 A rigid half carries the load of a pocket straight to all joints.  A half that bends also pries at the joints beside the
 pocket, and the cage's own centrifugal load pries at all of them.  So the joint's load is the rigid share, pull - push,
-and the load of bonded joints of halves that bend (half_path.py).  Joints that open and slip relieve it (joint_open.py);
-in the plane they have for it the friction and the play that the rigid share leaves.  T, the tension of the rivet, and
-N_plate = T - N, the force between the plates, are those of this load: friction has them, and so have the outputs.  The
-springs alone move the halves.
+and the load of bonded joints of halves that bend (half_path.py).  Joints that open and slip relieve this added load
+(joint_open.py); in the plane it is carried by the friction and the play that the rigid share leaves over.  The tension
+T of the rivet and the force between the plates, N_plate = T - N, follow from the whole load; the friction law and the
+outputs use them.  The springs alone move the halves.
 
 The work of the added loads is that of the halves' elastic deformation, which rigid halves do not have: on rigid halves
 the centrifugal loads of all parts balance, so that they do no work and the energy balance has no term for them.

@@ -1,6 +1,6 @@
-// The films of the lands in the implicit step: what holds back one half of the cage.
+// The films of the lands in the implicit step: how they slow one half of the cage.
 //
-// A land's film holds back the velocity u of the land at the lever x, u_y = v_y + gamma_dot x and u_z = v_z - beta_dot x.
+// A land's film slows the velocity u of the land at the lever x, u_y = v_y + gamma_dot x and u_z = v_z - beta_dot x.
 // Because u has two components, the inverse of the body's 4 x 4 block needs a 2 x 2 inverse only (Woodbury): with the
 // film matrix C the impulse is (C^-1/gamma + 1/m + x^2/J_t)^-1 u = (yy, yz; yz, zz) u.
 #pragma once

@@ -14,7 +14,7 @@
 //     w = 1/2 + 3/4 xi - 1/4 xi^3,  e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
 // w is the part of the load: the pressure sqrt(1 - (x/a)^2 - (y/b)^2), summed over y, leaves 1 - (x/a)^2
 // along x.  e is the part of the energy: the integral of w K delta^1.5 over delta at the contact's position.
-// Therefore -dV/d(delta) is w K delta^1.5, and both halves together store and bear as much as one whole
+// Therefore dV/d(delta) is w K delta^1.5, and both halves together store and bear as much as one whole
 // contact.  The slope of V along the wall is a force across n that pushes the halves apart; without this
 // force energy would not be conserved.
 //

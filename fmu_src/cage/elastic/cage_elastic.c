@@ -10,8 +10,9 @@
 //     x, phi_r, phi_t:  sqrt 2 sum phi_i S_i    out of the plane: N, M_r, M_t
 //     r, t:             sqrt 2 sum phi_i D_i    in the plane: V_r, V_t
 //
-// Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the
-// inverse of the static compliance that the modes leave between the pads of one joint,
+// Joint, out of the plane: e is half of the relative motion (rigid and elastic) of its pads, the faces of
+// both halves in the split around the rivet.  K is the inverse of the residual between the pads of one joint, the static compliance
+// that the modes do not contain,
 //
 //     L_K = K e,     (L, T, m_r, m_t) = law(L_K, P)
 //

@@ -1,18 +1,20 @@
 // Substeps of elastic halves: the multiple time step method (Tuckerman, Berne and Martyna 1992) with the slow
-// forces held over the step.  Closed joints vibrate with the halves at up to 80 kHz, their loads decide the
-// rivets' stress, and an evaluation of them costs a fifth of one of all forces.  So a step of length h takes
-// n substeps of length d = h/n, of velocity Verlet,
+// forces held over the step.  Closed joints vibrate with the halves at up to 80 kHz, and their loads decide the
+// rivets' stress.  An evaluation of the joints' loads costs a fifth of an evaluation of all forces.  So a step of
+// length h takes n substeps of velocity Verlet, each of length d = h/n,
 //
 //     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 //
 // q: coordinates of the modes and relative rigid motions of the halves;  c: damping of the modes
-// a_f: fast accelerations, by the joints and the modes' own springs, asked for at each substep
-// a_s: slow ones, by all else, at the step's start; the trapezoidal rule of verlet.c corrects them at its end
+// a_f: fast accelerations, by the joints and the modes' own springs, evaluated at each substep
+// a_s: slow accelerations, by all other forces, at the step's start; the trapezoidal rule of verlet.c corrects them
+//      at the step's end
 //
 // The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of
-// the step, and found anew from the positions at each evaluation, which is the last substep's.  The halves as
-// rigid bodies keep their own centre of mass and their common motion: of a relative motion each takes half.
-// Forces in the plane of the split act beside the centres of mass, c_x from them, and tilt both halves alike;
+// the step, and computed anew from the positions at each evaluation of the right-hand side, which serves as that of the
+// last substep.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
+// motion.  Forces in the plane of the split act at the distance c_x from the centres of mass and tilt both halves by
+// the same angle;
 // a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out, gyroscopic
 // terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //

@@ -1,15 +1,17 @@
 // The vibration modes of a cage half in a scene.
 //
 // The half is a ring of Z equal pitches.  An entry of the table is a mode of harmonic n, for 0 < n < Z/2 a pair of the
-// same frequency with the coordinates a (cos) and b (sin).  A place whose complex amplitude on pitch 0 is A moves by
+// same frequency with the coordinates a (cos) and b (sin).  A place whose amplitude on pitch 0 is
+// U = U' + i U'' moves by
 //
-//     u_j = Re[(a - i b) A exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (A_x, A_r, -A_t) conjugate
-//                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  A real along x, r and about t, else imaginary
+//     u_j = Re[(a - i b) U exp(i nu)]      pocket j, side t > 0:  nu = 2 pi n j/Z;  side t < 0: (U_x, U_r, -U_t) conjugate
+//                                          rivet k:  nu = 2 pi n (k + 1/2)/Z;  U real along x, r and about t, else imaginary
 //
-// (half_modes.h, bearing_model/cage/elastic/half_modes.py).  The rivet table has the modes of the lowest frequencies;
-// the statics of all others are the residual.  Here the modes have no dimension and the modal mass is the
-// half's, so that coordinates are lengths.  They stand in this order: all a, those of pairs first; then all b,
-// the same.  So what a pair moves at a place follows from U and two sums of its coordinates:
+// bearing_model/cage/elastic/half_modes.py derives this.  The rivet table contains the modes of the lowest frequencies
+// and, as the residual, the static flexibility of all other modes.  Here the modes have no dimension and the modal mass is the
+// half's, so that coordinates are lengths.  The coordinates are stored in this order: all a, of pairs before
+// those of single modes; then all b in the same order.  The displacement of a place by a pair follows from U and two
+// combinations of the pair's coordinates:
 //
 //     u_j = U' a' + U'' b',     a' = a cos nu + b sin nu,  b' = b cos nu - a sin nu
 //

@@ -1,4 +1,5 @@
-// Vibration modes of a free cage half in cyclic form, and the static flexibility beside them.  The head of
+// Vibration modes of a free cage half in cyclic form, and the residual, the static flexibility
+// that they do not contain.  The head of
 // bearing_model/cage/elastic/half_modes.py has the equations; rivet_model/half_modes.py finds the numbers by
 // finite elements.
 #pragma once

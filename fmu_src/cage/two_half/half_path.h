@@ -1,4 +1,5 @@
-// From pocket forces to the loads that bonded joints of halves that bend would carry.
+// Loads of bonded joints between halves that bend, by the forces on the pockets and on the guiding lands.  Bonded: the
+// joint neither opens nor slips.
 //
 // Seen from +X, the rivets are at the body angles 2 pi (k + 1/2)/Z on the circle of diameter d_m, the pockets
 // at 2 pi j/Z; e_x is axial, e_r points outward, e_t toward growing angle (right-handed x, r, t).

@@ -12,7 +12,7 @@ INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
     return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
 }
 
-// What all joints have in common, of the table's `alike` for c and P, in newtons: by Catmull-Rom splines, because the
+// What all joints have in common, of the table's `uniform` for c and P, in newtons: by Catmull-Rom splines, because the
 // friction of the joints has this tension, and a kink at every knot would be one of the friction over the speed.
 ONCE void find_uniform(const JointLaw *law, scalar c, scalar P, scalar at[UNIFORM_WIDTH])
 {

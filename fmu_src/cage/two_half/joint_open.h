@@ -1,11 +1,12 @@
 // Joint loads after opening and slip, from the bonded loads: joints between rigid halves.
 //
 // The equations of all joints are solved by sweeps (Jacobi's iteration).
-//   Start    all joints move as they do under the same load, the centrifugal one: there L_0 and the moves depend on
-//            one ratio only, c/(P + c) with c = |bonded M_t|/l, and are tabulated (`alike`).
-//   A sweep  finds L_0 by the neighbours' moves.  A joint whose L_0 and P differ from the start by less than NEAR s
-//            answers by its tangent there; another one by the law if its L_0 has changed by more than CHANGE s since
-//            its last answer.  The iteration ends when the law is not asked any more.
+//   Start    the state in which all joints carry the same load, the centrifugal one.  In it L_0 and the moves depend
+//            on the ratio c/(P + c) alone, c = |bonded M_t|/l, and are tabulated (`uniform` of JointLaw).
+//   A sweep  finds L_0 by the neighbours' moves.  If L_0 and P of a joint differ from the start state by less than
+//            NEAR s, the tangent of the start state gives its move.  Otherwise the law is evaluated again for this
+//            joint if its L_0 has changed by more than CHANGE s since the last evaluation.  The iteration ends when
+//            no joint needs the law, or after SWEEPS sweeps.
 // Most joints are near the centrifugal state at most instants, so that this takes a few evaluations of the law
 // instead of several for each joint.  The results are within 2.5 % of the converged ones (tests/test_rivets.py),
 // and jump by less where a joint enters or leaves a sweep.

@@ -2,15 +2,15 @@
 //
 // Joint k, along the axis: springs between the halves, u_x the distance of the holes beyond their place under preload,
 //
-//     pull = max(0, P + k_rivet u_x)     the rivet and what holds it
+//     pull = max(0, P + k_rivet u_x)     the rivet and the flanges under its heads
 //     push = max(0, P - k_plate u_x)     the plates, damped by c v_x push/(push + F_floor)
 //
 // A rigid half carries the load of a pocket straight to all joints.  A half that bends also pries at the joints beside
 // the pocket, and the cage's own centrifugal load pries at all of them.  So the joint's load is the rigid share, pull -
-// push, and what bonded joints of halves that bend would carry (half_path.h).  Joints that open and slip relieve it
-// (joint_open.h); in the plane they have for it what the rigid share leaves of friction and play.  T, the tension of the
-// rivet, and N_plate = T - N, the force between the plates, are those of this load: friction has them, and so have the
-// outputs.  The springs alone move the halves.
+// push, plus the load of bonded joints of halves that bend (half_path.h).  Joints that open and slip relieve this added
+// load (joint_open.h); in the plane it is carried by the friction and the play that the rigid share leaves over.  The
+// tension T of the rivet and the force between the plates, N_plate = T - N, follow from the whole load; the friction
+// law and the outputs use them.  The springs alone move the halves.
 //
 // The work of the added loads is that of the halves' elastic deformation, which rigid halves do not have: on rigid halves
 // the centrifugal loads of all parts balance, so that they do no work and the energy balance has no term for them.
