@@ -13,6 +13,7 @@ from typer.main import get_command
 from bearing_model.generated import variables
 from riveted_bearing.bearings import bearing_case
 from riveted_bearing.cli import program
+from riveted_bearing.duty.mission import load_mission
 from riveted_bearing.fmu import Model
 from riveted_bearing.scene import load_scene
 
@@ -48,6 +49,7 @@ def test_files_can_be_read(folder):
     readers = {
         "runup.toml": lambda path: load_scene(path, model),
         "mine.toml": lambda path: bearing_case(path).equilibrium(),
+        "duty.toml": lambda path: load_mission(path, model),
         "rivet.toml": lambda path: None,  # read by rivet_model.build, in test_the_whole_guide
     }
     assert set(FILES) == set(readers)

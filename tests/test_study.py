@@ -211,7 +211,7 @@ def test_the_whole_page_can_be_written(all_runs, tmp_path, monkeypatch):
         assert f"\n## {heading}" in text
     assert text.count("Neither stricter nor more lenient") == 34 and "nan" not in text and "undefined" not in text
     own = paper.write_paper({"paper": figures_only, "yours": figures_only}, tmp_path, ["joint.mu=0.3"]).read_text()
-    assert "`joint.mu=0.3`" in own and "; with your parameters " in own and "## Conflicts" not in own
+    assert "`joint.mu=0.3`" in own and " With your parameters the counts are " in own and "## Conflicts" not in own
 
 
 def test_the_conditions_in_words_have_all_numbers_of_those_for_the_program():
@@ -405,7 +405,7 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
     )
     text = paper.write_paper(both, tmp_path).read_text(encoding="utf-8")
     assert drawn == [tmp_path / "paper" / "clearance.png"] and drawn[0].read_bytes()[:4] == b"\x89PNG"
-    assert "![Fig. 16: clearance ratio](paper/clearance.png)" in text and "Of 3 claims 3 are reproduced" in text
+    assert "![Fig. 16: clearance ratio](paper/clearance.png)" in text and "Of the paper's 3 claims " in text and "reproduce 3, partly 0, not 0" in text
     assert "(`physical`) 0, 0 and 3." in text
     assert text.count("| 4.1 (5)") == 3 and "| paper | clearance | Fig. 16 | 2 | 26 |" in text
     assert '  - Paper: "The rivet stress reaches the minimum when the ratio is close to 1."' in text

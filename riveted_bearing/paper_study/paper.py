@@ -114,16 +114,21 @@ def counted(columns):
 
 def verdict_sentence(judged):
     """The counts of all columns in mean stress."""
-    words = {
-        "paper": "by the paper's equations (scene `paper`)",
-        "physical": "with the physics that they leave out (`physical`)",
-        "yours": "with your parameters",
+    first = {
+        "paper": "Of the paper's {all} claims its own equations (scene `paper`) reproduce {r}, partly {p}, not {n}.",
+        "physical": "Of the paper's {all} claims elastic halves with their centrifugal load (`physical`) reproduce {r}, partly {p}, not {n}.",
+        "yours": "Of the paper's {all} claims your parameters reproduce {r}, partly {p}, not {n}.",
     }
-    counts = {column: count(claim.verdict for claim in every(claims["mean"])) for column, claims in judged.items()}
-    (column, (r, p, n)), *others = counts.items()
-    parts = [f"{r} are reproduced, {p} partly, {n} not {words[column]}"]
-    parts += [f"{words[column]} {r}, {p} and {n}" for column, (r, p, n) in others]
-    return f"Of {r + p + n} claims " + "; ".join(parts) + "."
+    later = {
+        "paper": "By its own equations (scene `paper`) the counts are {r}, {p} and {n}.",
+        "physical": "With elastic halves and their centrifugal load (`physical`) the counts are {r}, {p} and {n}.",
+        "yours": "With your parameters the counts are {r}, {p} and {n}.",
+    }
+    sentences = []
+    for column, claims in judged.items():
+        r, p, n = count(claim.verdict for claim in every(claims["mean"]))
+        sentences.append((later if sentences else first)[column].format(all=r + p + n, r=r, p=p, n=n))
+    return " ".join(sentences)
 
 
 def summary_text(judged):
