@@ -34,6 +34,8 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "ball.expansion": 3.2e-6,
     "ball[j].dD": 1e-6,
     "cage.unbalance": 1e-6,
+    "cage.pocket_filling": 0.5,
+    "cage.modal_damping_high": 0.03,
     "pocket[j].dtheta": 1e-4,
     "pocket[j].dD": 1e-5,
     "rivet[k].dfit": -2e-6,

@@ -44,6 +44,7 @@ OTHER = {
     "bearing.lambda": 0.1,
     "ball[j].dD": [1e-6 * (j - Z // 2) for j in range(Z)],
     "cage.pocket_clearance": 0.3e-3,
+    "cage.pocket_filling": 0.4,
     "cage.guide_clearance": 0.15e-3,
     "cage.m": 0.02,
     "ball.E": 320e9,

@@ -84,6 +84,7 @@ WRONG = {
     "sensitivity none.toml": ["none.toml", "no such study file"],
     "cascade none.toml": ["none.toml", "no such cascade file"],
     "optimize none.toml": ["none.toml", "no such study file"],
+    "identify none.toml": ["none.toml", "no such study file"],
     "run demo --set shaft.omega=nan": ["shaft.omega", "finite"],
     "run demo --seed -1": ["start.seed = -1", "0 ..."],
     "run demo --t-end 1m": ["t_end = '1m'", "s, ms, us, min, h"],

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{e6905c6b-a276-c5e8-cc89-66895536a7e0}"
+MODEL_GUID = "{433d2d5a-ddcc-a16d-a053-dd0700edcdb7}"
 Z = 9
 
 
@@ -204,6 +204,7 @@ PARAMETERS = {
         Variable("inner.waviness_phase[n]", 9500, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 60, None, "Phase of n waves around the inner race; phi from +Y toward +Z at the start, turning with the ring", "perfect race", False, "it is part of the geometry"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)", False, "it is part of the geometry"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts", False, "it is part of the geometry"),
+        Variable("cage.pocket_filling", 1126, "Real", "1", None, 0.0, 0.0, 1.0, 1, None, "Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter", "assumed: dry; no measured filling of a pocket is known (docs/notes/pocket_oil.md)", False, None),
         Variable("cage.D_o", 1103, "Real", "m", "mm", 0.0595, 0.005, 2.0, 1, None, "Cage outer diameter (guided by the outer ring)", "paper Table 1", False, "it is part of the geometry"),
         Variable("cage.D_i", 1104, "Real", "m", "mm", 0.0497, 0.005, 2.0, 1, None, "Cage bore diameter", "paper Table 1", False, "it is part of the geometry"),
         Variable("cage.m", 1105, "Real", "kg", "g", 0.0279789, 1e-05, 10.0, 1, None, "Mass of one cage half", "rivet_model/half_shape.py: bronze, 8800 kg/m3, with its half of the steel rivets", False, "it is a property of a body"),
@@ -228,6 +229,7 @@ PARAMETERS = {
         Variable("pocket[j].dtheta", 8420, "Real", "rad", "deg", 0.0, -0.05, 0.05, Z, None, "Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation", "perfect cage", False, "it is part of the geometry"),
         Variable("pocket[j].dD", 8460, "Real", "m", "um", 0.0, -0.001, 0.001, Z, None, "Excess of the pocket's diameter", "perfect cage", False, "it is part of the geometry"),
         Variable("cage.modal_damping", 1123, "Real", "1", None, 0.01, 0.0, 0.2, 1, None, "Damping ratio of each vibration mode of the halves, scene.cage = elastic", "assumed: riveted and machined brass parts lose 0.3 to 3 % (structural damping)", False, None),
+        Variable("cage.modal_damping_high", 1127, "Real", "1", None, 0.0, 0.0, 0.2, 1, None, "Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency", "0: cage.modal_damping for all modes", False, None),
         Variable("joint.preload", 1201, "Real", "N", None, 20.0, 0.0, 1000.0, 1, None, "Preload of each rivet at 293.15 K", "paper section 4.1 (3)", False, None),
         Variable("joint.fit", 1202, "Real", "m", "um", -1e-05, -0.0005, 0.0001, 1, None, "Rivet diameter - hole diameter, negative = clearance", "paper section 4.1 (3)", False, "it is part of the geometry"),
         Variable("joint.swell", 1203, "Real", "m", "um", 4e-06, 0.0, 5e-05, 1, None, "Growth of the rivet's diameter by riveting, added to the fit", "calibrated to the paper's crossover of head and middle stress in -0.02...0 mm", False, "it is part of the geometry"),
@@ -253,7 +255,7 @@ PARAMETERS = {
         Variable("oil.mu_b", 1311, "Real", "1", None, 0.12, 0.0, 1.0, 1, None, "Boundary friction coefficient of asperities (mixed lubrication)", "assumed (mild set L)", False, None),
         Variable("oil.s_0", 1312, "Real", "1", None, 0.006, 0.0001, 1.0, 1, None, "Slide-roll ratio at which asperity friction is 71 % of mu_b", "tangential creep of a Hertz contact saturates near 3 mu Q/(G a b C) = 0.5...0.7 %", False, None),
         Variable("oil.sigma_race", 1313, "Real", "m", "um", 2e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and race", "assumed (mild set L)", False, "it is part of the geometry"),
-        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket", "assumed (mild set L)", False, "it is part of the geometry"),
+        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket, floor of a film in the pocket", "assumed (mild set L)", False, "it is part of the geometry"),
         Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)", False, "it is part of the geometry"),
         Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil at the temperature oil.T_0", "aviation oil, hot", False, None),
         Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix", False, None),
@@ -526,7 +528,7 @@ OUTPUTS = {
         Variable("stat.Q_c_rms", 5003, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: RMS", None, False, None),
         Variable("stat.Q_c_p999", 5004, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: 99.9 % quantile", None, False, None),
         Variable("stat.Q_c_max", 5005, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: largest", None, False, None),
-        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball touches its pocket", None, False, None),
+        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball presses on its pocket, or on the oil in it", None, False, None),
         Variable("stat.cage_omega", 5007, "Real", "rad/s", "rev/min", None, None, None, 1, "stat", "Mean cage speed", None, False, None),
         Variable("stat.eccentricity", 5008, "Real", "1", None, None, None, None, 1, "stat", "Mean eccentricity of the cage", None, False, None),
         Variable("stat.dislocation_max", 5009, "Real", "m", "um", None, None, None, 1, "stat", "Largest dislocation of the cage halves", None, False, None),

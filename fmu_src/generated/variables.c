@@ -124,6 +124,8 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"cage.modal_damping", "1", 1123, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.modal_damping), 0.01, 0.0, 0.2, false, NULL, 0},
     {"cage.rho", "kg/m3", 1124, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.rho), 8800.0, 500.0, 23000.0, true, "it is a property of a body", 0},
     {"cage.material", "1", 1125, 1, TYPE_ENUMERATION, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.material), 1.0, 1.0, 6.0, true, "it is a property of a body", 0},
+    {"cage.pocket_filling", "1", 1126, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.pocket_filling), 0.0, 0.0, 1.0, false, NULL, 0},
+    {"cage.modal_damping_high", "1", 1127, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, cage.modal_damping_high), 0.0, 0.0, 0.2, false, NULL, 0},
     {"joint.preload", "N", 1201, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.preload), 20.0, 0.0, 1000.0, false, NULL, 0},
     {"joint.fit", "m", 1202, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.fit), -1e-05, -0.0005, 0.0001, false, "it is part of the geometry", 0},
     {"joint.swell", "m", 1203, 1, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, joint.swell), 4e-06, 0.0, 5e-05, false, "it is part of the geometry", 0},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{e6905c6b-a276-c5e8-cc89-66895536a7e0}"  // digest of the table
+#define MODEL_GUID "{433d2d5a-ddcc-a16d-a053-dd0700edcdb7}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -120,6 +120,7 @@ typedef struct {
     struct {
         double pocket_clearance;  // [m] Pocket diameter - ball diameter
         double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
+        double pocket_filling;  // [1] Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter
         double D_o;  // [m] Cage outer diameter (guided by the outer ring)
         double D_i;  // [m] Cage bore diameter
         double m;  // [kg] Mass of one cage half
@@ -142,6 +143,7 @@ typedef struct {
         double width;  // [m] Axial width of the whole cage
         int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
+        double modal_damping_high;  // [1] Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency
     } cage;
     struct {
         double dtheta[Z];  // [rad] Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation
@@ -177,7 +179,7 @@ typedef struct {
         double mu_b;  // [1] Boundary friction coefficient of asperities (mixed lubrication)
         double s_0;  // [1] Slide-roll ratio at which asperity friction is 71 % of mu_b
         double sigma_race;  // [m] Composite RMS roughness of ball and race
-        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
+        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket, floor of a film in the pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
@@ -508,7 +510,7 @@ typedef struct {
         scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
         scalar Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
         scalar Q_c_max;  // [N] Pocket force of all balls pooled: largest
-        scalar contact_duty;  // [1] Part of the time that a ball touches its pocket
+        scalar contact_duty;  // [1] Part of the time that a ball presses on its pocket, or on the oil in it
         scalar cage_omega;  // [rad/s] Mean cage speed
         scalar eccentricity;  // [1] Mean eccentricity of the cage
         scalar dislocation_max;  // [m] Largest dislocation of the cage halves
@@ -646,4 +648,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 391 };  // time is the first
+enum { N_VARIABLES = 393 };  // time is the first

@@ -71,6 +71,17 @@ typedef struct {
     double inverse[RELATIVE_MOTIONS], part, tilt;
 } RelativeInertia;
 
+enum { SQUEEZE_NODES = 9 };  // of the polynomial of a pocket's film
+
+// Films of oil in the pockets (pocket_squeeze.h).
+typedef struct {
+    bool filled;                                        // false: dry pockets, nothing else is written
+    double node[SQUEEZE_NODES], newton[SQUEEZE_NODES];  // G(z) in Newton's form
+    double reach;                                       // largest gap that has a film [m]
+    double roughness_2, elastic;                        // sigma^2 [m2], h_e^2 / v^0.8
+    constants c, C, inv_reach;  // c [N.s], radial clearance [m], 1/reach of each pocket
+} PocketSqueeze;
+
 typedef struct {
     // balls and races
     constants R;  // ball radius [m]
@@ -96,6 +107,7 @@ typedef struct {
     double pocket_radius;              // [m]
     constants R_c;                     // radius of each pocket [m]
     constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z + dtheta of pocket j
+    PocketSqueeze squeeze;             // their films of oil
 
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
@@ -233,6 +245,10 @@ typedef struct {
     // stiff rates of the ball's velocities by the pockets, -d(acceleration)/d(velocity) [1/s] (cleared by
     // race_contact_force, added by cage_pockets)
     ball_array D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
+
+    // sum over the halves of D m m^T of the pockets' films, xx, rx, rr, tx, tr, tt [N.s/m]; not written in dry pockets
+    // (pocket.c)
+    ball_array squeeze[6];
 
     // wrench of the race contacts on the inner ring about its centre, global frame
     ball_array ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;

@@ -13,6 +13,7 @@ from . import (
     compare_designs,
     cookbook,
     dataset,
+    identify,
     info,
     life,
     matrices,
