@@ -59,7 +59,9 @@ def test_linked_file_exists(path):
 
 def test_verdicts_are_the_studys():
     """The counts of both columns, before links and line breaks."""
-    sentence = re.search(r"Of the paper's \d+ claims .*?(?=\.\n)", (ROOT / "docs" / "paper.md").read_text(encoding="utf-8"))[0]
+    sentence = re.search(
+        r"Of the paper's \d+ claims .*?(?=\.\n)", (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+    )[0]
     for page in (ROOT / "README.md", ROOT / "docs" / "guide.md"):
         assert sentence in " ".join(page.read_text(encoding="utf-8").split())
 

@@ -405,8 +405,12 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
     )
     text = paper.write_paper(both, tmp_path).read_text(encoding="utf-8")
     assert drawn == [tmp_path / "paper" / "clearance.png"] and drawn[0].read_bytes()[:4] == b"\x89PNG"
-    assert "![Fig. 16: clearance ratio](paper/clearance.png)" in text and "Of the paper's 3 claims " in text and "reproduce 3, partly 0, not 0" in text
-    assert "(`physical`) 0, 0 and 3." in text
+    assert (
+        "![Fig. 16: clearance ratio](paper/clearance.png)" in text
+        and "Of the paper's 3 claims " in text
+        and "reproduce 3, partly 0, not 0" in text
+    )
+    assert "(`physical`) the counts are 0, 0 and 3." in text
     assert text.count("| 4.1 (5)") == 3 and "| paper | clearance | Fig. 16 | 2 | 26 |" in text
     assert '  - Paper: "The rivet stress reaches the minimum when the ratio is close to 1."' in text
     assert "lowest at a ratio of, constant sum: 1;" in text and "constant sum: 0.3;" in text

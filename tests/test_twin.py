@@ -44,6 +44,7 @@ OTHER = {
     "bearing.lambda": 0.1,
     "ball[j].dD": [1e-6 * (j - Z // 2) for j in range(Z)],
     "cage.pocket_clearance": 0.3e-3,
+    "cage.pocket_filling": 0.4,
     "cage.guide_clearance": 0.15e-3,
     "cage.m": 0.02,
     "ball.E": 320e9,
@@ -105,6 +106,10 @@ DIFFER |= {
     "pocket[j].dtheta": np.linspace(-1e-3, 1.5e-3, Z).tolist(),
     "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z).tolist(),
 }
+SPALLS = {"angle": 0.03, "length": 6e-3, "width": 1.5e-3, "depth": 4e-5}
+SURFACES = {f"{race}.spall_{name}": value for race in ("inner", "outer") for name, value in SPALLS.items()}
+SURFACES |= {f"{race}.waviness[n]": [2e-6 / (1.0 + n) for n in range(60)] for race in ("inner", "outer")}
+SURFACES |= {"outer.waviness_phase[n]": [0.1 * n for n in range(60)]}
 SCENES = {
     "demo": ({}, {}),
     "mixed_supported": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4}, LOADS),
@@ -122,6 +127,7 @@ SCENES = {
     "differ": (DIFFER | UNBALANCE, LOADS),
     "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_free": (OTHER | FREE | MIXED, SLOW),
+    "surfaces": (SURFACES | MIXED | SLICED | SUPPORTED, LOADS | HOUSING),
 }
 if default_table().modes is None:  # of a table by closed forms
     del SCENES["elastic"]

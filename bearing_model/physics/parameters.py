@@ -7,6 +7,7 @@ A name that Python reserves has an underscore behind it: p.bearing.lambda_.
 import copy
 import keyword
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -19,6 +20,7 @@ from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, 
 ENUMERATIONS = (
     variables.TiltMode,
     variables.RingMotion,
+    variables.HousingMotion,
     variables.CageMaterial,
     variables.CageModel,
     variables.Traction,
@@ -35,7 +37,7 @@ TYPES = {enumeration.__name__: enumeration for enumeration in ENUMERATIONS}
 
 def place(name):
     """Group and member of a variable: "bearing.lambda" is p.bearing.lambda_."""
-    group, member = name.replace("[j]", "").replace("[k]", "").split(".")
+    group, member = re.sub(r"\[[jkn]\]", "", name).split(".")
     return group, member + "_" * keyword.iskeyword(member)
 
 
@@ -48,10 +50,7 @@ class Values:
             value = values.pop(name, variable.start)
             if variable.count > 1:
                 value = [value] * variable.count if np.ndim(value) == 0 else value
-                value = [
-                    values.pop(name.replace("[j]", f"[{j + 1}]").replace("[k]", f"[{j + 1}]"), v)
-                    for j, v in enumerate(value)
-                ]
+                value = [values.pop(re.sub(r"\[[jkn]\]", f"[{j + 1}]", name), v) for j, v in enumerate(value)]
                 require(len(value) == variable.count, f"{name}: {len(value)} values; {variable.count} are needed")
                 value = np.array([admit(variable, v) for v in value])
             else:
@@ -95,7 +94,7 @@ class Parameters(Values):
         for name, value in values.items():
             head, bracket, rest = name.partition("[")
             number, _, tail = rest.partition("]")
-            letter = next((x for x in "jk" if f"{head}[{x}]{tail}" in PARAMETERS), "") if bracket else ""
+            letter = next((x for x in "jkn" if f"{head}[{x}]{tail}" in PARAMETERS), "") if bracket else ""
             table_name = f"{head}[{letter}]{tail}" if letter else name
             require(table_name in PARAMETERS, f"{name}: unknown; variables are listed in docs/parameters.md")
             variable = PARAMETERS[table_name]
@@ -106,7 +105,7 @@ class Parameters(Values):
             group, member = place(table_name)
             new = np.array(p.value(table_name)) if variable.count > 1 else admit(variable, value)
             if variable.count > 1:
-                where = slice(None) if number in "jk" else int(number) - 1
+                where = slice(None) if number in "jkn" else int(number) - 1
                 new[where] = [admit(variable, v) for v in value] if np.ndim(value) else admit(variable, value)
             setattr(getattr(p, group), member, new)
             if variable.derives:
@@ -160,6 +159,25 @@ def largest_clearance(p):
     return 4.0 * (min(p.bearing.f_i, p.bearing.f_e) - 0.5) * p.bearing.D
 
 
+def check_spall(p, race, bottom):
+    """A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the
+    ball, and its depth is small beside the ball, which rolls over its edges.  bottom: diameter of the groove's bottom.
+    """
+    D, parts = p.bearing.D, {name: getattr(getattr(p, race), f"spall_{name}") for name in ("length", "width", "depth")}
+    limits = {
+        "length": (0.5 * math.pi * bottom, "half the circumference of the groove's bottom"),
+        "width": (D, "bearing.D"),
+        "depth": (0.05 * D, "bearing.D/20"),
+    }
+    whole = (
+        f"a spall has {race}.spall_length, spall_width and spall_depth; more than 0 m is allowed, or 0 m for all three"
+    )
+    for name, value in parts.items():
+        most, meaning = limits[name]
+        require(value <= most, f"{race}.spall_{name} = {value} m: at most {meaning}, {most:g} m, is allowed")
+        require(value > 0.0 or not any(parts.values()), f"{race}.spall_{name} = 0 m: {whole}")
+
+
 def check_geometry(p):
     """Refuse parameters that contradict each other: ValueError naming one of them, its value and what is allowed."""
     D, d_m = p.bearing.D, p.bearing.d_m
@@ -203,6 +221,8 @@ def check_geometry(p):
     )
     wider = f"0 or more than the outside diameter of the outer ring, {outside:g} m, is allowed"
     require(housing == 0.0 or housing > outside, f"housing.outside = {housing} m: {wider}")
+    check_spall(p, "inner", d_m - D)
+    check_spall(p, "outer", d_m + D)
     half = 0.5 * p.cage.width
     require(
         p.cage.land_width <= half,

@@ -124,7 +124,7 @@ def cage_substeps_split(model, y, w, f):
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
     f[WORK] += np.sum(w.joint_dissipated) + e.dissipated
-    touch = [np.array([e.touch_x[h], e.touch_t[h], e.touch_k[h], e.touch_rate[h], w.pocket[h].Q]) for h in range(2)]
+    touch = [np.array([e.touch_x[h], e.touch_t[h], e.touch_k[h], e.touch_rate[h], e.touch_Q[h]]) for h in range(2)]
     omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
     return FastState(j.e.copy(), j.u.copy(), j.rivet[0].copy(), j.N_plate.copy(), touch, omega_2, modes, rigid)
 
