@@ -20,7 +20,7 @@ from threadpoolctl import threadpool_limits
 
 from ..design.sensitivity import salib
 from ..errors import UserError
-from .surrogate import Surrogate, Together
+from .surrogate import Surrogate, Together, pruned
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
 UNDECIDED = 0.9  # of the width of the prior's own interval
@@ -82,10 +82,10 @@ class Found:
 class Objective:
     """J over the unit cube from the surrogates of the fitted targets."""
 
-    def __init__(self, study, u, values):
+    def __init__(self, study, u, values, surrogate=Surrogate):
         self.study = study
         chosen = np.flatnonzero(study.fitted)
-        self.surrogates = {k: Surrogate(u, values[:, :, k]) for k in chosen}
+        self.surrogates = {k: surrogate(u, values[:, :, k]) for k in chosen}
         self.parts = Together(list(self.surrogates.values()))  # mean and variance at points, [m, k]
         self.value = np.array([study.targets[k].value for k in chosen])
         self.variance = np.array([study.targets[k].uncertainty ** 2 for k in chosen])
@@ -181,6 +181,11 @@ def found_by(study, evaluate, start):
         _, variance = objective.parts(best)
         if abs(before - J) < 0.5 and np.all(variance[0] < SMALL * objective.variance):
             break
+    objective = Objective(study, u, values, pruned)
+    best, J = minimum(objective, rng, best)
+    for j in np.flatnonzero(~objective.parts.active.any(axis=1)):  # no fitted target sees it
+        if study.parameters[j].mean is None:
+            best[j] = 0.5
     intervals, widened, misfit = profiles(study, objective, best, J)
     C = objective.covariance(best)
     fresh = range(study.settings["seed"] + FRESH, study.settings["seed"] + FRESH + study.settings["check_seeds"])
@@ -325,7 +330,7 @@ def effects(study, objective, u, values, best):
     """Change of each target over each parameter's range at the answer, in uncertainties [parameters, targets]."""
     found = np.zeros((len(study.parameters), len(study.targets)))
     for k, target in enumerate(study.targets):
-        surrogate = objective.surrogates.get(k) or Surrogate(u, values[:, :, k])
+        surrogate = objective.surrogates.get(k) or pruned(u, values[:, :, k])
         for j in range(len(study.parameters)):
             line = np.tile(best, (21, 1))
             line[:, j] = np.linspace(0.0, 1.0, 21)

@@ -15,6 +15,8 @@ from scipy.optimize import minimize
 CONSTANT, SLOPE = 100.0, 4.0  # variances of c and b
 LENGTHS, AMPLITUDES, NOISES = (0.08, 30.0), (1e-3, 10.0), (1e-6, 1.0)
 JITTER = 1e-9
+EVIDENCE = 4.0  # of ln likelihood: by chance in half a per cent
+CLEAR = 6.0  # standard deviations of a point's noise: an effect beyond needs no test
 
 
 def noise_parts(values):
@@ -35,8 +37,10 @@ def noise_parts(values):
 class Surrogate:
     """The prediction of a target from points u [n, d] of the unit cube and values [n, seeds]."""
 
-    def __init__(self, u, values):
-        self.u, y = np.asarray(u, float), np.asarray(values, float).mean(axis=1)
+    def __init__(self, u, values, active=None):
+        whole, y = np.asarray(u, float), np.asarray(values, float).mean(axis=1)
+        self.active = np.ones(whole.shape[1], bool) if active is None else active
+        self.all, self.u = whole, whole[:, self.active]
         self.shift, self.size = y.mean(), max(y.std(), 1e-12 * abs(y.mean()), 1e-300)
         own, common = noise_parts(np.asarray(values, float))
         self.y = (y - self.shift) / self.size
@@ -50,10 +54,12 @@ class Surrogate:
         best = min(
             (minimize(self.cost, x, jac=True, bounds=limits, method="L-BFGS-B") for x in starts), key=lambda f: f.fun
         )
-        self.lengths, self.amplitude = np.exp(best.x[:d]), np.exp(best.x[d])
+        lengths, self.amplitude, self.loss = np.exp(best.x[:d]), np.exp(best.x[d]), float(best.fun)
+        self.lengths = np.full(len(self.active), np.inf)
+        self.lengths[self.active] = lengths
         if np.isnan(self.noise):
             self.noise = float(np.exp(best.x[d + 1]))
-        G = self.amplitude**2 * np.exp(-0.5 * (self.squares / self.lengths**2).sum(axis=-1))
+        G = self.amplitude**2 * np.exp(-0.5 * (self.squares / lengths**2).sum(axis=-1))
         K = self.trend + G + (self.noise + JITTER) * np.eye(len(y))
         factor = cho_factor(K, lower=True)
         self.alpha, self.inverse = cho_solve(factor, self.y), cho_solve(factor, np.eye(len(self.y)))
@@ -84,13 +90,38 @@ class Surrogate:
         return mean[:, 0], variance[:, 0]
 
 
+def pruned(u, values):
+    """The Surrogate without the parameters of which the runs show no influence: leaving them out costs less than
+    EVIDENCE of the likelihood's logarithm.  Noise else makes them look as if they had some.
+    """
+    found = Surrogate(u, values)
+    line = np.full((11, u.shape[1]), 0.5)
+    effects = []
+    for j in range(u.shape[1]):
+        at = line.copy()
+        at[:, j] = np.linspace(0.0, 1.0, 11)
+        effects.append(np.ptp(found(at)[0]))
+    for j in np.argsort(effects):
+        if effects[j] > CLEAR * found.size * np.sqrt(found.noise) and effects[j] > 1e-9 * found.size:
+            continue
+        active = found.active.copy()
+        active[j] = False
+        if not active.any():
+            break
+        without = Surrogate(u, values, active)
+        if without.loss - found.loss < EVIDENCE:
+            found = without
+    return found
+
+
 class Together:
     """Predictions of several surrogates over the same points at once."""
 
     CHUNK = 256  # points at a time, for the memory
 
     def __init__(self, surrogates):
-        self.u = surrogates[0].u
+        self.u = surrogates[0].all
+        self.active = np.array([one.active for one in surrogates], float).T  # [d, k]
         self.sharpness = np.array([one.lengths**-2.0 for one in surrogates]).T  # [d, k]
         self.shift, self.size, self.common, self.amplitude = (
             np.array([getattr(one, name) for one in surrogates]) for name in ("shift", "size", "common", "amplitude")
@@ -106,10 +137,10 @@ class Together:
 
     def few(self, u):
         squares = (u[:, None, :] - self.u) ** 2  # [m, n, d]
-        trend = CONSTANT + SLOPE * u @ self.u.T
-        cross = trend[..., None] + self.amplitude**2 * np.exp(-0.5 * squares @ self.sharpness)  # [m, n, k]
+        trend = CONSTANT + SLOPE * (u[:, None, :] * self.u) @ self.active
+        cross = trend + self.amplitude**2 * np.exp(-0.5 * squares @ self.sharpness)  # [m, n, k]
         by_target = cross.transpose(2, 0, 1)
         explained = ((by_target @ self.inverse) * by_target).sum(axis=2).T
-        own = (CONSTANT + SLOPE * (u**2).sum(axis=1))[:, None] + self.amplitude**2
+        own = CONSTANT + SLOPE * u**2 @ self.active + self.amplitude**2
         mean = self.shift + self.size * (cross * self.alpha).sum(axis=1)
         return mean, self.size**2 * np.maximum(own - explained, 0.0) + self.common
