@@ -346,7 +346,7 @@ def setting_rows(result):
     """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
     for name, value in result.parameters.items():
         # those of an array have one entry for all balls, pockets or rivets
-        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]"))
+        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
         variable = next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
