@@ -170,7 +170,8 @@ def check_spall(p, race, bottom):
         "depth": (0.05 * D, "bearing.D/20"),
     }
     whole = (
-        f"a spall has {race}.spall_length, spall_width and spall_depth; more than 0 m is allowed, or 0 m for all three"
+        f"a spall has {race}.spall_length, {race}.spall_width and {race}.spall_depth; more than 0 m is allowed, or 0 m for "
+        "all three"
     )
     for name, value in parts.items():
         most, meaning = limits[name]

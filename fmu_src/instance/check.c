@@ -210,10 +210,9 @@ static bool check_spall(Bearing *b, const char *race, double length, double widt
             fine = false;
         } else if (any && value[i] == 0.0) {
             bearing_log(b, LOG_ERROR,
-                        "%s.spall_%s = 0 m: a spall has %s.spall_length, spall_width and spall_depth; more "
-                        "than 0 m is "
-                        "allowed, or 0 m for all three",
-                        race, NAME[i], race);
+                        "%s.spall_%s = 0 m: a spall has %s.spall_length, %s.spall_width and %s.spall_depth; "
+                        "more than 0 m is allowed, or 0 m for all three",
+                        race, NAME[i], race, race, race);
             fine = false;
         }
     }
