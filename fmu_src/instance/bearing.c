@@ -254,7 +254,7 @@ static void derive_at(Bearing *b, const Inputs *u)
 // Memory for the cage, taken when a scene first needs it.  Returns whether there is any.
 static bool room_for_cage(Bearing *b)
 {
-    const size_t size = cage_size(&b->s.p);
+    const size_t size = cage_size(present_parameters(b));
     if (size == 0 || b->cage != NULL) return true;
     b->cage = aligned_new(size);
     if (b->cage == NULL)
