@@ -85,6 +85,8 @@ WRONG = {
     "cascade none.toml": ["none.toml", "no such cascade file"],
     "optimize none.toml": ["none.toml", "no such study file"],
     "identify none.toml": ["none.toml", "no such study file"],
+    "dataset none.toml": ["none.toml", "no such dataset file"],
+    "spectrum none.parquet": ["none.parquet", "no such file"],
     "run demo --set shaft.omega=nan": ["shaft.omega", "finite"],
     "run demo --seed -1": ["start.seed = -1", "0 ..."],
     "run demo --t-end 1m": ["t_end = '1m'", "s, ms, us, min, h"],
