@@ -599,27 +599,34 @@ def test_power_is_rate_of_energy(record_property):
     between elastic halves, whose law is a table of moves over loads, the table's error (observed 2.6e-3,
     test_cage_elastic.py).
     """
-    worst = elastic = surfaces = 0.0
+    worst = elastic = rolled = 0.0
     for scene, (parameters, inputs) in SCENES.items():
         model = under_way(parameters, inputs, 1e-3)
         ys = random_states(model, start_of(scene)[1], np.random.default_rng(5), 40)
-        w, moved = Work(), Work()
-        y_dot = rhs(model, 0.0, ys, w)
-        along = ys + 1e-30j * y_dot
-        rhs(model, 1e-30j, along, moved)
-        rate, power = np.imag(energy_total(model, along, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
-        off = np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0]))
+        off = imbalance(model, ys)
+        if scene == "surfaces":  # without the roll of a ring whose tilt turns, which race_surface.py leaves out
+            rolled = off
+            ys[:, variables.RING_BETA_DOT] = ys[:, variables.RING_GAMMA_DOT] = 0.0
+            off = imbalance(model, ys)
         if scene == "elastic":
             elastic = off
-        elif scene == "surfaces":
-            surfaces = off
         else:
             worst = max(worst, off)
     record_property("worst", plain(worst))
     print(f"dE/dt against net power: {worst:.1e}")
     assert worst < 1e-12  # observed 7e-15
     assert elastic < 1e-2
-    assert surfaces < 1e-5  # observed 7e-7: a ball at a spall's edge; the cause is not known
+    assert rolled < 1e-5  # observed 7e-7
+
+
+def imbalance(model, ys):
+    """Largest difference of the energy's rate and the net power over the larger of power and loss."""
+    w, moved = Work(), Work()
+    y_dot = rhs(model, 0.0, ys, w)
+    along = ys + 1e-30j * y_dot
+    rhs(model, 1e-30j, along, moved)
+    rate, power = np.imag(energy_total(model, along, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
+    return np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0]))
 
 
 def test_ledger(record_property):
