@@ -70,6 +70,7 @@ class Variable:
     max: float | None = None
     nominal: float | None = None
     count: int = 1
+    of_balls: bool = False  # whether count is the number of balls
     group: str | None = None
     source: str | None = None
     state: str | None = None
@@ -101,6 +102,11 @@ class Variable:
     @property
     def is_array(self):
         return "[" in self.name
+
+    @property
+    def size(self):
+        """The count as text of the generated files: Z, which another build may change, or a number."""
+        return "Z" if self.of_balls else str(self.count)
 
     @property
     def path(self):
@@ -171,7 +177,7 @@ def load_table(bearing=None, path=None):
     variables = []
     for section, causality in CAUSALITIES.items():
         for entry in raw.get(section, {}).get("list", ()):
-            count = {"count": Z} if entry.get("count") == "Z" else {}
+            count = {"count": Z, "of_balls": True} if entry.get("count") == "Z" else {}
             v = Variable(causality=causality, **entry | count)
             v = replace(v, choices={name: item.number for name, item in enumerations.get(v.type, {}).items()})
             if causality == "parameter":
@@ -261,7 +267,7 @@ def check_table(table, path, retired=()):
     """
     names, references = {"time"}, {0: "time"} | dict.fromkeys(retired, "a variable that is gone")
     for v in table.variables:
-        last = v.vr + (Z_MAX if v.is_array else 1)
+        last = v.vr + (Z_MAX if v.of_balls else v.count)
         shared = {references[r] for r in range(v.vr, last) if r in references}
         references |= dict.fromkeys(range(v.vr, last), v.name)
         problems = {

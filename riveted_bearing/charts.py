@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 from scipy.signal import welch
 
-from . import plot
+from . import plot, spectrum
+from .errors import UserError
 from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, wanted
 from .summary import columns, settled
 
@@ -332,3 +333,24 @@ def energy(figure, result):
         twin.grid(False)
     plot.mark_settling(ax, few)
     plot.legend(ax)
+
+
+def vibrates(result):
+    """Whether a race is not perfect or the housing sits on springs: then the page shows the vibration."""
+    p = result.parameters
+    surfaces = (value for name, value in p.items() if re.match(r"(outer|inner)\.(spall_length$|waviness\[)", name))
+    return p.get("housing.motion") == "supported" or any(surfaces)
+
+
+def no_vibration(result):
+    """Why there is no spectrum of the vibration, in words; nothing if there is one."""
+    try:
+        spectrum.spectra(result)
+    except UserError as problem:
+        return html.escape(str(problem).removeprefix("spectrum: "))
+    return ""
+
+
+def vibration(figure, result):
+    """Spectrum and envelope spectrum with the kinematic frequencies."""
+    spectrum.draw(figure, spectrum.spectra(result))

@@ -196,9 +196,8 @@ def is_motion(channel):
 
 def family(name):
     """Name in the variable table: ball[3].Q_i is one of ball[j].Q_i."""
-    return re.sub(
-        r"^(ball|pocket|rivet)\[\d+\]", lambda match: f"{match[1]}[{'k' if match[1] == 'rivet' else 'j'}]", name
-    )
+    letters = {"rivet": "k", "outer": "n", "inner": "n"}
+    return re.sub(r"\[\d+\]", f"[{letters.get(name.partition('[')[0].partition('.')[0], 'j')}]", name)
 
 
 # --------------------------------------------------------------------------------------------------------- long horizon

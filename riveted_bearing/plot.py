@@ -99,6 +99,8 @@ def show_settled(ax, result):
     """Scale a panel by the values after settling; the first shock may exceed the panel."""
     late = settled(result)
     curves = [line for line in ax.get_lines() if line.get_label() != "_break"]
+    if not curves:  # none of the panel's channels was recorded
+        return
     values = np.concatenate([line.get_ydata()[late] for line in curves])
     low, high = values.min(), values.max()
     if high > low:

@@ -124,6 +124,7 @@ def render(result, decides=None, measured=()):
         lives=lives,
         worst=charts.worst_rivet(result),
         elastic=elastic,
+        vibrates=charts.vibrates(result),
         loaded=charts.loaded_rivet(result),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
@@ -137,7 +138,7 @@ def render(result, decides=None, measured=()):
         breaks=breaks(result),
         accelerated=accelerated(result),
         solver=list(solver_rows(result)),
-        charts={name: chart(result, name, lives) for name in CHARTS if elastic or name not in OF_ELASTIC},
+        charts={name: chart(result, name, lives) for name in CHARTS if is_shown(name, result, elastic)},
         figure=figure,
         duration=duration,
     )
@@ -205,9 +206,20 @@ CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart 
     "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", rivet_channels("T", "M_y", "M_z")),
     "slip": (PANELS["slip"], LOW, "Cage slip over time", named("cage.slip_ratio")),
     "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", named("ring.x", "ring.y", "ring.z")),
+    "vibration": (
+        charts.vibration,
+        SQUARE,
+        "Spectrum and envelope spectrum of the vibration",
+        named("shaft.omega", "cage.omega"),
+    ),
     "energy": (charts.energy, LOW, "Power loss and energy balance over time", named("bearing.power_loss")),
 }
 OF_ELASTIC = ("joints",)  # charts of elastic cage halves alone
+
+
+def is_shown(name, result, elastic):
+    """Whether the page has this chart: some belong to elastic halves, one to races that are not perfect."""
+    return (elastic or name not in OF_ELASTIC) and (name != "vibration" or charts.vibrates(result))
 
 
 def chart(result, name, lives):
@@ -221,6 +233,8 @@ def chart(result, name, lives):
             else "too few samples"
         )
         return f'<p class="missing">{label}: {lack}</p>'
+    if name == "vibration" and (reason := charts.no_vibration(result)):
+        return f'<p class="missing">{label}: {reason}</p>'
     if name in ("spectra", "rainflow") and not np.any(
         np.diff(result.data[f"rivet[{charts.worst_rivet(result)}].sigma_head"][settled(result)])
     ):
@@ -332,7 +346,7 @@ def setting_rows(result):
     """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
     for name, value in result.parameters.items():
         # those of an array have one entry for all balls, pockets or rivets
-        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]"))
+        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
         variable = next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False

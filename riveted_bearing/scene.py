@@ -14,6 +14,8 @@
     shaft.F_y = "2994 N"
     shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
     shaft.F_x = { file = "loads.csv", column = "thrust", time = "t", unit = "kN", interpolation = "hold" }
+    [surfaces]                        # measured profile of a race, CSV: height over one turn, as waves of the orders 1 to 60
+    outer = { file = "race.csv", angle = "phi", angle_unit = "deg", height = "h", unit = "um" }
     [[change]]                        # of tunable parameters, at the first communication point from `at` on
     at = "50 ms"
     joint.mu = 0.3
@@ -36,7 +38,7 @@ from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
-SECTIONS = ("description", "simulation", "parameters", "inputs", "change")
+SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change")
 OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet")  # what only a bearing file has
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
@@ -186,7 +188,7 @@ def apply(scene, where, document, model, folder):
     for key in document:
         if key not in SECTIONS:
             raise unknown(where, "key", key, SECTIONS)
-    sections = {name: section_of(where, document, name) for name in SECTIONS[1:4]}
+    sections = {name: section_of(where, document, name) for name in SECTIONS[1:5]}
     parameters = read_section(
         where,
         "parameters",
@@ -195,6 +197,7 @@ def apply(scene, where, document, model, folder):
         model.inputs,
         lambda value, v: parameter_value(value, v, model),
     )
+    parameters = surface_parameters(where, sections["surfaces"], model, folder) | parameters
     inputs = read_section(
         where,
         "inputs",
@@ -300,6 +303,46 @@ def parameter_value(value, variable, model):
     return found
 
 
+SURFACE = ("file", "angle", "angle_unit", "height", "unit")
+
+
+def surface_parameters(where, section, model, folder):
+    """Waviness of the races from measured profiles by parameter name."""
+    found = {}
+    for race, value in section.items():
+        if race not in ("outer", "inner"):
+            raise unknown(where, "key", f"surfaces.{race}", ["surfaces.outer", "surfaces.inner"])
+        try:
+            found |= profile_waves(race, value, model, folder)
+        except UserError as problem:
+            raise refusal(where, f"surfaces.{race}", value, problem) from None
+    return found
+
+
+def profile_waves(race, value, model, folder):
+    """Amplitudes and phases of a race's waves from one measured turn, by least squares; heights into the clearance.
+
+    The mean height is left out: it belongs to the groove's diameter.
+    """
+    from .surfaces import waves_of
+
+    if not isinstance(value, dict):
+        raise UserError('not a table such as { file = "race.csv", angle = "phi", height = "h" }')
+    check_keys(value, SURFACE, ("file", "angle", "height"))
+    column = read_columns(folder / value["file"])
+    units = model.units["rad"], model.units["m"]
+    factors = [scale(value[key], of)[0] if key in value else 1.0 for key, of in zip(SURFACE[2::2], units, strict=True)]
+    variables = {kind: model.parameters.get(f"{race}.{kind}[1]") for kind in ("waviness", "waviness_phase")}
+    if None in variables.values():
+        raise UserError(f"this FMU has no {race}.waviness")
+    amplitude, phase = waves_of(column(value["angle"]) / factors[0], column(value["height"]) / factors[1])
+    found = {}
+    for n, (a, b) in enumerate(zip(amplitude, phase, strict=True), 1):
+        model.check_range(a, model.parameters[f"{race}.waviness[{n}]"])
+        found |= {f"{race}.waviness[{n}]": float(a), f"{race}.waviness_phase[{n}]": float(b)}
+    return found
+
+
 def read_simulation(where, section, model):
     """The settings of [simulation]."""
     settings = {}
@@ -393,7 +436,13 @@ def from_column(value, scales, folder):
     in s.
     """
     check_keys(value, COLUMN, ("file", "column"))
-    path = folder / value["file"]
+    column = read_columns(folder / value["file"])
+    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+    return History(column(value.get("time", "time")), (column(value["column"]) - offset) / factor, is_hold(value))
+
+
+def read_columns(path):
+    """A function name -> numbers of a CSV file with a header line; UserError names what is missing."""
     if not path.is_file():
         raise UserError(f"{path}: no such file")
     from pyarrow import ArrowInvalid, csv
@@ -415,8 +464,7 @@ def from_column(value, scales, folder):
             raise UserError(f'{path}: column "{name}" has entries that are no numbers')
         return values.astype(float)
 
-    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
-    return History(column(value.get("time", "time")), (column(value["column"]) - offset) / factor, is_hold(value))
+    return column
 
 
 def check_keys(value, allowed, needed):

@@ -46,9 +46,7 @@ def row(variable, model=None):
             value = (
                 variable.start
                 if model is None
-                else model.default(
-                    (model.parameters | model.inputs)[variable.name.replace("[j]", "[1]").replace("[k]", "[1]")]
-                )
+                else model.default((model.parameters | model.inputs)[re.sub(r"\[[jkn]\]", "[1]", variable.name)])
             )
             start = shown(value, variable)
             allowed = f"{shown(variable.min, variable, -math.inf)} ... {shown(variable.max, variable, math.inf)}"

@@ -69,7 +69,7 @@ class Core:
     def set_values(self, struct, table, values):
         """Set members by the names of the variable table; KeyError for an unknown one."""
         for name, value in values.items():
-            group, member = table[name].name.replace("[j]", "").replace("[k]", "").split(".")
+            group, member = table[name].name.replace("[j]", "").replace("[k]", "").replace("[n]", "").split(".")
             setattr(getattr(struct, group), member, value)
 
 

@@ -138,7 +138,7 @@ class PythonModel:
         self.p, self.u = Parameters(), Inputs()
         for values, changes in ((self.p, parameters), (self.u, inputs)):  # unchecked, as the C structs are
             for name, value in changes.items():
-                group, member = name.replace("[j]", "").replace("[k]", "").split(".")
+                group, member = name.replace("[j]", "").replace("[k]", "").replace("[n]", "").split(".")
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
         self.p.mark_given(variables.PARAMETERS)
         self.p = temperature_apply(self.p, self.u, derived.default_table())

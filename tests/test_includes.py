@@ -15,10 +15,10 @@ GROUPS = {  # from the bottom up
     "numbers": "aligned build_info cpu_clock dual elementary elimination fatigue float_environment isa lanes octet part "
     "reserved_memory saved_numbers scalar statistics variable_table variables vec vector_ops viscosity",
     "data of the cage": "elastic_work half_modes half_path joint_law two_half_work",
-    "laws and tables": "elastic_half elastic_wall frame hertz model outer_ring powers ring_fit rivet_joint rivet_rom "
-    "rivet_splines rotor temperature traction centrifugal spin_preload",
+    "laws and tables": "elastic_half elastic_wall frame hertz housing model outer_ring powers ring_fit rivet_joint rivet_rom "
+    "race_surface rivet_splines rotor temperature traction centrifugal spin_preload",
     "elements": "ball drag land_film race_contact ring ring_load",
-    "both cages": "cage_joint films halves pocket pocket_forces pocket_spheres pocket_spheres_setup",
+    "both cages": "cage_joint films halves pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze",
     "one cage": "cage_elastic cage_substeps joint_open two_half",
     "door of the cage": "cage cage_read cage_setup",
     "constants": "derived",
@@ -36,14 +36,14 @@ FILES = sorted(SOURCES.rglob("*.[ch]"))
 INNER = {
     "model.h": {"elastic_work.h", "half_path.h", "two_half_work.h"},
     "rivet_rom.h": {"half_modes.h", "half_path.h", "joint_law.h"},
-    "derived.c": {"centrifugal.h"},
+    "derived.c": {"centrifugal.h", "pocket_squeeze.h"},
 }
 ONE_KIND = {"two_half": "elastic/", "elastic": "two_half/"}
 # Elements of which the shape of the cage chooses one.
 TWINS_IN_TASK = {"pocket_spheres.c": "pocket.c"}
 # Sums to which several elements add.
 SUMS = set(
-    "F_x F_r F_t M_x M_r M_t dissipated D_x D_r D_t D_omega_x D_omega_r D_omega_t pocket_dissipated ring half film "
+    "F_x F_r F_t M_x M_r M_t dissipated D_x D_r D_t D_omega_x D_omega_r D_omega_t pocket_dissipated squeeze ring half film "
     "cage_dissipated joint_dissipated".split()
 )
 

@@ -176,6 +176,7 @@ DRIVE_STEP = {
     "a": 1.0,
     "field": 1.0,
 }
+DRIVE_STEP |= {"outer_a": 1.0, "base": 1e-6, "base_dot": 1e-3, "inner_angle": 1e-3, "outer_angle": 1e-3}
 DRIVE_STEP |= {"frame_omega": 0.1, "frame_omega_dot": 10.0, "outer_moves": 1.0, "frame_turns": 1.0}
 DRIVE_STEP |= {
     "beta_dot": 1e-3,

@@ -165,6 +165,20 @@ def test_scenes_that_differed(folder, eight, one):
     assert differing(folder, eight, *one) == []
 
 
+SURFACES = {f"{race}.waviness[{n}]": 1e-6 for race in ("inner", "outer") for n in (1, 9, 60)}
+SURFACES |= {f"{race}.spall_length": 4e-3 for race in ("inner", "outer")}
+SURFACES |= {f"{race}.spall_width": 2e-3 for race in ("inner", "outer")}
+SURFACES |= {f"{race}.spall_depth": 5e-5 for race in ("inner", "outer")}
+
+
+@X86
+@pytest.mark.parametrize("cage", [1, 3])
+def test_surfaces_and_housing(folder, eight, cage):
+    """Races that are not perfect in a housing on springs."""
+    parameters = SURFACES | {"scene.cage": cage, "housing.motion": 2, "scene.lubrication": 2}
+    assert differing(folder, eight, parameters, {}, {3: {"housing.v_y": 0.01}}) == []
+
+
 @X86
 @pytest.mark.parametrize("seeds", [range(24)], ids=["24 scenes"])
 def test_random_scenes(folder, eight, seeds):

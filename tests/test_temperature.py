@@ -41,7 +41,7 @@ def values_of(struct):
     """All parameters as the model sees them, by name."""
 
     def value(name):
-        group, member = name.replace("[j]", "").replace("[k]", "").split(".")
+        group, member = name.replace("[j]", "").replace("[k]", "").replace("[n]", "").split(".")
         found = getattr(
             getattr(struct, group), member + "_" if hasattr(getattr(struct, group), member + "_") else member
         )

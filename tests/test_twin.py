@@ -45,6 +45,7 @@ OTHER = {
     "bearing.lambda": 0.1,
     "ball[j].dD": [1e-6 * (j - Z // 2) for j in range(Z)],
     "cage.pocket_clearance": 0.3e-3,
+    "cage.pocket_filling": 0.4,
     "cage.guide_clearance": 0.15e-3,
     "cage.m": 0.02,
     "ball.E": 320e9,
@@ -107,6 +108,10 @@ DIFFER |= {
     "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z).tolist(),
 }
 BALLS = {"cage.guidance": 2}
+SPALLS = {"angle": 0.03, "length": 6e-3, "width": 1.5e-3, "depth": 4e-5}
+SURFACES = {f"{race}.spall_{name}": value for race in ("inner", "outer") for name, value in SPALLS.items()}
+SURFACES |= {f"{race}.waviness[n]": [2e-6 / (1.0 + n) for n in range(60)] for race in ("inner", "outer")}
+SURFACES |= {"outer.waviness_phase[n]": [0.1 * n for n in range(60)]}
 SCENES = {
     "demo": ({}, {}),
     "mixed_supported": (MIXED | SUPPORTED | {"cage.pocket_clearance": 1e-4}, LOADS),
@@ -127,6 +132,7 @@ SCENES = {
     "balls": (BALLS | UNBALANCE, LOADS),
     "ribbon": (RIBBON | UNBALANCE, LOADS),
     "ribbon_mixed": (RIBBON | MIXED | SUPPORTED | DIFFER, HOT),
+    "surfaces": (SURFACES | MIXED | SLICED | SUPPORTED, LOADS | HOUSING),
 }
 ELASTIC_SCENES = {"ribbon_elastic": (RIBBON | ELASTIC | UNBALANCE, LOADS)}
 SCENES |= ELASTIC_SCENES
@@ -601,17 +607,16 @@ def test_power_is_rate_of_energy(record_property):
     between elastic halves, whose law is a table of moves over loads, the table's error (observed 2.6e-3,
     test_cage_elastic.py).
     """
-    worst = elastic = 0.0
+    worst = elastic = rolled = 0.0
     for scene, (parameters, inputs) in SCENES.items():
         model = under_way(parameters, inputs, 1e-3)
         ys = random_states(model, start_of(scene)[1], np.random.default_rng(5), 40)
-        w, moved = Work(), Work()
-        y_dot = rhs(model, 0.0, ys, w)
-        along = ys + 1e-30j * y_dot
-        rhs(model, 1e-30j, along, moved)
-        rate, power = np.imag(energy_total(model, along, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
-        off = np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0]))
-        if "elastic" in scene:
+        off = imbalance(model, ys)
+        if scene == "surfaces":  # without the roll of a ring whose tilt turns, which race_surface.py leaves out
+            rolled = off
+            ys[:, variables.RING_BETA_DOT] = ys[:, variables.RING_GAMMA_DOT] = 0.0
+            assert imbalance(under_way(parameters, {}, 1e-3), ys) < 1e-11  # nor does the housing tilt; observed 2e-12
+        elif "elastic" in scene:
             elastic = off
         else:
             worst = max(worst, off)
@@ -619,6 +624,17 @@ def test_power_is_rate_of_energy(record_property):
     print(f"dE/dt against net power: {worst:.1e}")
     assert worst < 1e-12  # observed 7e-15
     assert elastic < 1e-2
+    assert rolled < 1e-5  # observed 7e-7
+
+
+def imbalance(model, ys):
+    """Largest difference of the energy's rate and the net power over the larger of power and loss."""
+    w, moved = Work(), Work()
+    y_dot = rhs(model, 0.0, ys, w)
+    along = ys + 1e-30j * y_dot
+    rhs(model, 1e-30j, along, moved)
+    rate, power = np.imag(energy_total(model, along, moved)) / 1e-30, y_dot[:, variables.WORK][:, 0]
+    return np.max(np.abs(rate - power) / np.maximum(np.abs(power), power_loss(model, w)[:, 0]))
 
 
 def test_ledger(record_property):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{6fc5158d-44cb-719d-3eae-4f36ed43dc38}"
+MODEL_GUID = "{aef22b21-e157-25b3-bed5-5e96f57c6843}"
 Z = 9
 
 
@@ -40,6 +40,11 @@ class TiltMode(IntEnum):
 class RingMotion(IntEnum):
     FREE = 1
     PRESCRIBED = 2
+
+
+class HousingMotion(IntEnum):
+    GIVEN = 1
+    SUPPORTED = 2
 
 
 class CageMaterial(IntEnum):
@@ -147,6 +152,7 @@ UNITS = {
     "rad/s2": {"rad/s2": (1.0, 0.0)},
     "N": {"N": (1.0, 0.0)},
     "N.m": {"N.m": (1.0, 0.0)},
+    "N/m": {"N/m": (1.0, 0.0)},
     "N.m/rad": {"N.m/rad": (1.0, 0.0)},
     "N.m.s/rad": {"N.m.s/rad": (1.0, 0.0)},
     "N.s/m": {"N.s/m": (1.0, 0.0)},
@@ -193,8 +199,23 @@ PARAMETERS = {
         Variable("ball.nu", 1014, "Real", "1", None, 0.0, 0.0, 0.49, 1, None, "Poisson's ratio of the balls", "0: bearing.nu", False, "it is a property of a body"),
         Variable("ball.expansion", 1015, "Real", "1/K", None, 0.0, 0.0, 0.0001, 1, None, "Thermal expansion of the balls", "0: bearing.expansion", False, "it is a property of a body"),
         Variable("ball[j].dD", 1020, "Real", "m", "um", 0.0, -0.001, 5e-05, Z, None, "Excess of the ball's diameter over bearing.D", "perfect set of balls", False, "it is part of the geometry"),
+        Variable("outer.spall_angle", 9100, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 1, None, "Angle of the spall's middle on the outer ring at the start, from +Y toward +Z; it turns with the ring", "at +Y", False, "it is part of the geometry"),
+        Variable("outer.spall_length", 9101, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Length of the spall along the track", "no spall", False, "it is part of the geometry"),
+        Variable("outer.spall_width", 9102, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Width of the spall across the track, in the middle of the contacts", "no spall", False, "it is part of the geometry"),
+        Variable("outer.spall_depth", 9103, "Real", "m", "um", 0.0, 0.0, 0.01, 1, None, "Depth of the spall", "no spall", False, "it is part of the geometry"),
+        Variable("outer.spall_edge", 9104, "Real", "m", "mm", 5e-05, 1e-06, 0.01, 1, None, "Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge", "regularization: at most a quarter of the length is in force", False, "it is part of the geometry"),
+        Variable("inner.spall_angle", 9120, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 1, None, "Angle of the spall's middle on the inner ring at the start, from +Y toward +Z; it turns with the ring", "at +Y", False, "it is part of the geometry"),
+        Variable("inner.spall_length", 9121, "Real", "m", "mm", 0.0, 0.0, 1.0, 1, None, "Length of the spall along the track", "no spall", False, "it is part of the geometry"),
+        Variable("inner.spall_width", 9122, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Width of the spall across the track, in the middle of the contacts", "no spall", False, "it is part of the geometry"),
+        Variable("inner.spall_depth", 9123, "Real", "m", "um", 0.0, 0.0, 0.01, 1, None, "Depth of the spall", "no spall", False, "it is part of the geometry"),
+        Variable("inner.spall_edge", 9124, "Real", "m", "mm", 5e-05, 1e-06, 0.01, 1, None, "Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge", "regularization: at most a quarter of the length is in force", False, "it is part of the geometry"),
+        Variable("outer.waviness[n]", 9200, "Real", "m", "um", 0.0, 0.0, 0.0001, 60, None, "Amplitude of n waves around the outer race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])", "perfect race", False, "it is part of the geometry"),
+        Variable("outer.waviness_phase[n]", 9300, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 60, None, "Phase of n waves around the outer race; phi from +Y toward +Z at the start, turning with the ring", "perfect race", False, "it is part of the geometry"),
+        Variable("inner.waviness[n]", 9400, "Real", "m", "um", 0.0, 0.0, 0.0001, 60, None, "Amplitude of n waves around the inner race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])", "perfect race", False, "it is part of the geometry"),
+        Variable("inner.waviness_phase[n]", 9500, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 60, None, "Phase of n waves around the inner race; phi from +Y toward +Z at the start, turning with the ring", "perfect race", False, "it is part of the geometry"),
         Variable("cage.pocket_clearance", 1101, "Real", "m", "mm", 0.0002, 0.0, 0.005, 1, None, "Pocket diameter - ball diameter", "assumed (0.1...0.4 mm usual)", False, "it is part of the geometry"),
         Variable("cage.guide_clearance", 1102, "Real", "m", "mm", 0.0002, 1e-05, 0.005, 1, None, "Outer ring land diameter - cage outer diameter", "assumed (0.1...0.4 mm usual); least: six roughnesses a side, below it the lands brake the cage like plain bearings, with kilowatts", False, "it is part of the geometry"),
+        Variable("cage.pocket_filling", 1126, "Real", "1", None, 0.0, 0.0, 1.0, 1, None, "Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter", "assumed: dry; no measured filling of a pocket is known (docs/notes/pocket_oil.md)", False, None),
         Variable("cage.D_o", 1103, "Real", "m", "mm", 0.0595, 0.005, 2.0, 1, None, "Cage outer diameter (guided by the outer ring)", "paper Table 1", False, "it is part of the geometry"),
         Variable("cage.D_i", 1104, "Real", "m", "mm", 0.0497, 0.005, 2.0, 1, None, "Cage bore diameter", "paper Table 1", False, "it is part of the geometry"),
         Variable("cage.m", 1105, "Real", "kg", "g", 0.0279789, 1e-05, 10.0, 1, None, "Mass of one cage half", "rivet_model/half_shape.py: bronze, 8800 kg/m3, with its half of the steel rivets", False, "it is a property of a body"),
@@ -226,6 +247,7 @@ PARAMETERS = {
         Variable("pocket[j].dtheta", 8420, "Real", "rad", "deg", 0.0, -0.05, 0.05, Z, None, "Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation", "perfect cage", False, "it is part of the geometry"),
         Variable("pocket[j].dD", 8460, "Real", "m", "um", 0.0, -0.001, 0.001, Z, None, "Excess of the pocket's diameter", "perfect cage", False, "it is part of the geometry"),
         Variable("cage.modal_damping", 1123, "Real", "1", None, 0.01, 0.0, 0.2, 1, None, "Damping ratio of each vibration mode of the halves, scene.cage = elastic", "assumed: riveted and machined brass parts lose 0.3 to 3 % (structural damping)", False, None),
+        Variable("cage.modal_damping_high", 1127, "Real", "1", None, 0.0, 0.0, 0.2, 1, None, "Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency", "0: cage.modal_damping for all modes", False, None),
         Variable("joint.preload", 1201, "Real", "N", None, 20.0, 0.0, 1000.0, 1, None, "Preload of each rivet at 293.15 K", "paper section 4.1 (3)", False, None),
         Variable("joint.fit", 1202, "Real", "m", "um", -1e-05, -0.0005, 0.0001, 1, None, "Rivet diameter - hole diameter, negative = clearance", "paper section 4.1 (3)", False, "it is part of the geometry"),
         Variable("joint.swell", 1203, "Real", "m", "um", 4e-06, 0.0, 5e-05, 1, None, "Growth of the rivet's diameter by riveting, added to the fit", "calibrated to the paper's crossover of head and middle stress in -0.02...0 mm", False, "it is part of the geometry"),
@@ -251,7 +273,7 @@ PARAMETERS = {
         Variable("oil.mu_b", 1311, "Real", "1", None, 0.12, 0.0, 1.0, 1, None, "Boundary friction coefficient of asperities (mixed lubrication)", "assumed (mild set L)", False, None),
         Variable("oil.s_0", 1312, "Real", "1", None, 0.006, 0.0001, 1.0, 1, None, "Slide-roll ratio at which asperity friction is 71 % of mu_b", "tangential creep of a Hertz contact saturates near 3 mu Q/(G a b C) = 0.5...0.7 %", False, None),
         Variable("oil.sigma_race", 1313, "Real", "m", "um", 2e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and race", "assumed (mild set L)", False, "it is part of the geometry"),
-        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket", "assumed (mild set L)", False, "it is part of the geometry"),
+        Variable("oil.sigma_pocket", 1314, "Real", "m", "um", 6e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of ball and pocket, floor of a film in the pocket", "assumed (mild set L)", False, "it is part of the geometry"),
         Variable("oil.sigma_land", 1315, "Real", "m", "um", 8e-07, 1e-09, 1e-05, 1, None, "Composite RMS roughness of cage and outer ring lands", "assumed (turned and ground lands)", False, "it is part of the geometry"),
         Variable("oil.rho", 1316, "Real", "kg/m3", None, 900.0, 100.0, 2000.0, 1, None, "Density of the oil at the temperature oil.T_0", "aviation oil, hot", False, None),
         Variable("oil.flow", 8201, "Real", "m3/s", "L/min", 0.0, 0.0, 0.1, 1, None, "Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)", "0: not known, the mixture has the density oil.rho_mix", False, None),
@@ -293,6 +315,19 @@ PARAMETERS = {
         Variable("housing.expansion", 8237, "Real", "1/K", None, 1.17e-05, 0.0, 0.0001, 1, None, "Thermal expansion of the housing, whose seat has the outer ring's temperature", "steel", False, "it is a property of a body"),
         Variable("gravity.y", 1501, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start", "off", False, None),
         Variable("gravity.z", 1502, "Real", "m/s2", None, 0.0, -1000.0, 1000.0, 1, None, "Gravity along Z of the fixed frame", "off", False, None),
+        Variable("housing.motion", 9600, "HousingMotion", "1", None, 1, None, None, 1, None, "Whether the housing's motion is given or follows from springs", "outer ring given", False, "it decides on the states and their meaning"),
+        Variable("housing.m", 9601, "Real", "kg", None, 5.0, 0.01, 10000.0, 1, None, "Mass of the housing with the outer ring", "assumed: a small pillow block", False, "it is a property of a body"),
+        Variable("housing.J", 9602, "Real", "kg.m2", None, 0.01, 1e-06, 1000.0, 1, None, "Moment of inertia of the housing with the outer ring about Y and Z", "assumed: a small pillow block", False, "it is a property of a body"),
+        Variable("housing.k_x", 9603, "Real", "N/m", None, 100000000.0, 0.0, 1000000000000.0, 1, None, "Stiffness of the housing's support along X", "assumed: 700 Hz with housing.m", False, "it is a property of a body"),
+        Variable("housing.k_y", 9604, "Real", "N/m", None, 100000000.0, 0.0, 1000000000000.0, 1, None, "Stiffness of the housing's support along Y", "assumed: 700 Hz with housing.m", False, "it is a property of a body"),
+        Variable("housing.k_z", 9605, "Real", "N/m", None, 100000000.0, 0.0, 1000000000000.0, 1, None, "Stiffness of the housing's support along Z", "assumed: 700 Hz with housing.m", False, "it is a property of a body"),
+        Variable("housing.c_x", 9606, "Real", "N.s/m", None, 1000.0, 0.0, 10000000.0, 1, None, "Damping of the housing's support along X", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.c_y", 9607, "Real", "N.s/m", None, 1000.0, 0.0, 10000000.0, 1, None, "Damping of the housing's support along Y", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.c_z", 9608, "Real", "N.s/m", None, 1000.0, 0.0, 10000000.0, 1, None, "Damping of the housing's support along Z", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.k_tilt_y", 9609, "Real", "N.m/rad", None, 100000.0, 0.0, 10000000000.0, 1, None, "Stiffness of the housing's support about Y", "assumed", False, "it is a property of a body"),
+        Variable("housing.k_tilt_z", 9610, "Real", "N.m/rad", None, 100000.0, 0.0, 10000000000.0, 1, None, "Stiffness of the housing's support about Z", "assumed", False, "it is a property of a body"),
+        Variable("housing.c_tilt_y", 9611, "Real", "N.m.s/rad", None, 1.0, 0.0, 100000.0, 1, None, "Damping of the housing's support about Y", "assumed: 2 % of critical", False, "it is a property of a body"),
+        Variable("housing.c_tilt_z", 9612, "Real", "N.m.s/rad", None, 1.0, 0.0, 100000.0, 1, None, "Damping of the housing's support about Z", "assumed: 2 % of critical", False, "it is a property of a body"),
         Variable("frame.radius", 1511, "Real", "m", "mm", 0.0, 0.0, 2.0, 1, None, "Distance of the bearing from the axis of frame.omega, which lies on -Y", "no arm", False, "it is part of the geometry"),
         Variable("pulse.F_r", 1601, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along the radial load", "no impact (paper section 4.1 (3): 1401 N)", False, None),
         Variable("pulse.F_a", 1602, "Real", "N", None, 0.0, -100000.0, 100000.0, 1, None, "Amplitude of the built-in half-sine impacts along +X", "no impact (paper section 4.1 (3): 241 N)", False, None),
@@ -402,6 +437,14 @@ OUTPUTS = {
         Variable("housing.M_y", 2154, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Y, at the outer ring's centre", None, False, None),
         Variable("housing.M_z", 2155, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about Z, at the outer ring's centre", None, False, None),
         Variable("housing.M_x", 2156, "Real", "N.m", None, None, None, None, 1, "ring", "Moment on the housing about X, at the outer ring's centre", None, False, None),
+        Variable("housing.u_x", 9650, "Real", "m", "um", None, None, None, 1, "ring", "Displacement of the outer ring along X; on springs from its place at the start", None, False, None),
+        Variable("housing.u_y", 9651, "Real", "m", "um", None, None, None, 1, "ring", "Displacement of the outer ring along Y; on springs from its place at the start", None, False, None),
+        Variable("housing.u_z", 9652, "Real", "m", "um", None, None, None, 1, "ring", "Displacement of the outer ring along Z; on springs from its place at the start", None, False, None),
+        Variable("housing.u_tilt_y", 9653, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the outer ring about Y", None, False, None),
+        Variable("housing.u_tilt_z", 9654, "Real", "rad", "deg", None, None, None, 1, "ring", "Tilt of the outer ring about Z", None, False, None),
+        Variable("housing.a_x", 9655, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the outer ring along X: what an accelerometer on the housing measures; at the last step", None, False, None),
+        Variable("housing.a_y", 9656, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the outer ring along Y: what an accelerometer on the housing measures; at the last step", None, False, None),
+        Variable("housing.a_z", 9657, "Real", "m/s2", None, None, None, None, 1, "ring", "Acceleration of the outer ring along Z: what an accelerometer on the housing measures; at the last step", None, False, None),
         Variable("shaft.R_x", 2161, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along X", None, False, None),
         Variable("shaft.R_y", 2162, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Y", None, False, None),
         Variable("shaft.R_z", 2163, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Z", None, False, None),
@@ -503,7 +546,7 @@ OUTPUTS = {
         Variable("stat.Q_c_rms", 5003, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: RMS", None, False, None),
         Variable("stat.Q_c_p999", 5004, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: 99.9 % quantile", None, False, None),
         Variable("stat.Q_c_max", 5005, "Real", "N", None, None, None, None, 1, "stat", "Pocket force of all balls pooled: largest", None, False, None),
-        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball touches its pocket", None, False, None),
+        Variable("stat.contact_duty", 5006, "Real", "1", None, None, None, None, 1, "stat", "Part of the time that a ball presses on its pocket, or on the oil in it", None, False, None),
         Variable("stat.cage_omega", 5007, "Real", "rad/s", "rev/min", None, None, None, 1, "stat", "Mean cage speed", None, False, None),
         Variable("stat.eccentricity", 5008, "Real", "1", None, None, None, None, 1, "stat", "Mean eccentricity of the cage", None, False, None),
         Variable("stat.dislocation_max", 5009, "Real", "m", "um", None, None, None, 1, "stat", "Largest dislocation of the cage halves", None, False, None),

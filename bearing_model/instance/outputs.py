@@ -62,6 +62,10 @@ def ring_outputs(model, w, y_dot):
     values |= {f"housing.F_{name}": F[i] for i, name in enumerate("xyz")} | {
         f"housing.M_{name}": M[i] for i, name in enumerate("xyz")
     }
+    outer = spread((*given.outer_x, *given.outer_a), w.x)
+    tilts = ring_tilts(*spread((given.outer_beta, given.outer_gamma), w.x))
+    names = [f"u_{i}" for i in "xyz"] + [f"a_{i}" for i in "xyz"] + ["u_tilt_y", "u_tilt_z"]
+    values |= {f"housing.{name}": value for name, value in zip(names, (*outer, *tilts), strict=True)}
     values |= {f"shaft.R_{name}": w.ring.F[i] for i, name in enumerate("xyz")} | {
         "shaft.R_My": w.ring.M[1],
         "shaft.R_Mz": w.ring.M[2],

@@ -11,6 +11,7 @@ import numpy as np
 from bearing_model.cage.cage import cage_orbit_scale, cage_refusal, cage_vibrates
 from bearing_model.cage.common.centrifugal import cage_centrifugal
 from bearing_model.cage.common.pocket_spheres_setup import spheres_derive
+from bearing_model.cage.common.pocket_squeeze import pocket_squeeze_derive
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     ELASTIC_SCALES,
@@ -27,6 +28,7 @@ from bearing_model.generated.variables import (
     Z,
 )
 from bearing_model.physics.hertz import Hertz, hertz_contact
+from bearing_model.physics.race_surface import RaceSurface, race_surface_of, race_surfaces_given
 from bearing_model.physics.ring_fit import ring_fit_of
 from bearing_model.rivet import rivet_table
 from bearing_model.rivet.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
@@ -44,6 +46,7 @@ class Race(NamedTuple):
     horizontal: float  # F_H / F_R = 2 R_x / R of the ball
     ln_Lambda: float  # ln of Lambda at U = 1 m/s, Q = 1 N
     hertz: Hertz
+    surface: RaceSurface
 
 
 class Derived(SimpleNamespace):
@@ -78,8 +81,10 @@ def race_modulus(p):
     return ring / (1.0 + ring / ball)
 
 
-def derive_race(p, f, side):
-    """Constants of the contacts with one race; side: -1 for the inner race, +1 for the outer one."""
+def derive_race(p, f, side, surface):
+    """Constants of the contacts with one race; side: -1 for the inner race, +1 for the outer one; surface: p.inner or
+    p.outer.
+    """
     D, R, gamma = p.bearing.D, 0.5 * p.bearing.D, p.bearing.D / p.bearing.d_m
     E_star = race_modulus(p)
     rho_x, rho_y = 1.0 / (R * (1.0 + side * gamma)), 1.0 / R - 1.0 / (f * D)
@@ -92,6 +97,7 @@ def derive_race(p, f, side):
         horizontal=2.0 / (rho_x * R),
         ln_Lambda=ln_film(2.0 * E_star, 1.0 / rho_x, hertz.k, p, p.oil.sigma_race),
         hertz=hertz,
+        surface=race_surface_of(surface, 0.5 * (p.bearing.d_m + side * D), hertz),
     )
 
 
@@ -147,8 +153,9 @@ def derive_balls(p, d):
     d.m = p.bearing.rho * np.pi / 6.0 * D**3
     d.J = 0.1 * d.m * D**2
     d.drag = 0.5 * p.oil.C_d * reference_density(p) * 0.25 * np.pi * D**2
-    d.inner = derive_race(p, p.bearing.f_i, -1.0)
-    d.outer = derive_race(p, p.bearing.f_e, 1.0)
+    d.inner = derive_race(p, p.bearing.f_i, -1.0, p.inner)
+    d.outer = derive_race(p, p.bearing.f_e, 1.0, p.outer)
+    d.rough = race_surfaces_given(p)
     d.fit = ring_fit_of(p)
     derive_inlets(p, d)
     derive_mixture(p, d)
@@ -176,6 +183,7 @@ def derive_pockets(p, d):
     d.ln_pocket_rigid = np.log(shape * R_x / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R_x)
     phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z + p.pocket.dtheta, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
+    pocket_squeeze_derive(p, d)
     d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
 
 

@@ -7,6 +7,7 @@ A name that Python reserves has an underscore behind it: p.bearing.lambda_.
 import copy
 import keyword
 import math
+import re
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -20,6 +21,7 @@ from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, 
 ENUMERATIONS = (
     variables.TiltMode,
     variables.RingMotion,
+    variables.HousingMotion,
     variables.CageMaterial,
     variables.CageModel,
     variables.CageShape,
@@ -38,7 +40,7 @@ TYPES = {enumeration.__name__: enumeration for enumeration in ENUMERATIONS}
 
 def place(name):
     """Group and member of a variable: "bearing.lambda" is p.bearing.lambda_."""
-    group, member = name.replace("[j]", "").replace("[k]", "").split(".")
+    group, member = re.sub(r"\[[jkn]\]", "", name).split(".")
     return group, member + "_" * keyword.iskeyword(member)
 
 
@@ -51,10 +53,7 @@ class Values:
             value = values.pop(name, variable.start)
             if variable.count > 1:
                 value = [value] * variable.count if np.ndim(value) == 0 else value
-                value = [
-                    values.pop(name.replace("[j]", f"[{j + 1}]").replace("[k]", f"[{j + 1}]"), v)
-                    for j, v in enumerate(value)
-                ]
+                value = [values.pop(re.sub(r"\[[jkn]\]", f"[{j + 1}]", name), v) for j, v in enumerate(value)]
                 require(len(value) == variable.count, f"{name}: {len(value)} values; {variable.count} are needed")
                 value = np.array([admit(variable, v) for v in value])
             else:
@@ -98,7 +97,7 @@ class Parameters(Values):
         for name, value in values.items():
             head, bracket, rest = name.partition("[")
             number, _, tail = rest.partition("]")
-            letter = next((x for x in "jk" if f"{head}[{x}]{tail}" in PARAMETERS), "") if bracket else ""
+            letter = next((x for x in "jkn" if f"{head}[{x}]{tail}" in PARAMETERS), "") if bracket else ""
             table_name = f"{head}[{letter}]{tail}" if letter else name
             require(table_name in PARAMETERS, f"{name}: unknown; variables are listed in docs/parameters.md")
             variable = PARAMETERS[table_name]
@@ -109,7 +108,7 @@ class Parameters(Values):
             group, member = place(table_name)
             new = np.array(p.value(table_name)) if variable.count > 1 else admit(variable, value)
             if variable.count > 1:
-                where = slice(None) if number in "jk" else int(number) - 1
+                where = slice(None) if number in "jkn" else int(number) - 1
                 new[where] = [admit(variable, v) for v in value] if np.ndim(value) else admit(variable, value)
             setattr(getattr(p, group), member, new)
             if variable.derives:
@@ -180,6 +179,8 @@ def check_ribbon(p):
         return
     guided = "a ribbon cage has no land on the outer ring; balls (2) is allowed"
     require(p.cage.guidance == variables.CageGuidance.BALLS, f"cage.guidance = outer: {guided}")
+    dry = "0 is allowed of a ribbon cage (cage.shape), whose pockets have no law of a film yet"
+    require(p.cage.pocket_filling == 0.0, f"cage.pocket_filling = {p.cage.pocket_filling}: {dry}")
     radius, own, depth = spheres_radius(p), p.cage.pocket_radius, p.cage.pocket_depth
     require(
         own == 0.0 or abs(own - radius) <= 1e-6 * radius,
@@ -206,6 +207,26 @@ def check_ribbon(p):
         "cage.pocket_fillet, cage.D_o - cage.D_i: the fillet and the edges leave no sphere; the sum of the squares of "
         f"the sines of their angles is {squares:g}, less than 0.95 is allowed",
     )
+
+
+def check_spall(p, race, bottom):
+    """A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the
+    ball, and its depth is small beside the ball, which rolls over its edges.  bottom: diameter of the groove's bottom.
+    """
+    D, parts = p.bearing.D, {name: getattr(getattr(p, race), f"spall_{name}") for name in ("length", "width", "depth")}
+    limits = {
+        "length": (0.5 * math.pi * bottom, "half the circumference of the groove's bottom"),
+        "width": (D, "bearing.D"),
+        "depth": (0.05 * D, "bearing.D/20"),
+    }
+    whole = (
+        f"a spall has {race}.spall_length, {race}.spall_width and {race}.spall_depth; more than 0 m is allowed, or 0 m for "
+        "all three"
+    )
+    for name, value in parts.items():
+        most, meaning = limits[name]
+        require(value <= most, f"{race}.spall_{name} = {value} m: at most {meaning}, {most:g} m, is allowed")
+        require(value > 0.0 or not any(parts.values()), f"{race}.spall_{name} = 0 m: {whole}")
 
 
 def check_geometry(p):
@@ -251,6 +272,8 @@ def check_geometry(p):
     )
     wider = f"0 or more than the outside diameter of the outer ring, {outside:g} m, is allowed"
     require(housing == 0.0 or housing > outside, f"housing.outside = {housing} m: {wider}")
+    check_spall(p, "inner", d_m - D)
+    check_spall(p, "outer", d_m + D)
     half = 0.5 * p.cage.width
     require(
         p.cage.land_width <= half,

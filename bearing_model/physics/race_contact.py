@@ -12,6 +12,8 @@ The outer race is the same with the outer ring's centre, axis and motion (outer_
 
 The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.py).
 
+Races that are not perfect have approaches and normals of their own (race_surface.py).
+
 No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.
 Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
     u_ball = (omega_ball - omega_m e_x) x R n,   u_race = v_ring + Omega x (p + R n) - v_ball - omega_m e_x x R n
@@ -35,8 +37,10 @@ from bearing_model.generated.variables import Lubrication, Traction
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
 from bearing_model.physics.hertz import hertz_damped, hertz_load
-from bearing_model.physics.outer_ring import outer_ring
+from bearing_model.physics.outer_ring import outer_ring, spread
+from bearing_model.physics.race_surface import race_surface_drop, race_surface_load, race_surface_waves
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_rate, ring_fit_speed
+from bearing_model.physics.rotor import Rotor, rotor_body_axes
 from bearing_model.physics.traction import (
     Q_FLOOR,
     traction_asperity_share,
@@ -128,70 +132,111 @@ def race_contact(race, R_g, R, lambda_, p, a, Omega, approach, omega_b, omega_m)
     e = radial / r
     L = along * a + (r - R_g) * e
     L_abs = np.sqrt(vec_dot(L, L))
-    c = SimpleNamespace(R=R, n=L / L_abs, t_1=vec_cross(a, e), approach=approach, spin=omega_b - Omega)
-    c.t_2 = vec_cross(c.n, c.t_1)
-    c.delta, c.delta_dot = L_abs - (race.r_g - R), vec_dot(c.n, approach)
-    c.Q_0 = hertz_load(race.hertz.K, c.delta)
-    c.Q = hertz_damped(c.Q_0, lambda_, c.delta_dot)
+    c = SimpleNamespace(R=R, n=L / L_abs, t_1=vec_cross(a, e), approach=approach)
+    c.delta, delta_dot = L_abs - (race.r_g - R), vec_dot(c.n, approach)
+    Q_0 = hertz_load(race.hertz.K, c.delta)
+    c.Q = hertz_damped(Q_0, lambda_, delta_dot)
+    c.damped = (c.Q - Q_0) * delta_dot
     c.sqrt_delta = np.sqrt(maximum(c.delta, 0.0))
+    return contact_motion(c, Omega, omega_b, omega_m)
 
-    arm = R * c.n
+
+def contact_motion(c, Omega, omega_b, omega_m):
+    """Slip and mean speed of a contact whose normal and approach are known."""
+    c.t_2, c.spin = vec_cross(c.n, c.t_1), omega_b - Omega
+    arm = c.R * c.n
     orbit = vec_cross(vec(omega_m, 0.0, 0.0), arm)
-    u_ball, u_race = vec_cross(omega_b, arm) - orbit, vec_cross(Omega, arm) - approach - orbit
+    u_ball, u_race = vec_cross(omega_b, arm) - orbit, vec_cross(Omega, arm) - c.approach - orbit
     c.slip = vec_across(u_ball - u_race, c.n)
     c.roll = vec_across(0.5 * (u_ball + u_race), c.n)
     return c
+
+
+def surface_contact(race, R_g, R, lambda_, ring, w):
+    """The contact where the race is not perfect; stored: its elastic energy [J], damped: power of its
+    damping [W].
+
+    ring: Rotor whose body axes turn with the race; w: the balls' motions.
+    """
+
+    def local(v):
+        return vec_local(v, w.cos_theta, w.sin_theta)
+
+    p = vec(w.x, w.r, 0.0) - local(ring.x)
+    a, Omega = local(ring.a), local(ring.Omega)
+    along = vec_dot(p, a)
+    radial = p - along * a
+    r = np.sqrt(vec_dot(radial, radial))
+    e = radial / r
+    t = vec_cross(a, e)
+    L = along * a + (r - R_g) * e
+    L_abs = np.sqrt(vec_dot(L, L))
+    n = L / L_abs
+
+    # height and drop at the ball's angle
+    cos_phi, sin_phi = vec_dot(e, local(ring.b_y)), vec_dot(e, local(ring.b_z))
+    height, slope = race_surface_waves(race.surface, cos_phi, sin_phi)
+    f = drop = 0.0 * cos_phi
+    if race.surface.spalled:
+        f, drop = race_surface_drop(race.surface, cos_phi, sin_phi)
+    Q_0, Q_spall, stored, delta = race_surface_load(race.surface, race.hertz, L_abs - (race.r_g - R) + height, f)
+
+    # minus the gradient of the energy, Q (n + q t); its direction is the normal
+    q = (slope - Q_spall / (Q_0 + 1e-30) * drop) / r
+    length = np.sqrt(1.0 + q * q)
+    approach = vec(w.v_x, w.v_r, w.v_t) - local(ring.v) - vec_cross(Omega, p)
+    c = SimpleNamespace(R=R, p=p, n=(n + q * t) / length, t_1=(t - q * n) / length, approach=approach, stored=stored)
+    c.delta, c.sqrt_delta = delta, np.sqrt(maximum(delta, 0.0))
+    rate = length * vec_dot(c.n, approach)
+    Q = Q_0 * maximum(1.0 + lambda_ * rate, 0.0)
+    c.Q, c.damped = Q * length, (Q - Q_0) * rate
+    return contact_motion(c, Omega, vec(w.omega_x, w.omega_r, w.omega_t), w.omega_m)
+
+
+def perfect_contacts(model, w, R_g):
+    """Contacts of all balls with both races where these are perfect, c.p: ball centres - ring centre."""
+    p, d = model.p, model.d
+    v_b, omega_b = vec(w.v_x, w.v_r, w.v_t), vec(w.omega_x, w.omega_r, w.omega_t)
+    position, contacts = vec(w.x, w.r, 0.0), []
+    for race, radius, ring in ((d.inner, R_g, w.ring), (d.outer, d.outer.R_g, outer_ring(model.ring_load, w.x))):
+        a, Omega, v, x = (vec_local(v, w.cos_theta, w.sin_theta) for v in (ring.a, ring.Omega, ring.v, ring.x))
+        p_b = position - x
+        approach = v_b - v - vec_cross(Omega, p_b)
+        c = race_contact(race, radius, d.R, p.bearing.lambda_, p_b, a, Omega, approach, omega_b, w.omega_m)
+        c.p = p_b
+        contacts.append(c)
+    return contacts
+
+
+def rough_contacts(model, w, R_g):
+    """The same where a race is not perfect."""
+    d, given, contacts = model.d, model.ring_load, []
+    rings = (w.ring, given.inner_angle), (outer_ring(given, w.x), given.outer_angle)
+    for race, radius, (ring, angle) in zip((d.inner, d.outer), (R_g, d.outer.R_g), rings, strict=True):
+        turned = Rotor(x=ring.x, v=ring.v, a=ring.a, Omega=ring.Omega)
+        rotor_body_axes(turned, *spread((np.cos(angle), np.sin(angle)), w.x))
+        contacts.append(surface_contact(race, radius, d.R, model.p.bearing.lambda_, turned, w))
+    w.race_stored = contacts[0].stored + contacts[1].stored
+    return contacts
 
 
 def race_contact_force(model, w):
     """Sets force and moment on the balls, their dissipated power and contact results, and the wrench on the inner ring."""
     p, d = model.p, model.d
     mixed = p.scene.lubrication == Lubrication.MIXED
-    v_b, omega_b = vec(w.v_x, w.v_r, w.v_t), vec(w.omega_x, w.omega_r, w.omega_t)
-    position = vec(w.x, w.r, 0.0)
-
-    # inner race: the ring's centre, axis, velocity in the balls' frames
-    a, Omega, v_i, x_i = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.ring.a, w.ring.Omega, w.ring.v, w.ring.x))
-    p_i = position - x_i
     R_g = d.inner.R_g + ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
-    inner = race_contact(
-        d.inner, R_g, d.R, p.bearing.lambda_, p_i, a, Omega, v_b - v_i - vec_cross(Omega, p_i), omega_b, w.omega_m
-    )
-    T_i = race_traction(model, d.inner, inner, mixed)
-    F_i = -inner.Q * inner.n + T_i.F_s + T_i.F_c
-
-    # outer race, likewise
-    ring = outer_ring(model.ring_load, w.x)
-    a, Omega, v_e, x_e = (vec_local(v, w.cos_theta, w.sin_theta) for v in (ring.a, ring.Omega, ring.v, ring.x))
-    p_e = position - x_e
-    outer = race_contact(
-        d.outer,
-        d.outer.R_g,
-        d.R,
-        p.bearing.lambda_,
-        p_e,
-        a,
-        Omega,
-        v_b - v_e - vec_cross(Omega, p_e),
-        omega_b,
-        w.omega_m,
-    )
-    T_e = race_traction(model, d.outer, outer, mixed)
-    F_e = -outer.Q * outer.n + T_e.F_s + T_e.F_c
+    inner, outer = (rough_contacts if d.rough else perfect_contacts)(model, w, R_g)
+    T_i, T_e = race_traction(model, d.inner, inner, mixed), race_traction(model, d.outer, outer, mixed)
+    F_i, F_e = (c.Q * -c.n + T.F_s + T.F_c for c, T in ((inner, T_i), (outer, T_e)))
 
     # sums on the balls, the wrench on the ring
     w.F = F_i + F_e
     w.M = T_i.M + T_e.M
-    w.race_dissipated = (
-        T_i.dissipated
-        + T_e.dissipated
-        + (inner.Q - inner.Q_0) * inner.delta_dot
-        + (outer.Q - outer.Q_0) * outer.delta_dot
-    )
+    w.race_dissipated = T_i.dissipated + T_e.dissipated + inner.damped + outer.damped
     w.inlet_dissipated = T_i.inlet_dissipated + T_e.inlet_dissipated
     w.spin_dissipated = T_i.spin_dissipated + T_e.spin_dissipated + 0.0 * w.x
     w.ring_F = vec_to_global(-F_i, w.cos_theta, w.sin_theta)  # by each ball, about the ring's centre
-    w.ring_M = vec_to_global(-vec_cross(p_i, F_i) - T_i.M, w.cos_theta, w.sin_theta)
+    w.ring_M = vec_to_global(-vec_cross(inner.p, F_i) - T_i.M, w.cos_theta, w.sin_theta)
     w.ring.F, w.ring.M = ball_array_sum(w.ring_F), ball_array_sum(w.ring_M)
 
     w.delta_i, w.delta_e, w.Q_i, w.Q_e, w.n_i, w.n_e = inner.delta, outer.delta, inner.Q, outer.Q, inner.n, outer.n

@@ -17,6 +17,7 @@ import numpy as np
 
 from bearing_model.generated.variables import RingMotion
 from bearing_model.physics.parameters import InputDerivatives
+from bearing_model.physics.race_surface import race_surfaces_given
 
 # Inputs that are a position and its velocity: group, position, velocity; the shaft's come first.
 MOTION = tuple(
@@ -47,6 +48,8 @@ class InputTrajectory:
     gravity: tuple = (0.0, 0.0)  # parameters gravity.y, gravity.z [m/s2]
     radius: float = 0.0  # parameter frame.radius [m]
     frame_angle: float = 0.0  # by which the frame has turned since the start, at t_0 [rad]
+    angles: tuple = (0.0, 0.0)  # by which inner and outer ring have turned since the start, at t_0 [rad]
+    angles_matter: bool = False  # whether a race is not perfect: else the rings' angles stay 0
 
 
 @dataclass(frozen=True)
@@ -75,9 +78,12 @@ class RingLoad:
     outer_beta_dot: float = 0.0
     outer_gamma_dot: float = 0.0
     outer_omega: float = 0.0
+    outer_a: tuple = (0.0, 0.0, 0.0)  # and its acceleration
     field: tuple = (0.0, 0.0, 0.0)  # gravity less the acceleration of the bearing's centre [m/s2]
     frame_omega: float = 0.0  # speed of the frame [rad/s] and its rate
     frame_omega_dot: float = 0.0
+    inner_angle: float = 0.0  # by which the rings have turned since the start [rad]; 0 of perfect races
+    outer_angle: float = 0.0
 
 
 def ring_cosines(tilt_y, tilt_z, tilt_y_dot, tilt_z_dot):
@@ -232,15 +238,16 @@ def motion_trajectory(p, given, now, h, history=None):
     return u
 
 
-def input_trajectory_update(p, u, t_0, t, frame_angle=0.0):
+def input_trajectory_update(p, u, t_0, t, frame_angle=0.0, angles=(0.0, 0.0)):
     """The trajectory of the inputs u (value and derivatives at t_0 [s]) from time t up to the next edge of a pulse;
-    frame_angle: that of the frame at t_0.
+    frame_angle, angles: those of the frame, of inner and outer ring at t_0.
     """
     i = pulse_index(p, t)
     active = has_pulses(p) and i >= 0 and t < pulse_start(p, i) + p.pulse.duration
     pulse = (p.pulse.F_r, p.pulse.F_a, pulse_start(p, i)) if active else (0.0, 0.0, 0.0)
+    gravity, matter = (p.gravity.y, p.gravity.z), race_surfaces_given(p)
     return InputTrajectory(
-        t_0, tuple(u), *pulse, np.pi / p.pulse.duration, (p.gravity.y, p.gravity.z), p.frame.radius, frame_angle
+        t_0, tuple(u), *pulse, np.pi / p.pulse.duration, gravity, p.frame.radius, frame_angle, angles, matter
     )
 
 
@@ -248,7 +255,10 @@ def input_trajectory_varies(trajectory):
     """Whether load or motion changes along the trajectory."""
     derivatives = [value for u in trajectory.u[1:] for group in vars(u).values() for value in vars(group).values()]
     gravity_turns = any(trajectory.gravity) and trajectory.u[0].frame.omega != 0.0
-    return trajectory.pulse_r != 0.0 or trajectory.pulse_a != 0.0 or gravity_turns or any(derivatives)
+    speeds = trajectory.u[0].shaft.omega, trajectory.u[0].housing.omega
+    races_turn = trajectory.angles_matter and any(speeds)
+    pulse = trajectory.pulse_r != 0.0 or trajectory.pulse_a != 0.0
+    return pulse or gravity_turns or races_turn or any(derivatives)
 
 
 def input_trajectory_at(trajectory, t):
@@ -277,6 +287,7 @@ def input_trajectory_here(trajectory, t):
         t_0=t,
         u=(input_trajectory_at(trajectory, t), rates, InputDerivatives()),
         frame_angle=frame_angle_at(trajectory, t),
+        angles=ring_angles_at(trajectory, t),
     )
 
 
@@ -285,6 +296,22 @@ def frame_angle_at(trajectory, t):
     tau, (w, w_1, w_2) = t - trajectory.t_0, (u.frame.omega for u in trajectory.u)
     return trajectory.frame_angle + tau * (
         w + tau * (w_1 / 2.0 + tau * (w_2 / 6.0 + tau * trajectory.u[2].frame.omega_dot / 24.0))
+    )
+
+
+def ring_angles_at(trajectory, t):
+    """Angles of the inner and the outer ring at time t [rad]; 0 of perfect races."""
+    if not trajectory.angles_matter:
+        return 0.0, 0.0
+    tau = t - trajectory.t_0
+
+    def turned(angle, w, w_1, w_2):
+        return angle + tau * (w + tau * (w_1 / 2.0 + tau * w_2 / 6.0))
+
+    inner, outer = trajectory.angles
+    return (
+        turned(inner, *(u.shaft.omega for u in trajectory.u)),
+        turned(outer, *(u.housing.omega for u in trajectory.u)),
     )
 
 
@@ -315,12 +342,14 @@ def ring_load_at(trajectory, t):
         u.shaft.tilt_y, u.shaft.tilt_z, u.shaft.tilt_y_dot, u.shaft.tilt_z_dot
     )
 
-    def rate(name):
-        return getattr(trajectory.u[1].shaft, name) + (t - trajectory.t_0) * getattr(trajectory.u[2].shaft, name)
+    def rate(name, group="shaft"):
+        first, second = (getattr(getattr(u, group), name) for u in trajectory.u[1:])
+        return first + (t - trajectory.t_0) * second
 
     def along_axes(group, name):
         return tuple(getattr(group, name + i) for i in "xyz")
 
+    inner_angle, outer_angle = ring_angles_at(trajectory, t)
     return RingLoad(
         F,
         M,
@@ -342,9 +371,12 @@ def ring_load_at(trajectory, t):
         outer_beta_dot=outer[2],
         outer_gamma_dot=outer[3],
         outer_omega=u.housing.omega,
+        outer_a=tuple(rate(f"v_{i}", "housing") for i in "xyz"),
         field=frame_field(trajectory, t, u),
         frame_omega=u.frame.omega,
         frame_omega_dot=u.frame.omega_dot,
+        inner_angle=inner_angle,
+        outer_angle=outer_angle,
     )
 
 

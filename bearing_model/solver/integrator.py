@@ -14,7 +14,7 @@ import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK23, RK45, Radau
 
 from bearing_model.cage.cage import cage_loads, cage_rubbing, cage_slip
-from bearing_model.generated.variables import OUTPUTS, WORK, RingMotion, Stress, Switch, Z
+from bearing_model.generated.variables import OUTPUTS, WORK, HousingMotion, RingMotion, Stress, Switch, Z
 from bearing_model.instance.breakage import Breakage
 from bearing_model.instance.energy import energy_terms, energy_total
 from bearing_model.instance.fatigue import FatigueChannel, fatigue_law, fatigue_law_in_hole
@@ -67,7 +67,7 @@ class Results:
         values = self.outputs | self.statistics
         if name in values:
             return values[name]
-        for letter in "jk":
+        for letter in "jkn":
             head, bracket, tail = name.partition("[")
             number, _, rest = tail.partition("]")
             array = f"{head}[{letter}]{rest}"
@@ -264,6 +264,8 @@ def simulate(
         )
     if tolerance is not None and not tolerance > 0.0:
         raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
+    if Parameters(parameters).housing.motion == HousingMotion.SUPPORTED:
+        raise ValueError("housing.motion = supported: the FMU alone integrates a housing on springs; given is allowed")
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     here = input_trajectory_update(
@@ -287,7 +289,8 @@ def simulate(
     )
     states, ledgers, rows = [y], [ledger.copy()], [first]
     for point in points[1:]:
-        u, peaks, t_0, angle = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t, here.frame_angle
+        u, peaks, t_0 = [Inputs(held(run.t)), *map(InputDerivatives, slopes(run.t))], [], run.t
+        angles = here.frame_angle, here.angles
         given, reached = u, here.u[0]
         u, history = (
             motion_trajectory(p, given, reached, point - t_0, history),
@@ -303,7 +306,7 @@ def simulate(
             energy_change += jump
         expansion += at_speed(model, given[0], run)
         while run.t < point:
-            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, angle), run.t, run.y
+            trajectory, begin, y_begin = input_trajectory_update(p, u, t_0, run.t, *angles), run.t, run.y
             varies = trajectory if input_trajectory_varies(trajectory) else None
             model = replace(model, ring_load=ring_load_at(trajectory, run.t), trajectory=varies)
             times, ys = run.segment(model, min(pulse_next_edge(p, run.t), point))

@@ -134,7 +134,8 @@ class Equilibrium:
         """Pi [J]."""
         z, d, ring_load = self.unknowns(free), self.model.d, self.model.ring_load
         w, tilt = self.contacts(z), z[3:5] / self.r
-        balls = hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)
+        perfect = hertz_energy(d.inner.hertz.K, w.delta_i) + hertz_energy(d.outer.hertz.K, w.delta_e)
+        balls = w.race_stored if d.rough else perfect
         balls = balls - (self.F_c + self.F_r) * w.r - self.F_x * w.x + 0.5 * K_0 * (w.x - self.x_0) ** 2
         off = z[:5] - self.centre
         support = 0.5 * self.k * np.sum((tilt - [ring_load.beta, ring_load.gamma]) ** 2)

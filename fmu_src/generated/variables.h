@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{6fc5158d-44cb-719d-3eae-4f36ed43dc38}"  // digest of the table
+#define MODEL_GUID "{aef22b21-e157-25b3-bed5-5e96f57c6843}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -21,6 +21,10 @@ enum {  // TiltMode
 enum {  // RingMotion
     RING_MOTION_FREE = 1,  // loads move the inner ring: shaft.F, shaft.M, impacts
     RING_MOTION_PRESCRIBED = 2,  // the inner ring moves as shaft.x, y, z, tilt_y, tilt_z and their rates say
+};
+enum {  // HousingMotion
+    HOUSING_MOTION_GIVEN = 1,  // the outer ring moves as housing.x, y, z, tilt_y, tilt_z and their rates say
+    HOUSING_MOTION_SUPPORTED = 2,  // the outer ring sits in a housing of mass m on springs, whose base moves as these inputs say
 };
 enum {  // CageMaterial
     CAGE_MATERIAL_BRONZE = 1,  // CuSn8
@@ -105,8 +109,27 @@ typedef struct {
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
     } ball;
     struct {
+        double spall_angle;  // [rad] Angle of the spall's middle on the outer ring at the start, from +Y toward +Z; it turns with the ring
+        double spall_length;  // [m] Length of the spall along the track
+        double spall_width;  // [m] Width of the spall across the track, in the middle of the contacts
+        double spall_depth;  // [m] Depth of the spall
+        double spall_edge;  // [m] Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge
+        double waviness[60];  // [m] Amplitude of n waves around the outer race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])
+        double waviness_phase[60];  // [rad] Phase of n waves around the outer race; phi from +Y toward +Z at the start, turning with the ring
+    } outer;
+    struct {
+        double spall_angle;  // [rad] Angle of the spall's middle on the inner ring at the start, from +Y toward +Z; it turns with the ring
+        double spall_length;  // [m] Length of the spall along the track
+        double spall_width;  // [m] Width of the spall across the track, in the middle of the contacts
+        double spall_depth;  // [m] Depth of the spall
+        double spall_edge;  // [m] Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge
+        double waviness[60];  // [m] Amplitude of n waves around the inner race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])
+        double waviness_phase[60];  // [rad] Phase of n waves around the inner race; phi from +Y toward +Z at the start, turning with the ring
+    } inner;
+    struct {
         double pocket_clearance;  // [m] Pocket diameter - ball diameter
         double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
+        double pocket_filling;  // [1] Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter
         double D_o;  // [m] Cage outer diameter (guided by the outer ring)
         double D_i;  // [m] Cage bore diameter
         double m;  // [kg] Mass of one cage half
@@ -136,6 +159,7 @@ typedef struct {
         double pocket_edge;  // [m] Radius of the edges of a ribbon half's pocket, at the cage's outer and inner diameter; 0 stands for cage.sheet/10
         int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
+        double modal_damping_high;  // [1] Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency
     } cage;
     struct {
         double dtheta[Z];  // [rad] Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation
@@ -171,7 +195,7 @@ typedef struct {
         double mu_b;  // [1] Boundary friction coefficient of asperities (mixed lubrication)
         double s_0;  // [1] Slide-roll ratio at which asperity friction is 71 % of mu_b
         double sigma_race;  // [m] Composite RMS roughness of ball and race
-        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket
+        double sigma_pocket;  // [m] Composite RMS roughness of ball and pocket, floor of a film in the pocket
         double sigma_land;  // [m] Composite RMS roughness of cage and outer ring lands
         double rho;  // [kg/m3] Density of the oil at the temperature oil.T_0
         double flow;  // [m3/s] Flow of oil through the bearing, from which the density of the mixture follows (Parker, NASA TP-2275)
@@ -217,6 +241,19 @@ typedef struct {
         double E;  // [Pa] Young's modulus of the housing
         double nu;  // [1] Poisson's ratio of the housing
         double expansion;  // [1/K] Thermal expansion of the housing, whose seat has the outer ring's temperature
+        int motion;  // HousingMotion: Whether the housing's motion is given or follows from springs
+        double m;  // [kg] Mass of the housing with the outer ring
+        double J;  // [kg.m2] Moment of inertia of the housing with the outer ring about Y and Z
+        double k_x;  // [N/m] Stiffness of the housing's support along X
+        double k_y;  // [N/m] Stiffness of the housing's support along Y
+        double k_z;  // [N/m] Stiffness of the housing's support along Z
+        double c_x;  // [N.s/m] Damping of the housing's support along X
+        double c_y;  // [N.s/m] Damping of the housing's support along Y
+        double c_z;  // [N.s/m] Damping of the housing's support along Z
+        double k_tilt_y;  // [N.m/rad] Stiffness of the housing's support about Y
+        double k_tilt_z;  // [N.m/rad] Stiffness of the housing's support about Z
+        double c_tilt_y;  // [N.m.s/rad] Damping of the housing's support about Y
+        double c_tilt_z;  // [N.m.s/rad] Damping of the housing's support about Z
     } housing;
     struct {
         double y;  // [m/s2] Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start
@@ -370,6 +407,14 @@ typedef struct {
         scalar M_y;  // [N.m] Moment on the housing about Y, at the outer ring's centre
         scalar M_z;  // [N.m] Moment on the housing about Z, at the outer ring's centre
         scalar M_x;  // [N.m] Moment on the housing about X, at the outer ring's centre
+        scalar u_x;  // [m] Displacement of the outer ring along X; on springs from its place at the start
+        scalar u_y;  // [m] Displacement of the outer ring along Y; on springs from its place at the start
+        scalar u_z;  // [m] Displacement of the outer ring along Z; on springs from its place at the start
+        scalar u_tilt_y;  // [rad] Tilt of the outer ring about Y
+        scalar u_tilt_z;  // [rad] Tilt of the outer ring about Z
+        scalar a_x;  // [m/s2] Acceleration of the outer ring along X: what an accelerometer on the housing measures; at the last step
+        scalar a_y;  // [m/s2] Acceleration of the outer ring along Y: what an accelerometer on the housing measures; at the last step
+        scalar a_z;  // [m/s2] Acceleration of the outer ring along Z: what an accelerometer on the housing measures; at the last step
         scalar power;  // [W] Power of the housing into balls and cage
     } housing;
     struct {
@@ -481,7 +526,7 @@ typedef struct {
         scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
         scalar Q_c_p999;  // [N] Pocket force of all balls pooled: 99.9 % quantile
         scalar Q_c_max;  // [N] Pocket force of all balls pooled: largest
-        scalar contact_duty;  // [1] Part of the time that a ball touches its pocket
+        scalar contact_duty;  // [1] Part of the time that a ball presses on its pocket, or on the oil in it
         scalar cage_omega;  // [rad/s] Mean cage speed
         scalar eccentricity;  // [1] Mean eccentricity of the cage
         scalar dislocation_max;  // [m] Largest dislocation of the cage halves
@@ -619,4 +664,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 363 };  // time is the first
+enum { N_VARIABLES = 400 };  // time is the first

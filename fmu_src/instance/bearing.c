@@ -7,6 +7,7 @@
 #include "instance/outputs.h"
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
+#include "physics/housing.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
 #include "solver/start.h"
@@ -210,6 +211,15 @@ static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     input_trajectory_update(present_parameters(b), u, s->integrator.t, s->integrator.t, trajectory);
     trajectory->frame_angle = s->frame_angle;
+    trajectory->inner_angle = s->ring_angle[0], trajectory->outer_angle = s->ring_angle[1];
+}
+
+// Puts the outer ring where a housing on springs is.
+static void place_housing(Bearing *b)
+{
+    const bool supported = present_parameters(b)->housing.motion == HOUSING_MOTION_SUPPORTED;
+    b->model.housing = supported ? &b->s.integrator.now.housing : NULL;
+    if (supported) housing_place(b->model.housing, &b->ring_load);
 }
 
 // Puts loads and motions of the present inputs u_now on the bearing and holds them: there is no trajectory to follow.
@@ -219,6 +229,7 @@ static void hold_ring_load(Bearing *b)
     present_trajectory(b, &present);
     b->model.trajectory = NULL;
     ring_load_at(&present, b->s.integrator.t, &b->ring_load);
+    place_housing(b);
 }
 
 // The parameters that the model has at the temperatures in u.
@@ -243,7 +254,7 @@ static void derive_at(Bearing *b, const Inputs *u)
 // Memory for the cage, taken when a scene first needs it.  Returns whether there is any.
 static bool room_for_cage(Bearing *b)
 {
-    const size_t size = cage_size(&b->s.p);
+    const size_t size = cage_size(present_parameters(b));
     if (size == 0 || b->cage != NULL) return true;
     b->cage = aligned_new(size);
     if (b->cage == NULL)
@@ -352,11 +363,15 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
     memcpy(&s->p_now, &s->p, sizeof s->p);
-    s->frame_angle = 0.0;
+    s->frame_angle = s->ring_angle[0] = s->ring_angle[1] = 0.0;
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
     s->integrator.h = FIRST_STEP;
     derive(b);
+    if (b->model.housing) {
+        housing_at_base(&b->ring_load, &s->integrator.now.housing);
+        place_housing(b);
+    }
 
     // quasi-static start
     const double residual = start_state(&b->kernels, &b->model, &b->w, s->integrator.now.y);
@@ -370,6 +385,10 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     }
 
     // first evaluation; the start counts as an accepted step of length 0
+    if (b->model.housing) {  // its springs carry the load of the start
+        b->kernels.rhs(&b->model, t_start, s->integrator.now.y, b->y_dot, &b->w);
+        housing_load(&b->model, &b->w, &s->integrator.now.housing, s->integrator.now.housing.rest);
+    }
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
@@ -382,18 +401,20 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 
 // ---- stepping ---------------------------------------------------------------------------------------------
 // Sets the trajectory of the inputs u from the present time to `stop`, the next edge of a pulse or the end of a step of
-// a fixed length, in a communication step that began at t_0 with the frame at frame_angle.  Where the load on the ring
+// a fixed length, in a communication step that began at t_0 with the frame and the rings at these angles.  Where the load on the ring
 // jumps, the derivative at the present state is no longer current.
 static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle,
-                             double stop)
+                             const double ring_angle[2], double stop)
 {
     InstanceState *s = &b->s;
     const RingLoad before = b->ring_load;
     input_trajectory_update(&s->p, u, t_0, s->integrator.t, &b->trajectory);
     if (is_fixed(b)) pulse_average(&s->p, stop, 0.5 * (stop - s->integrator.t), &b->trajectory);
     b->trajectory.frame_angle = frame_angle;
+    b->trajectory.inner_angle = ring_angle[0], b->trajectory.outer_angle = ring_angle[1];
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
+    place_housing(b);
 
     // With fixed steps, the next evaluation is at the end of the next step: the new load grows over that step.
     if (is_fixed(b) || memcmp(&b->ring_load, &before, sizeof before) == 0) return;
@@ -406,6 +427,8 @@ static void end_trajectory(Bearing *b)
     InstanceState *s = &b->s;
     input_trajectory_rates_at(&b->trajectory, s->integrator.t, &s->u_now, &s->u_now_dot);
     s->frame_angle = frame_angle_at(&b->trajectory, s->integrator.t);
+    if (b->trajectory.angles_matter != 0.0)
+        ring_angles_at(&b->trajectory, s->integrator.t, &s->ring_angle[0], &s->ring_angle[1]);
     hold_ring_load(b);
     if (s->p.ring.motion == RING_MOTION_PRESCRIBED) ring_follow(&b->ring_load, s->integrator.now.y);
 }
@@ -446,6 +469,7 @@ PartStatus part_step(Bearing *b, double t_end)
 {
     InstanceState *s = &b->s;
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
+    const double ring_angle[2] = {s->ring_angle[0], s->ring_angle[1]};
     Inputs u[INPUT_ORDERS + 1];
     if (!check_change(b) || !check_inputs(b, t_end - t_begin)) return PART_ERROR;
     motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u, &s->lag);
@@ -467,7 +491,7 @@ PartStatus part_step(Bearing *b, double t_end)
     int status = 0;
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
-        begin_trajectory(b, u, t_begin, frame_angle, stop);
+        begin_trajectory(b, u, t_begin, frame_angle, ring_angle, stop);
         const long left = (long)fmax(most - (s->integrator.steps - steps_before), 1.0);
         status = integrator_advance(b->integrator, stop, left);
         end_trajectory(b);
@@ -527,7 +551,7 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     parameters_at(b, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
-    const Model model = {&hot, &d, &b->ring_load, NULL, cage_derive(&hot, &d, b->cage)};
+    const Model model = {&hot, &d, &b->ring_load, NULL, cage_derive(&hot, &d, b->cage), b->model.housing};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
     const Evaluation at = {&model, s->integrator.now.y,   y_dot,
                            &w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};

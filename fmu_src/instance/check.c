@@ -234,6 +234,13 @@ static bool check_ribbon(Bearing *b)
             "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed");
         return false;
     }
+    if (p->cage.pocket_filling != 0.0) {
+        bearing_log(b, LOG_ERROR,
+                    "cage.pocket_filling = %g: 0 is allowed of a ribbon cage (cage.shape), whose pockets have "
+                    "no law of a film yet",
+                    p->cage.pocket_filling);
+        fine = false;
+    }
     fine &= require(b, p->cage.pocket_radius == 0.0 || fabs(p->cage.pocket_radius - radius) <= 1e-6 * radius,
                     "cage.pocket_radius = %g m: 0 or (bearing.D + cage.pocket_clearance)/2 = %g m is allowed",
                     p->cage.pocket_radius, radius);
@@ -257,6 +264,34 @@ static bool check_ribbon(Bearing *b)
                    "cage.pocket_fillet, cage.D_o - cage.D_i: the fillet and the edges leave no sphere; "
                    "the sum of the squares of the sines of their angles is %g, less than %g is allowed",
                    sin_chi * sin_chi + sin_eta * sin_eta, most);
+}
+
+// A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the ball, and its
+// depth is small beside the ball, which rolls over its edges.
+static bool check_spall(Bearing *b, const char *race, double length, double width, double depth,
+                        double bottom)
+{
+    static const char *const NAME[] = {"length", "width", "depth"};
+    const double D = b->s.p.bearing.D, value[] = {length, width, depth},
+                 most[] = {0.5 * PI * bottom, D, 0.05 * D};
+    static const char *const LIMIT[] = {"half the circumference of the groove's bottom", "bearing.D",
+                                        "bearing.D/20"};
+    const bool any = length > 0.0 || width > 0.0 || depth > 0.0;
+    bool fine = true;
+    for (int i = 0; i < 3; i++) {
+        if (value[i] > most[i]) {
+            bearing_log(b, LOG_ERROR, "%s.spall_%s = %g m: at most %s, %g m, is allowed", race, NAME[i],
+                        value[i], LIMIT[i], most[i]);
+            fine = false;
+        } else if (any && value[i] == 0.0) {
+            bearing_log(b, LOG_ERROR,
+                        "%s.spall_%s = 0 m: a spall has %s.spall_length, %s.spall_width and %s.spall_depth; "
+                        "more than 0 m is allowed, or 0 m for all three",
+                        race, NAME[i], race, race, race);
+            fine = false;
+        }
+    }
+    return fine;
 }
 
 // Checks parameters against each other.
@@ -362,13 +397,23 @@ static bool check_geometry(Bearing *b)
             fine = false;
         }
     }
+    fine &=
+        check_spall(b, "inner", p->inner.spall_length, p->inner.spall_width, p->inner.spall_depth, d_m - D);
+    fine &=
+        check_spall(b, "outer", p->outer.spall_length, p->outer.spall_width, p->outer.spall_depth, d_m + D);
+    const bool moved = p->housing.motion != HOUSING_MOTION_SUPPORTED || p->solver.method != METHOD_EXPLICIT;
+    if (!moved)
+        bearing_log(b, LOG_ERROR,
+                    "housing.motion = supported: solver.method = explicit has no housing on springs; allowed "
+                    "is given, or "
+                    "solver.method = verlet or fixed");
     const bool counted = p->scene.breakage != SWITCH_ON || p->scene.stress == STRESS_FATIGUE;
     if (!counted)
         bearing_log(
             b, LOG_ERROR,
             "scene.breakage = on: rivets break by their damage, which scene.stress = fatigue alone counts; "
             "allowed is off, or on with scene.stress = fatigue");
-    return check_cage(b) && fine && counted;
+    return check_cage(b) && fine && counted && moved;
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
@@ -671,6 +716,7 @@ bool check_saved(Bearing *b)
                             "derivatives of inputs");
     fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
     fine = fine && saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle");
+    fine = fine && saved_is(b, values_are_sane(s->ring_angle, 2), "the rings' angles");
     fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
     fine = fine &&
            saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");

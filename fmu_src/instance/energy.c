@@ -27,6 +27,7 @@ static scalar ball_energy(const Model *model, const scalar *y, int j)
 // Elastic energy of the race contacts.
 static scalar race_energy(const Model *model, const Work *w)
 {
+    if (model->d->rough) return ball_array_sum(w->race_stored);
     const wide K_i = wide_set(model->d->inner.hertz.K), K_e = wide_set(model->d->outer.hertz.K);
     ball_array stored;
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH)

@@ -20,6 +20,7 @@
 #include "instance/outputs.c"
 #include "physics/ball.c"
 #include "physics/drag.c"
+#include "physics/housing.h"
 #include "physics/land_film.c"
 #include "physics/race_contact.c"
 #include "physics/rhs.c"
@@ -52,7 +53,7 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
     Work work = {0};
     scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
     const int states = cage_states(model);
-    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes};
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes, model->housing};
     scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
     if (model->trajectory) {
         scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
@@ -76,6 +77,19 @@ void jacobian_matrix(const Model *model, double t, const double *y, double *J)
     }
 }
 
+// The housing's motion where time goes on by dt.
+static void housing_drift(const Housing *housing, double dt, RingLoad *ring_load)
+{
+    for (int i = 0; i < 3; i++) {
+        ring_load->outer_x[i] += scalar_dual(0.0, dt * housing->v[i]);
+        ring_load->outer_v[i] += scalar_dual(0.0, dt * housing->a[i]);
+    }
+    ring_load->outer_beta += scalar_dual(0.0, dt * housing->v[3]);
+    ring_load->outer_gamma += scalar_dual(0.0, dt * housing->v[4]);
+    ring_load->outer_beta_dot += scalar_dual(0.0, dt * housing->a[3]);
+    ring_load->outer_gamma_dot += scalar_dual(0.0, dt * housing->a[4]);
+}
+
 void jacobian_outputs(const Model *model, const double *trajectory, double t, double dt, const double *du,
                       const double *y, const double *dy, double *d_out)
 {
@@ -85,11 +99,15 @@ void jacobian_outputs(const Model *model, const double *trajectory, double t, do
     Outputs out = {0};
     scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
     const int states = cage_states(model);
-    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes};
+    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes, model->housing};
     scalars_join(TRAJECTORY_SCALARS, trajectory, NULL, (scalar *)&inputs);
     if (du)
         for (int i = 0; i < N_INPUTS; i++) ((scalar *)&inputs.u[0])[i] += scalar_dual(0.0, du[i]);
     ring_load_at(&inputs, scalar_dual(t, dt), &ring_load);
+    if (model->housing) {
+        housing_place(model->housing, &ring_load);
+        housing_drift(model->housing, dt, &ring_load);
+    }
     scalars_join(states, y, dy, state);
     rhs(&dual, t, state, rate, &work);
     const Evaluation at = {&dual, state, rate, &work, cage_loads, rivet_rom_stress};

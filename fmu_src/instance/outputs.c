@@ -59,6 +59,11 @@ static void fill_ring(const Evaluation *at, Outputs *out)
     out->housing.F_z = F[2];
     out->housing.M_y = M[1];
     out->housing.M_z = M[2];
+    const RingLoad *outer = at->model->ring_load;
+    out->housing.u_x = outer->outer_x[0], out->housing.a_x = outer->outer_a[0];
+    out->housing.u_y = outer->outer_x[1], out->housing.a_y = outer->outer_a[1];
+    out->housing.u_z = outer->outer_x[2], out->housing.a_z = outer->outer_a[2];
+    ring_tilts(outer->outer_beta, outer->outer_gamma, &out->housing.u_tilt_y, &out->housing.u_tilt_z);
     out->bearing.friction_torque = -dot3(w->ring.M, w->ring.a);
 }
 

@@ -2,8 +2,10 @@
 // the elements' files.
 #include "cage/cage.h"
 #include "cage/common/centrifugal.h"
+#include "cage/common/pocket_squeeze.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
+#include "physics/race_surface.h"
 #include "physics/ring_fit.h"
 #include "physics/traction.h"
 #include "rivet/rivet_rom.h"
@@ -62,6 +64,42 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
     race->rolling = inlet(2.0 * E_star, 1.0 / rho_x, 1.0 / rho_y, p);
     race->horizontal = 2.0 / (rho_x * R);
     race->ln_Lambda = ln_film(2.0 * E_star, 1.0 / rho_x, race->hertz.k, p, p->oil.sigma_race);
+}
+
+// Waves and spall of a race (race_surface.h).
+static void derive_surface(const double amplitude[WAVES], const double phase[WAVES], double middle,
+                           double length, double width, double depth, double edge, double track, Race *race)
+{
+    RaceSurface *s = &race->surface;
+    for (int i = 0; i < WAVES; i++) {
+        s->re[i] = amplitude[i] * portable_cos(phase[i]);
+        s->im[i] = amplitude[i] * portable_sin(phase[i]);
+        if (amplitude[i] != 0.0) s->waves = i + 1;
+    }
+    s->track = track;
+    s->curvature = 1.0 / race->hertz.R_x;
+    s->spalled = length > 0.0 && width > 0.0 && depth > 0.0;
+    if (!s->spalled) return;
+    const double c = fmin(edge, 0.25 * length), R_x = race->hertz.R_x;
+    s->middle_cos = portable_cos(middle), s->middle_sin = portable_sin(middle);
+    s->half_length = 0.5 * length, s->half_width = 0.5 * width;
+
+    // u_1 (u_1 + c) = 2 R_x depth; a short spall ends before
+    s->u_1 = fmin(0.5 * (sqrt(c * c + 8.0 * R_x * depth) - c), s->half_length - c);
+    s->u_2 = s->u_1 + c;
+    s->bend = 1.0 + s->u_1 / c;
+    s->flank = s->half_width * s->half_width / (race->hertz.a_delta * race->hertz.a_delta);
+}
+
+static void derive_surfaces(const Parameters *p, Derived *d)
+{
+    const double bottom_i = 0.5 * (p->bearing.d_m - p->bearing.D),
+                 bottom_e = 0.5 * (p->bearing.d_m + p->bearing.D);
+    derive_surface(p->inner.waviness, p->inner.waviness_phase, p->inner.spall_angle, p->inner.spall_length,
+                   p->inner.spall_width, p->inner.spall_depth, p->inner.spall_edge, bottom_i, &d->inner);
+    derive_surface(p->outer.waviness, p->outer.waviness_phase, p->outer.spall_angle, p->outer.spall_length,
+                   p->outer.spall_width, p->outer.spall_depth, p->outer.spall_edge, bottom_e, &d->outer);
+    d->rough = race_surfaces_given(p);
 }
 
 // Density of the mixture; of the oil, where the flow gives the filling.
@@ -124,6 +162,7 @@ static void derive_balls(const Parameters *p, Derived *d)
     d->drag = 0.5 * p->oil.C_d * reference_density(p) * area;
     derive_race(p, p->bearing.f_i, -1.0, &d->inner);
     derive_race(p, p->bearing.f_e, 1.0, &d->outer);
+    derive_surfaces(p, d);
     d->fit = ring_fit_of(p);
     derive_inlets(p, d);
     derive_mixture(p, d);
@@ -328,6 +367,7 @@ void model_derive(const Parameters *p, Derived *d)
     memset(d, 0, sizeof *d);
     derive_balls(p, d);
     derive_pockets(p, d);
+    pocket_squeeze_derive(p, d);
     derive_cage(p, d);
     derive_lands(p, d);
     derive_relative(p, d);

@@ -27,6 +27,22 @@ typedef struct {
     double R_x;      // reduced radius in the rolling direction [m]
 } Hertz;
 
+enum { WAVES = 60 };  // orders of a race's waviness
+
+// Waves and spall of a race (race_surface.h); all is 0 of a perfect one.
+typedef struct {
+    int waves;                       // highest order with an amplitude
+    double re[WAVES], im[WAVES];     // A_n cos(phase_n), A_n sin(phase_n) [m]
+    bool spalled;                    // whether there is a spall
+    double middle_cos, middle_sin;   // of the angle of its middle
+    double track;                    // radius of the track [m]
+    double half_length, half_width;  // of the spall [m]
+    double u_1, u_2;   // distances from its edge to the end of the circle, to the largest drop [m]
+    double bend;       // 1 + u_1/(u_2 - u_1)
+    double curvature;  // 1/R_x [1/m]
+    double flank;      // drop at which the ball rests on the spall's flanks [m]
+} RaceSurface;
+
 typedef struct {
     double R_g;         // radius of the circle of groove-curvature centres [m]
     double r_g;         // groove radius f D [m]
@@ -35,6 +51,7 @@ typedef struct {
     double horizontal;  // F_H / F_R = 2 R_x / R of the ball
     double ln_Lambda;   // ln of Lambda at U = 1 m/s, Q = 1 N
     Hertz hertz;
+    RaceSurface surface;
 } Race;
 
 // A ring of the radius rho of its section that touches a pocket's sphere along a circle, the seam.
@@ -75,11 +92,23 @@ typedef struct {
     double inverse[RELATIVE_MOTIONS], part, tilt;
 } RelativeInertia;
 
+enum { SQUEEZE_NODES = 9 };  // of the polynomial of a pocket's film
+
+// Films of oil in the pockets (pocket_squeeze.h).
+typedef struct {
+    bool filled;                                        // false: dry pockets, nothing else is written
+    double node[SQUEEZE_NODES], newton[SQUEEZE_NODES];  // G(z) in Newton's form
+    double reach;                                       // largest gap that has a film [m]
+    double roughness_2, elastic;                        // sigma^2 [m2], h_e^2 / v^0.8
+    constants c, C, inv_reach;  // c [N.s], radial clearance [m], 1/reach of each pocket
+} PocketSqueeze;
+
 typedef struct {
     // balls and races
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
+    bool rough;  // whether a race is not perfect
     RingFit fit;
     double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
     double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
@@ -100,6 +129,7 @@ typedef struct {
     constants R_c;                     // radius of each pocket [m]
     Spheres spheres;                   // of a ribbon cage (pocket_spheres.c)
     constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z + dtheta of pocket j
+    PocketSqueeze squeeze;             // their films of oil
 
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
@@ -147,9 +177,11 @@ typedef struct {
     scalar t_0;                  // communication point [s]
     Inputs u[INPUT_ORDERS + 1];  // inputs there, and their derivatives
     scalar pulse_r, pulse_a;     // radial and axial amplitude of the half-sine in progress [N]; 0 if none is
-    scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
-    scalar gravity[2], radius;       // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
-    scalar frame_angle;              // by which the frame has turned since the start, at t_0 [rad]
+    scalar pulse_start, pulse_rate;   // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
+    scalar gravity[2], radius;        // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
+    scalar frame_angle;               // by which the frame has turned since the start, at t_0 [rad]
+    scalar inner_angle, outer_angle;  // by which the rings have turned since the start, at t_0 [rad]
+    scalar angles_matter;             // not 0 if a race is not perfect: else the rings' angles stay 0
 } InputTrajectory;
 
 // ---- loads and motions that the inputs impose on the bearing at one time; written by ring_load_at ---------
@@ -167,10 +199,16 @@ typedef struct {
     scalar outer_x[3], outer_v[3];
     scalar outer_beta, outer_gamma, outer_beta_dot, outer_gamma_dot, outer_omega;
     scalar outer_moves;  // not 0 if any of these is not
+    scalar outer_a[3];   // its acceleration
+    scalar base[5],
+        base_dot[5];  // inputs housing.*: x, y, z, cosines beta, gamma and their rates (housing.h)
 
     // the frame: gravity less the acceleration of the bearing's centre [m/s2], speed [rad/s] and its rate
     scalar field[3], frame_omega, frame_omega_dot;
     scalar frame_turns;  // not 0 if one of the last two is not
+
+    scalar inner_angle,
+        outer_angle;  // by which the rings have turned since the start [rad]; 0 of perfect races
 } RingLoad;
 
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes -----------
@@ -222,6 +260,9 @@ typedef struct {
     // (race_contact_force), pockets (cleared there, added by cage_pockets), drag (drag_force)
     ball_array race_dissipated, inlet_dissipated, spin_dissipated, pocket_dissipated, drag_dissipated;
 
+    // elastic energy of both race contacts [J], where a race is not perfect (race_contact_force)
+    ball_array race_stored;
+
     // stiff rates of the race contacts (race_contact_force): |traction|/|slip| [N.s/m], moment/spin about the
     // normal [N.m.s]
     ball_array g_i, g_e, g_spin_i, g_spin_e;
@@ -229,6 +270,10 @@ typedef struct {
     // stiff rates of the ball's velocities by the pockets, -d(acceleration)/d(velocity) [1/s] (cleared by
     // race_contact_force, added by cage_pockets)
     ball_array D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
+
+    // sum over the halves of D m m^T of the pockets' films, xx, rx, rr, tx, tr, tt [N.s/m]; not written in dry pockets
+    // (pocket.c)
+    ball_array squeeze[6];
 
     // wrench of the race contacts on the inner ring about its centre, global frame
     ball_array ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
@@ -266,6 +311,13 @@ typedef struct {
     ElasticWork elastic;
 } Work;
 
+enum { HOUSING_DOF = 5 };  // x, y, z, beta, gamma
+
+// A housing on springs (housing.h): position, velocity, acceleration, and the load at the start, which its springs carry.
+typedef struct {
+    double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
+} Housing;
+
 // All that the right-hand side needs beside time and state.
 typedef struct {
     const Parameters *p;  // at the present temperatures (temperature.h)
@@ -273,6 +325,7 @@ typedef struct {
     const RingLoad *ring_load;          // load at present; used while there is no trajectory
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
     const ElasticHalf *modes;  // of the cage's halves, where they are elastic, else NULL (cage/cage.h)
+    const Housing *housing;    // where it moves on springs; NULL: its motion is given
 } Model;
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.

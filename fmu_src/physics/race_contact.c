@@ -13,6 +13,8 @@
 //
 // The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.h).
 //
+// Races that are not perfect have approaches and normals of their own (race_surface.h).
+//
 // No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
 // potential.
 //
@@ -30,6 +32,7 @@
 
 #include "physics/hertz.h"
 #include "physics/outer_ring.h"
+#include "physics/race_surface.h"
 #include "physics/ring_fit.h"
 #include "physics/traction.h"
 
@@ -121,6 +124,18 @@ INLINE void load_contact(const Model *model, const Race *race, wide delta, wide 
     c->dissipated = (c->Q - Q_0) * delta_dot;
 }
 
+// Slip and mean speed of a contact whose normal and approach are known, from the velocities at the contact point against
+// the ball's centre, seen from the orbiting frame.
+INLINE void contact_motion(const BallMotion *ball, vec Omega, Contact *c)
+{
+    const vec arm = vec_scale(ball->R, c->n), axis = {ball->omega_m, wide_set(0.0), wide_set(0.0)};
+    const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
+    const vec u_race = vec_sub(vec_cross(Omega, arm), c->approach);  // v + Omega x (p + arm) - v_ball
+    c->slip = vec_across(vec_sub(u_ball, u_race), c->n);
+    c->roll =
+        vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c->n);
+}
+
 // One race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of
 // the ball; a, v, Omega: axis, velocity and angular velocity of the ring.  All vectors are in the frames of the balls.
 INLINE Contact race_contact(const Model *model, const Race *race, const BallMotion *ball, wide R_g, vec p,
@@ -137,14 +152,7 @@ INLINE Contact race_contact(const Model *model, const Race *race, const BallMoti
     c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, p));
     c.spin = vec_sub(ball->omega, Omega);
     load_contact(model, race, L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
-
-    // velocities at the contact point against the ball's centre, seen from the orbiting frame
-    const vec arm = vec_scale(ball->R, c.n), axis = {ball->omega_m, wide_set(0.0), wide_set(0.0)};
-    const vec u_ball = vec_cross(ball->omega, arm), orbit = vec_cross(axis, arm);
-    const vec u_race = vec_sub(vec_cross(Omega, arm), c.approach);  // v + Omega x (p + arm) - v_ball
-    c.slip = vec_across(vec_sub(u_ball, u_race), c.n);
-    c.roll =
-        vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c.n);
+    contact_motion(ball, Omega, &c);
     return c;
 }
 
@@ -169,6 +177,64 @@ INLINE Contact outer_contact_at_rest(const Model *model, const BallMotion *ball)
     c.slip = vec_across(vec_add(u_ball, v), c.n);
     c.roll = vec_across((vec){0.5 * (u_ball.x - v.x), 0.5 * (u_ball.r - v.r), 0.5 * (u_ball.t - v.t) - orbit},
                         c.n);
+    return c;
+}
+
+// Place of a packet of balls on a race that is not perfect, as in race_contact, with the rolling direction t and cos and sin
+// of the angle on the race, of ring->b_y and b_z, which turn with it.
+typedef struct {
+    vec p, v, Omega, n, t;
+    wide r, L, cos_phi, sin_phi;
+} SurfacePlace;
+
+INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor *ring, wide cos_theta,
+                                  wide sin_theta)
+{
+    const wide tiny = wide_set(TINY);
+    const vec a = vec_local(ring->a, cos_theta, sin_theta);
+    SurfacePlace at = {.p = vec_sub(ball->x, vec_local(ring->x, cos_theta, sin_theta)),
+                       .v = vec_local(ring->v, cos_theta, sin_theta),
+                       .Omega = vec_local(ring->Omega, cos_theta, sin_theta)};
+    const wide along = vec_dot(at.p, a);
+    const vec radial = vec_axpy(-along, a, at.p);
+    at.r = wide_sqrt(vec_dot(radial, radial) + tiny);
+    const vec e = vec_scale(1.0 / at.r, radial);
+    const wide across = at.r - R_g;
+    at.L = wide_sqrt(along * along + across * across + tiny);
+    const wide inv_L = 1.0 / at.L;
+    at.n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a));
+    at.t = vec_cross(a, e);
+    at.cos_phi = vec_dot(e, vec_local(ring->b_y, cos_theta, sin_theta));
+    at.sin_phi = vec_dot(e, vec_local(ring->b_z, cos_theta, sin_theta));
+    return at;
+}
+
+// Contact there, under waves of the height w with the derivative dw; stored: elastic energy of the contact.
+INLINE Contact surface_contact(const Model *model, const Race *race, const BallMotion *ball,
+                               const SurfacePlace *at, wide w, wide dw, wide *stored)
+{
+    wide f = wide_set(0.0), df = f;
+    if (race->surface.spalled) race_surface_drop(&race->surface, at->cos_phi, at->sin_phi, &f, &df);
+    const SurfaceLoad load =
+        race_surface_load(&race->surface, &race->hertz, at->L - (race->r_g - ball->R) + w, f);
+
+    // minus the gradient of the energy, Q (n + q t); its direction is the normal
+    const wide q = (dw - load.Q_spall / (load.Q + LEAST_LOAD) * df) / at->r, length = wide_sqrt(1.0 + q * q);
+    const wide inv_length = 1.0 / length;
+    Contact c = {.R = ball->R,
+                 .n = vec_scale(inv_length, vec_axpy(q, at->t, at->n)),
+                 .t_1 = vec_scale(inv_length, vec_axpy(-q, at->n, at->t))};
+    c.t_2 = vec_cross(c.n, c.t_1);
+    c.approach = vec_sub(vec_sub(ball->v, at->v), vec_cross(at->Omega, at->p));
+    c.spin = vec_sub(ball->omega, at->Omega);
+    c.delta = load.delta;
+    c.sqrt_delta = wide_sqrt(wide_max(load.delta, wide_set(0.0)));
+    const wide rate = length * vec_dot(c.n, c.approach);
+    const wide Q = hertz_damped(load.Q, wide_set(model->p->bearing.lambda), rate);
+    c.dissipated = (Q - load.Q) * rate;
+    c.Q = Q * length;
+    *stored = load.U;
+    contact_motion(ball, at->Omega, &c);
     return c;
 }
 
@@ -482,6 +548,15 @@ INLINE void store_contacts(Work *w, int j, const Contact *inner, const Contact *
     wide_store(&w->spin_dissipated[j], T_i->spin_dissipated + T_e->spin_dissipated);
 }
 
+INLINE BallMotion ball_motion(const Model *model, const Work *w, int j)
+{
+    return (BallMotion){.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
+                        .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
+                        .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
+                        .omega_m = wide_load(&w->omega_m[j]),
+                        .R = wide_load(&model->d->R[j])};
+}
+
 // Normal contact and motion of a packet of balls at both races.  inner_R_g: radius of the inner groove's
 // circle as the ring has grown; outer_ring: its motion, NULL for a ring at rest in its place.
 INLINE void race_contacts(const Model *model, const Work *w, int j, scalar inner_R_g, const Rotor *outer_ring,
@@ -489,11 +564,7 @@ INLINE void race_contacts(const Model *model, const Work *w, int j, scalar inner
 {
     const Derived *d = model->d;
     const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-    const BallMotion ball = {.x = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)},
-                             .v = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]),
-                             .omega = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]),
-                             .omega_m = wide_load(&w->omega_m[j]),
-                             .R = wide_load(&d->R[j])};
+    const BallMotion ball = ball_motion(model, w, j);
     *p_i = vec_sub(ball.x, vec_local(w->ring.x, cos_theta, sin_theta));
     *inner = race_contact(
         model, &d->inner, &ball, wide_set(inner_R_g), *p_i, vec_local(w->ring.a, cos_theta, sin_theta),
@@ -550,13 +621,69 @@ static __attribute__((noinline)) void race_contact_force_moving(const Model *mod
     race_contact_balls(model, w, inner_R_g, mixed, sliced, &outer);
 }
 
+// The ring, with body axes that have turned by the angle.
+static Rotor turned(const Rotor *ring, scalar angle)
+{
+    Rotor out = *ring;
+    wide sine, cosine;
+    wide_sincos(wide_set(angle), &sine, &cosine);
+    rotor_body_axes(&out, wide_lane(cosine, 0), wide_lane(sine, 0));
+    return out;
+}
+
+// Contacts of all balls with a race whose ring has body axes that turn with it; stored: their elastic energies.
+INLINE void surface_contacts(const Model *model, const Work *w, const Race *race, wide R_g, const Rotor *ring,
+                             vec p[PACKETS], Contact c[PACKETS], wide stored[PACKETS])
+{
+    SurfacePlace at[PACKETS];
+    for (int b = 0; b < PACKETS; b++) {
+        const int j = b * LANE_WIDTH;
+        const BallMotion ball = ball_motion(model, w, j);
+        at[b] = surface_place(&ball, R_g, ring, wide_load(&w->cos_theta[j]), wide_load(&w->sin_theta[j]));
+        p[b] = at[b].p;
+    }
+    wide cos_phi[PACKETS], sin_phi[PACKETS], height[PACKETS], slope[PACKETS];
+    for (int b = 0; b < PACKETS; b++) cos_phi[b] = at[b].cos_phi, sin_phi[b] = at[b].sin_phi;
+    race_surface_waves(&race->surface, cos_phi, sin_phi, height, slope);
+    for (int b = 0; b < PACKETS; b++) {
+        const BallMotion ball = ball_motion(model, w, b * LANE_WIDTH);
+        c[b] = surface_contact(model, race, &ball, &at[b], height[b], slope[b], &stored[b]);
+    }
+}
+
+// Balls between races that are not perfect.
+static __attribute__((noinline)) void race_contact_force_rough(const Model *model, Work *w, scalar inner_R_g,
+                                                               bool mixed, bool sliced)
+{
+    const RingLoad *given = model->ring_load;
+    const Rotor at_rest = outer_ring(given);
+    const Rotor inner_ring = turned(&w->ring, given->inner_angle),
+                outer = turned(&at_rest, given->outer_angle);
+    vec p_i[PACKETS], p_e[PACKETS];
+    Contact inner_contact[PACKETS], outer_contact[PACKETS];
+    Tangential T_i[PACKETS], T_e[PACKETS];
+    wide stored_i[PACKETS], stored_e[PACKETS];
+    surface_contacts(model, w, &model->d->inner, wide_set(inner_R_g), &inner_ring, p_i, inner_contact,
+                     stored_i);
+    surface_contacts(model, w, &model->d->outer, wide_set(model->d->outer.R_g), &outer, p_e, outer_contact,
+                     stored_e);
+    race_tractions(model, inner_contact, outer_contact, mixed, sliced, T_i, T_e);
+    for (int b = 0; b < PACKETS; b++) {
+        wide_store(&w->race_stored[b * LANE_WIDTH], stored_i[b] + stored_e[b]);
+        store_contacts(w, b * LANE_WIDTH, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
+        store_forces(w, b * LANE_WIDTH, p_i[b], &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
+    }
+}
+
 void race_contact_force(const Model *model, Work *w)
 {
     const bool mixed = model->p->scene.lubrication == LUBRICATION_MIXED;
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     const scalar R_g = model->d->inner.R_g + growth;
-    if (outer_ring_moves(model->ring_load))
+    if (model->d->rough)
+        race_contact_force_rough(model, w, R_g, mixed, sliced);
+    else if (outer_ring_moves(model->ring_load))
         race_contact_force_moving(model, w, R_g, mixed, sliced);
     else if (sliced)
         mixed ? race_contact_balls(model, w, R_g, true, true, NULL)

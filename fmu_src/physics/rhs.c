@@ -5,6 +5,7 @@
 #include "physics/ball.h"
 #include "physics/drag.h"
 #include "physics/frame.h"
+#include "physics/housing.h"
 #include "physics/land_film.h"
 #include "physics/outer_ring.h"
 #include "physics/powers.h"
@@ -73,7 +74,11 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
 void rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w)
 {
     RingLoad ring_load;
-    const Model now = {model->p, model->d, &ring_load, NULL, model->modes};
-    if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
-    evaluate(model->trajectory ? &now : model, y, y_dot, w);
+    const Model now = {model->p, model->d, &ring_load, NULL, model->modes, model->housing};
+    if (model->trajectory)
+        ring_load_at(model->trajectory, t, &ring_load);
+    else if (model->housing)
+        ring_load = *model->ring_load;
+    if (model->housing) housing_place(model->housing, &ring_load);
+    evaluate(model->trajectory || model->housing ? &now : model, y, y_dot, w);
 }

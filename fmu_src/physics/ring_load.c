@@ -1,6 +1,8 @@
 // Trajectory of the inputs over a communication step, and the built-in pulses.  Equations in ring_load.h.
 #include "physics/ring_load.h"
 
+#include "physics/race_surface.h"
+
 #define PLACE(group, member) (int)(offsetof(Inputs, group.member) / sizeof(double))
 
 const MotionInput MOTION[MOTIONS] = {
@@ -182,7 +184,8 @@ void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 
     trajectory->gravity[0] = p->gravity.y;
     trajectory->gravity[1] = p->gravity.z;
     trajectory->radius = p->frame.radius;
-    trajectory->frame_angle = 0.0;
+    trajectory->frame_angle = trajectory->inner_angle = trajectory->outer_angle = 0.0;
+    trajectory->angles_matter = race_surfaces_given(p) ? 1.0 : 0.0;
 }
 
 bool input_trajectory_varies(const InputTrajectory *trajectory)
@@ -191,6 +194,8 @@ bool input_trajectory_varies(const InputTrajectory *trajectory)
     const bool gravity = trajectory->gravity[0] != 0.0 || trajectory->gravity[1] != 0.0;
     bool varies = trajectory->pulse_r != 0.0 || trajectory->pulse_a != 0.0;
     varies |= gravity && trajectory->u[0].frame.omega != 0.0;  // gravity turns in the frame
+    if (trajectory->angles_matter != 0.0)  // races that are not perfect turn with their rings
+        varies |= trajectory->u[0].shaft.omega != 0.0 || trajectory->u[0].housing.omega != 0.0;
     for (int i = 0; i < INPUT_ORDERS * N_INPUTS; i++) varies |= derivative[i] != 0.0;
     return varies;
 }

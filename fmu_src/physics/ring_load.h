@@ -89,6 +89,22 @@ INLINE scalar frame_angle_at(const InputTrajectory *trajectory, scalar t)
     return trajectory->frame_angle + tau * (w + tau * (w_1 / 2.0 + tau * (w_2 / 6.0 + tau * w_3 / 24.0)));
 }
 
+// Angle by which a ring has turned at time t: `angle` at t_0, its speed a polynomial with the values and derivatives w there.
+INLINE scalar ring_angle_at(scalar tau, scalar angle, const scalar w[3])
+{
+    return angle + tau * (w[0] + tau * (w[1] / 2.0 + tau * w[2] / 6.0));
+}
+
+// Angles of the inner and the outer ring at time t.
+INLINE void ring_angles_at(const InputTrajectory *trajectory, scalar t, scalar *inner, scalar *outer)
+{
+    const Inputs *u = trajectory->u;
+    const scalar shaft[3] = {u[0].shaft.omega, u[1].shaft.omega, u[2].shaft.omega};
+    const scalar housing[3] = {u[0].housing.omega, u[1].housing.omega, u[2].housing.omega};
+    *inner = ring_angle_at(t - trajectory->t_0, trajectory->inner_angle, shaft);
+    *outer = ring_angle_at(t - trajectory->t_0, trajectory->outer_angle, housing);
+}
+
 // The load at time t under inputs u that are held.
 void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
 
@@ -161,6 +177,12 @@ INLINE void outer_motion(const Inputs *u, RingLoad *ring_load)
     ring_cosines(u->housing.tilt_y, u->housing.tilt_z, u->housing.tilt_y_dot, u->housing.tilt_z_dot,
                  &ring_load->outer_beta, &ring_load->outer_gamma, &ring_load->outer_beta_dot,
                  &ring_load->outer_gamma_dot);
+    for (int i = 0; i < 3; i++) {
+        ring_load->base[i] = ring_load->outer_x[i];
+        ring_load->base_dot[i] = ring_load->outer_v[i];
+    }
+    ring_load->base[3] = ring_load->outer_beta, ring_load->base_dot[3] = ring_load->outer_beta_dot;
+    ring_load->base[4] = ring_load->outer_gamma, ring_load->base_dot[4] = ring_load->outer_gamma_dot;
     bool moves = false;
     for (const scalar *value = ring_load->outer_x; value <= &ring_load->outer_omega; value++)
         moves |= scalar_value(*value) != 0.0;
@@ -224,7 +246,13 @@ INLINE void ring_load_at(const InputTrajectory *trajectory, scalar t, RingLoad *
     ring_load->beta_ddot = input_rate(tau, u_1->shaft.tilt_y_dot, u_2->shaft.tilt_y_dot);
     ring_load->gamma_ddot = input_rate(tau, u_1->shaft.tilt_z_dot, u_2->shaft.tilt_z_dot);
     outer_motion(&u, ring_load);
+    ring_load->outer_a[0] = input_rate(tau, u_1->housing.v_x, u_2->housing.v_x);
+    ring_load->outer_a[1] = input_rate(tau, u_1->housing.v_y, u_2->housing.v_y);
+    ring_load->outer_a[2] = input_rate(tau, u_1->housing.v_z, u_2->housing.v_z);
     frame_motion(trajectory, t, &u, ring_load);
+    ring_load->inner_angle = ring_load->outer_angle = 0.0;
+    if (scalar_value(trajectory->angles_matter) != 0.0)
+        ring_angles_at(trajectory, t, &ring_load->inner_angle, &ring_load->outer_angle);
 }
 
 // Writes the motion that is given into the ring's states.

@@ -9,6 +9,7 @@
 //   race, spin (sliced)     omega.n                                      g_spin = moment/spin
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
+//   pocket, oil             v.m of the ball by itself                    D
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
 //   land, Couette and dry   spin s                                       film_spin
 //   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; k of tense rivets, pressed plates
@@ -156,6 +157,11 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
         add_spin(gamma * wide_load(&w->g_spin_i[j]), n_i, W);
         add_spin(gamma * wide_load(&w->g_spin_e[j]), n_e, W);
     }
+
+    // Films in the pockets.
+    if (d->squeeze.filled && normal_forces)
+        for (int i = 0; i < 3; i++)
+            for (int k = 0; k <= i; k++) W[AT(i, k)] += gamma * wide_load(&w->squeeze[AT(i, k)][j]);
 
     // Inertia, and the diagonal of the pockets' friction.
     for (int i = 0; i < BLOCK; i++) {

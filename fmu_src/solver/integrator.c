@@ -549,6 +549,9 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
     bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
                 values_are_amounts(&s->now.ratio, 1) && s->now.ratio <= ratio_of(0.0) &&
                 values_are_amounts(&s->h, 1) && s->h > 0.0;
+    const double LARGEST_HOUSING = 1e9;  // of position, velocity, acceleration and load
+    const bool supported = p->housing.motion == HOUSING_MOTION_SUPPORTED;
+    fine &= values_are_within(s->now.housing.x, 4 * HOUSING_DOF, supported ? LARGEST_HOUSING : 0.0);
 
     // States, their rates and the differences of their rates.
     for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_ALL_BLOCKS; b++) {

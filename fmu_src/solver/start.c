@@ -57,8 +57,10 @@ static double ball_potential(const Equilibrium *eq, int j)
 {
     const Derived *d = eq->model->d;
     const Work *w = eq->w;
-    return hertz_stored(d->inner.hertz.K, w->delta_i[j]) + hertz_stored(d->outer.hertz.K, w->delta_e[j]) -
-           (eq->F_c + eq->F_r[j]) * w->r[j] - eq->F_x[j] * w->x[j] +
+    const double stored = d->rough ? w->race_stored[j]
+                                   : hertz_stored(d->inner.hertz.K, w->delta_i[j]) +
+                                         hertz_stored(d->outer.hertz.K, w->delta_e[j]);
+    return stored - (eq->F_c + eq->F_r[j]) * w->r[j] - eq->F_x[j] * w->x[j] +
            0.5 * K_0 * (w->x[j] - eq->x_0[j]) * (w->x[j] - eq->x_0[j]);
 }
 
@@ -344,7 +346,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const RingLoad *given = model->ring_load, rest = resting(given);
-    const Model at_rest = {p, d, &rest, NULL, NULL};
+    const Model at_rest = {p, d, &rest, NULL, NULL, NULL};
     const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
     Equilibrium eq = {
         .kernels = kernels, .model = &at_rest, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};

@@ -17,7 +17,9 @@
 // (Swope et al. 1982).
 #include "solver/verlet.h"
 
+#include "physics/housing.h"
 #include "physics/rhs.h"
+#include "physics/ring_load.h"
 #include "solver/implicit.h"
 #include "solver/vector_ops.h"
 
@@ -162,9 +164,35 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
+// The right-hand side with a housing on springs; sets the housing's acceleration.
+static __attribute__((noinline)) void rhs_with_housing(const Model *model, double t, const double *y,
+                                                       double *f, Housing *housing, Work *w)
+{
+    RingLoad ring_load = *model->ring_load;
+    if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
+    housing_place(housing, &ring_load);
+    const Model with = {model->p, model->d, &ring_load, NULL, model->modes, housing};
+    rhs(&with, t, y, f, w);
+    housing_acceleration(&with, w, housing);
+}
+
+// Where the housing is at the end of the step, with predicted velocities.
+static void housing_predict(double h, const Housing *from, Housing *to)
+{
+    for (int i = 0; i < HOUSING_DOF; i++) {
+        to->x[i] = from->x[i] + h * (from->v[i] + 0.5 * h * from->a[i]);
+        to->v[i] = from->v[i] + h * from->a[i];
+        to->a[i] = from->a[i];
+        to->rest[i] = from->rest[i];
+    }
+}
+
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
-    rhs(model, t, now->y, now->f, w);
+    if (model->housing)
+        rhs_with_housing(model, t, now->y, now->f, &now->housing, w);
+    else
+        rhs(model, t, now->y, now->f, w);
     cage_split(model, now->y, w, now->f, &now->cage);
 }
 
@@ -181,7 +209,15 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
     cage_predict(model, w, &cage, &from->cage, y);
-    rhs(model, t + h, y, to->f, w);
+    to->housing = from->housing;
+    if (model->housing) {
+        housing_predict(h, &from->housing, &to->housing);
+        rhs_with_housing(model, t + h, y, to->f, &to->housing, w);
+        for (int i = 0; i < HOUSING_DOF; i++)
+            to->housing.v[i] = from->housing.v[i] + gamma * (from->housing.a[i] + to->housing.a[i]);
+    } else {
+        rhs(model, t + h, y, to->f, w);
+    }
     remember_films(w, to);
     cage_arrive(model, w, &cage, &from->cage, y, to->f, &to->cage);
 

@@ -14,7 +14,7 @@ const StateBlock STATE_BLOCKS[N_ALL_BLOCKS] = {
 const Variable VARIABLES[N_VARIABLES] = {
     {"time", "s", 0, 1, TYPE_REAL, CAUSALITY_INDEPENDENT, GROUP_COUNT, -1, 0, 0.0, -INFINITY, INFINITY, false, NULL, 0},
 {% for v in table.variables | sort(attribute="vr") %}
-    {"{{ v.name }}", "{{ v.unit }}", {{ v.vr }}, {{ "Z" if v.is_array else 1 }}, TYPE_{{ v.kind | upper -}}
+    {"{{ v.name }}", "{{ v.unit }}", {{ v.vr }}, {{ v.size }}, TYPE_{{ v.kind | upper -}}
      , CAUSALITY_{{ v.causality | upper }}, GROUP_{{ v.group | screaming if v.group else "COUNT" }}, {{ "Y_" ~ v.state | screaming if v.state else -1 -}}
      , offsetof({{ "Outputs" if v.causality == "local" else v.causality | capitalize ~ "s" }}, {{ v.path }}), {{ (v.start or 0) | c_number -}}
      , {{ v.limits[0] | c_number }}, {{ v.limits[1] | c_number }}, {{ v.built | lower }}, {{ v.fixed | quoted or "NULL" -}}

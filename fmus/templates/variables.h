@@ -31,7 +31,7 @@ typedef struct {
 {% for group, members in table.of(*causalities) | struct_members %}
     struct {
 {% for member, v in members %}
-        {{ real_type if v.type == "Real" else "int" }} {{ member }}{{ "[Z]" if v.is_array }};  // {{ "[%s] " % v.unit if v.type == "Real" -}}
+        {{ real_type if v.type == "Real" else "int" }} {{ member }}{{ "[%s]" % v.size if v.is_array }};  // {{ "[%s] " % v.unit if v.type == "Real" -}}
            {{ v.type ~ ": " if v.type in table.enumerations }}{{ v.description }}
 {% endfor %}
     } {{ group }};

@@ -76,7 +76,7 @@ UNITS = {
     for v in (
 {% for v in table.of(causality) %}
         Variable({{ v.name | quoted }}, {{ v.vr }}, {{ v.type | quoted }}, {{ v.unit | quoted }}, {{ v.display | quoted }}, {{ v.start }}, {{ v.min }}, {{ v.max -}}
-                 , {{ "Z" if v.is_array else 1 }}, {{ v.group | quoted }}, {{ v.description | quoted }}, {{ v.source | quoted }}, {{ v.derives }}, {{ v.fixed | quoted }}),
+                 , {{ v.size }}, {{ v.group | quoted }}, {{ v.description | quoted }}, {{ v.source | quoted }}, {{ v.derives }}, {{ v.fixed | quoted }}),
 {% endfor %}
     )
 }

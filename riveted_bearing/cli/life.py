@@ -23,6 +23,13 @@ def life(
     out: Annotated[
         Path | None, typer.Option(help="folder of runs, life.json, page and picture; default: results/MISSION")
     ] = None,
+    oil_range: Annotated[
+        bool,
+        typer.Option(
+            "--oil-range",
+            help="also the lives with dry and with flooded pockets (cage.pocket_filling 0 and 1), in OUT/dry, OUT/flooded",
+        ),
+    ] = False,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
@@ -32,6 +39,8 @@ def life(
     from ..duty.assess import Runs, assess, write_record
     from ..duty.mission import load_mission
     from ..duty.notes import notes
+    from ..duty.oil_range import oil_range as both_ends
+    from ..duty.oil_range import plan_ends, remarks, rows, write_oil_range
     from ..duty.page import percent, write_page, write_picture
     from ..duty.tolerances import RECORD, read_tolerances, scatter, write_scatter
     from ..fmu import Model
@@ -39,6 +48,8 @@ def life(
     model = Model(fmu)
     plan = load_mission(mission, model)
     tolerances = read_tolerances(plan, model)
+    if oil_range:
+        plan_ends(plan, model)  # refusals come before the runs
     folder = out or Path("results") / plan.name
     make_folder(folder)
     reached = []
@@ -54,13 +65,22 @@ def life(
         runs = Runs(plan, model, folder, client, progress)
         found = assess(plan, runs, say)
         of_bearings = scatter(found, tolerances, model, folder, client, progress) if tolerances else None
-    remarks = notes(found, runs, of_bearings)
-    print_life(found, remarks)
+        ends = (
+            both_ends(
+                found, model, folder, lambda end, place: assess(end, Runs(end, model, place, client, progress), say)
+            )
+            if oil_range
+            else None
+        )
+    texts = [*(remarks(ends) if ends else ()), *notes(found, runs, of_bearings)]
+    print_life(found, texts, rows(ends) if ends else ())
     files = [
         ("results", write_record(found, folder)),
-        ("page", write_page(found, folder / "life.html", remarks)),
+        ("page", write_page(found, folder / "life.html", texts)),
         ("picture", write_picture(found, folder / "life.png")),
     ]
+    if ends:
+        files.append(("results", write_oil_range(ends, folder)))
     if of_bearings:
         from ..design.weibull import write_weibull_plot
 
@@ -77,13 +97,13 @@ def life(
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
-def print_life(found, remarks):
-    """Life, interval, points and rivets on the terminal."""
+def print_life(found, remarks, ends=()):
+    """Life, interval, points and rivets on the terminal; ends: rows of the lives with dry and flooded pockets."""
     from ..duty.page import cards, part_rows
 
     console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
     print_basis(found.mission.basis)
-    for title, value, remark in cards(found):
+    for title, value, remark in [*cards(found), *ends]:
         console.print(f"{title:14} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
     table = Table(
         "",

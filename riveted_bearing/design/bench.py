@@ -221,7 +221,11 @@ def display_of(name):
         return DAMAGE_UNIT, 1.0, 0.0
     inner = re.fullmatch(r"(?:\w+\()?([^()]*)\)?", COLUMNS.get(name, name))
     variable = next(
-        (KNOWN[key] for index in ("[j]", "[k]") if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN),
+        (
+            KNOWN[key]
+            for index in ("[j]", "[k]", "[n]")
+            if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN
+        ),
         None,
     )
     if variable is None:

@@ -101,7 +101,7 @@ def plan_sensitivity(path, document, model, assumed=None):
     return Study(Path(path), str(document.get("description", "")), box, responses, **settings, seed=seed)
 
 
-def salib():
+def salib(command="sensitivity"):
     """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
     missing.
     """
@@ -111,7 +111,7 @@ def salib():
         from SALib.sample import morris as sample_morris
         from SALib.sample import sobol as sample_sobol
     except ImportError:
-        raise UserError(f"sensitivity: needs the library SALib: {extra('design')}") from None
+        raise UserError(f"{command}: needs the library SALib: {extra('design')}") from None
     return sample_morris, analyze_morris, sample_sobol, analyze_sobol
 
 

@@ -28,6 +28,19 @@ def wide_classes(life):
     ]
 
 
+def oil_in_pockets(mission):
+    """A sentence on the oil that the pockets of a mission have, of the FMU's own filling where no case sets one."""
+    name = "cage.pocket_filling"
+    given = sorted({case.scene.parameters[name] for case in mission.cases if name in case.scene.parameters})
+    if given:
+        texts = " to ".join(f"{value:g}" for value in dict.fromkeys((given[0], given[-1])))
+        return f"Oil in the pockets: {name} = {texts} (0 dry, 1 flooded)."
+    return (
+        f"The filling of the pockets with oil is assumed to be the FMU's {name} (0, dry, unless its build changed it), because "
+        "none has been measured; flooded pockets live longer. --oil-range computes both."
+    )
+
+
 def notes(life, runs, scatter=None):
     """Sentences on a Life, its Runs and, if there are tolerances, the Scatter of bearings."""
     mission, found = life.mission, life.estimate
@@ -75,5 +88,6 @@ def notes(life, runs, scatter=None):
             f"Over {len(scatter.lives)} bearings within their tolerances: B10 {hours_text(law.b10)} ({hours_text(low)} to {hours_text(high)} at "
             f"{100 * law.confidence:g} %), Weibull shape {law.beta:.3g}, characteristic life {hours_text(law.eta)}.{noise}"
         )
+    sentences.append(oil_in_pockets(mission))
     sentences.append(f"Processor time of the runs: {sum(runs.cost.values()):.0f} s in {len(runs.cost)} runs.")
     return sentences

@@ -18,7 +18,8 @@ not be conserved.
 Friction P_S at the contact point p + R n with the slip v + omega x R n; the
 coefficient goes from that of the film to that of the asperities by Lambda (mixed lubrication); P_R and its horizontal
 counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.  The half gets
-the opposite forces at the same points. Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder
+the opposite forces at the same points.  Oil between ball and wall adds the force -F m through the ball's centre, where both
+close in (pocket_squeeze.py).  Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder
 has no radial end: a ball whose equator leaves the cage's section is reported, not modelled.
 """
 
@@ -26,6 +27,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
+from bearing_model.cage.common.pocket_squeeze import pocket_squeeze
 from bearing_model.cage.elastic.elastic_wall import elastic_wall
 from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
@@ -86,7 +88,7 @@ def pocket_approach(model, h, n_x, delta):
 
 def pocket_contacts(model, w, h, gap, wall=None):
     """Forces in the pockets of half h: sets w.pocket[h] and adds to the balls.  wall: velocity u_dot (x, r, t) and tilt of the
-    walls of an elastic half.  Returns the forces (x, r, t) on the walls, and their Hertz loads and rates of approach.
+    walls of an elastic half.  Returns the forces (x, r, t) on the walls, their Hertz loads, rates of approach and contact loads.
     """
     p, d, half = model.p, model.d, w.half[h]
     a, b, e_t, n_x, n_t, delta = gap.a, gap.b, gap.e_t, gap.n_x, gap.n_t, gap.delta
@@ -109,6 +111,11 @@ def pocket_contacts(model, w, h, gap, wall=None):
     if wall:
         F_across = F_across - Q_0 * wall.tilt
     F_n = -Q * n - F_across * (n_t * a - n_x * e_t)
+    film, by_film = d.squeeze and pocket_squeeze(d, h, gap, v), (0.0, 0.0)
+    if film:
+        F_n = F_n - film.F * film.m
+        by_film = film.F * vec_dot(film.m, a), film.F * vec_dot(film.m, e_t)
+        w.squeeze = w.squeeze + film.D * film.m[:, None] * film.m[None, :]
 
     # friction at the contact point (F_s), film force through the ball's centre (F_c)
     arm = d.R * n
@@ -124,10 +131,10 @@ def pocket_contacts(model, w, h, gap, wall=None):
     F, M = F_n + F_s + F_c, vec_cross(arm, F_s)
 
     w.pocket[h] = SimpleNamespace(
-        Q=Q,
+        Q=Q + film.F if film else Q,
         F=np.array([-vec_dot(F, a), -vec_dot(F, b), -vec_dot(F, e_t)]),
         radius=None,
-        push=np.array([Q * n_x + F_across * n_t, Q * n_t - F_across * n_x]),
+        push=np.array([Q * n_x + F_across * n_t + by_film[0], Q * n_t - F_across * n_x + by_film[1]]),
         half_F=vec_to_global(-F, w.cos_theta, w.sin_theta),
         half_M=vec_to_global(-vec_cross(gap.p, F) - M, w.cos_theta, w.sin_theta),
     )
@@ -139,20 +146,24 @@ def pocket_contacts(model, w, h, gap, wall=None):
     w.D = w.D + g / d.m * (1.0 - n * n)
     w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
     w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v)
+    if film:
+        w.pocket_dissipated = w.pocket_dissipated + film.F * vec_dot(film.m, v)
     drawn = F_s + F_c
-    on_wall = Q * n_x - vec_dot(drawn, a), -vec_dot(drawn, b), Q * n_t - vec_dot(drawn, e_t)
-    return on_wall, Q_0, delta_dot
+    on_wall = Q * n_x - vec_dot(drawn, a) + by_film[0], -vec_dot(drawn, b), Q * n_t - vec_dot(drawn, e_t) + by_film[1]
+    return on_wall, Q_0, delta_dot, Q
 
 
 def pocket_clear(w):
     """No contacts yet."""
     w.pocket, w.delta_c, w.pocket_dissipated = [None, None], [None, None], 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
+    w.squeeze = 0.0 * w.F[:, None] * w.F[None, :]
 
 
 def elastic_clear(e):
     """No contacts with elastic walls yet."""
-    for name in ("wall_force", "touch_x", "touch_r", "touch_t", "touch_k", "touch_rate", "touch_chi", "touch_radius"):
+    touch = ("x", "r", "t", "k", "rate", "Q", "chi", "radius")
+    for name in ("wall_force", *(f"touch_{part}" for part in touch)):
         setattr(e, name, [None, None])
 
 
@@ -163,7 +174,7 @@ def pocket_rigid(model, w):
     pocket[h]: load Q, force F on the half in the pocket's frame (x, r, t) and its normal part push (x, t); half_F, half_M:
     force and moment about the half's centre, global.
     D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for
-    the integrator's Jacobian.
+    the integrator's Jacobian.  squeeze: sum over the halves of D m m^T of the films [N.s/m].
     """
     pocket_clear(w)
     for h in range(2):
@@ -185,7 +196,9 @@ def pocket_elastic(model, w):
         u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
         gap.delta = pocket_approach(model, h, gap.n_x, gap.delta - gap.n_x * u[0] - gap.n_t * u[2])
         w.delta_c[h] = gap.delta
-        on_wall, Q_0, delta_dot = pocket_contacts(model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt))
+        on_wall, Q_0, delta_dot, e.touch_Q[h] = pocket_contacts(
+            model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt)
+        )
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )

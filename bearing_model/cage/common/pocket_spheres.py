@@ -283,7 +283,8 @@ def spheres_elastic(model, w):
         e.touch_x[h], e.touch_r[h], e.touch_t[h] = at.n
         e.touch_k[h] = k / (maximum(w.delta_c[h], 1e-30) + model.modes.compliance * k)
         e.touch_rate[h] = at.delta_dot + sum(n_i * u_i for n_i, u_i in zip(at.n, wall.u_dot, strict=True))
-        e.touch_chi[h], e.touch_radius[h], e.wall_energy[h] = wall.chi, wall.radius, at.V
+        e.touch_Q[h], e.touch_chi[h], e.touch_radius[h] = w.pocket[h].Q, wall.chi, wall.radius
+        e.wall_energy[h] = at.V
 
 
 def spheres_energy(model, w):

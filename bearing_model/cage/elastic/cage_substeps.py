@@ -126,12 +126,8 @@ def cage_substeps_split(model, y, w, f):
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
     f[WORK] += np.sum(w.joint_dissipated) + e.dissipated
-    names = ("touch_x", "touch_t", "touch_k", "touch_rate")
-    places = ("touch_r", "touch_chi", "touch_radius")
-    touch = [
-        np.array([*(getattr(e, n)[h] for n in names), w.pocket[h].Q, *(getattr(e, n)[h] for n in places)])
-        for h in range(2)
-    ]
+    names = ("touch_x", "touch_t", "touch_k", "touch_rate", "touch_Q", "touch_r", "touch_chi", "touch_radius")
+    touch = [np.array([getattr(e, name)[h] for name in names]) for h in range(2)]
     omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
     return FastState(j.e.copy(), j.u.copy(), j.rivet[0].copy(), j.N_plate.copy(), touch, omega_2, modes, rigid)
 

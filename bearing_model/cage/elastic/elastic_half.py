@@ -67,6 +67,16 @@ def mode_order(modes):
     return order, entry[order], part[order]
 
 
+def damping_ratios(p, omega):
+    """Damping ratios [n] of modes: modal_damping at the lowest one, modal_damping_high at the highest one, linear in ln omega
+    between them; modal_damping of all where the other one is 0.
+    """
+    zeta, high = p.cage.modal_damping, p.cage.modal_damping_high
+    if high == 0.0 or np.max(omega) <= np.min(omega):
+        return np.full(len(omega), zeta)
+    return zeta + (high - zeta) * np.log(omega / np.min(omega)) / np.log(np.max(omega) / np.min(omega))
+
+
 def elastic_half_derive(p, d, table):
     """ElasticHalf of the scene."""
     if table.modes is None:
@@ -102,7 +112,7 @@ def elastic_half_derive(p, d, table):
         n=len(omega),
         omega=omega,
         uniform=uniform,
-        damping=2.0 * p.cage.modal_damping * omega,
+        damping=2.0 * damping_ratios(p, omega) * omega,
         pad=pad,
         wave=wave,
         chi=table.half.chi,

@@ -23,11 +23,14 @@
 // counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.
 // The half gets the opposite forces at the same points.
 //
+// Oil between ball and wall adds the force -F m through the ball's centre, where both close in (pocket_squeeze.h).
+//
 // Smoothness: C1 at touch-down and where the patch leaves a half.  The cylinder has no radial end: a ball
 // whose equator leaves the cage's section is reported (events.h), not modelled.
 #include "cage/common/pocket.h"
 
 #include "cage/common/pocket_forces.h"
+#include "cage/common/pocket_squeeze.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 
@@ -44,6 +47,16 @@ INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
         own = wide_max(own - (own + load * own - delta) / (1.0 + 1.5 * load), zero);
     }
     return wide_select(wide_above(delta, 0.0), own, delta);
+}
+
+// Adds the film's D m m^T to the matrix that the integrator solves (implicit.c).
+INLINE void add_film_rate(const SqueezeFilm *film, Work *w, int j)
+{
+    const wide m[3] = {film->m.x, film->m.r, film->m.t};
+    for (int i = 0, place = 0; i < 3; i++)
+        for (int k = 0; k <= i; k++, place++)
+            wide_store(&w->squeeze[place][j],
+                       wide_fma(film->D * m[i], m[k], wide_load(&w->squeeze[place][j])));
 }
 
 // Forces in a packet of pockets, stored for the half and added to the balls; pressed: of those with contact.  wall: motion of the walls of an elastic
@@ -82,7 +95,16 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_select(pressed, hertz_damped(Q_0, wide_set(p->cage.lambda), delta_dot), wide_set(0.0));
     wide F_across = pocket_across(d, gap, share.slope);
     if (wall) F_across -= Q_0 * wide_load(&wall->tilt[j]);
-    const vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
+    vec F_n = vec_axpy(-Q, n, vec_axpy(-F_across * n_t, a, vec_scale(F_across * n_x, e_t)));
+
+    // film of oil; `pressed` are from here on those on which any force acts
+    SqueezeFilm film = {0};
+    if (d->squeeze.filled) {
+        film = pocket_squeeze(d, h, j, gap, v);
+        F_n = vec_axpy(-film.F, film.m, F_n);
+        pressed |= wide_above(film.F, 0.0);
+        add_film_rate(&film, w, j);
+    }
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
     const vec arm = vec_scale(R, n);
@@ -106,6 +128,10 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_store(&on_wall[0][j], Q * n_x - vec_dot(drawn, a));
         wide_store(&on_wall[1][j], -vec_dot(drawn, gap->b));
         wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
+        if (d->squeeze.filled) {
+            wide_store(&on_wall[0][j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&on_wall[0][j])));
+            wide_store(&on_wall[2][j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&on_wall[2][j])));
+        }
 
         // the wall's own compliance is in series with the contact
         const wide k = 1.5 * Q_0, soft = wide_max(gap->delta, wide_set(1e-30)) + model->modes->compliance * k;
@@ -114,15 +140,20 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_store(&w->elastic.touch_t[h][j], n_t);
         wide_store(&w->elastic.touch_k[h][j], k / soft);
         wide_store(&w->elastic.touch_rate[h][j], delta_dot + u_dot);
+        wide_store(&w->elastic.touch_Q[h][j], Q);
     }
 
-    wide_store(&pocket->Q[j], Q);
+    wide_store(&pocket->Q[j], d->squeeze.filled ? Q + film.F : Q);
     const wide zero = wide_set(0.0);
     wide_store(&pocket->F_x[j], wide_select(pressed, vec_dot(F_half, a), zero));
     wide_store(&pocket->F_r[j], wide_select(pressed, vec_dot(F_half, gap->b), zero));
     wide_store(&pocket->F_t[j], wide_select(pressed, vec_dot(F_half, e_t), zero));
     wide_store(&pocket->push_x[j], wide_fma(F_across, n_t, Q * n_x));
     wide_store(&pocket->push_t[j], wide_fma(-F_across, n_x, Q * n_t));
+    if (d->squeeze.filled) {
+        wide_store(&pocket->push_x[j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&pocket->push_x[j])));
+        wide_store(&pocket->push_t[j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&pocket->push_t[j])));
+    }
     scalar *const global[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
                                pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
     vec_to_global(F_half, cos_theta, sin_theta, &global[0][j], &global[1][j], &global[2][j]);
@@ -136,7 +167,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
     add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
     add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
-    const wide lost = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
+    wide lost = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
+    if (d->squeeze.filled) lost += film.F * vec_dot(film.m, v);
     const wide dissipated = wide_select(pressed, lost, wide_set(-0.0));
     wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + dissipated);
     wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
@@ -152,7 +184,7 @@ static void pocket_half(const Model *model, Work *w, int h, bool mixed)
         const PocketGap gap = pocket_gap(model->d, w, half, j);
         wide_store(&w->delta_c[h][j], gap.delta);
         const bits pressed = wide_above(gap.delta, 0.0);
-        if (wide_any(pressed)) {
+        if (wide_any(pressed) || model->d->squeeze.filled) {
             pocket_contacts(model, w, h, j, &gap, pressed, mixed, NULL, NULL);
             touched = true;
         } else
@@ -161,20 +193,27 @@ static void pocket_half(const Model *model, Work *w, int h, bool mixed)
     if (touched) add_pockets(pocket, half);
 }
 
+// No films yet.
+static void clear_films(const Model *model, Work *w)
+{
+    if (model->d->squeeze.filled) memset(w->squeeze, 0, sizeof w->squeeze);
+}
+
 void pocket_rigid(const Model *model, Work *w)
 {
+    clear_films(model, w);
     for (int h = 0; h < 2; h++) pocket_half(model, w, h, pocket_is_mixed(model));
 }
 
 // A packet of pockets of an elastic half in which walls are touched.
 typedef struct {
-    int h, j, touched;  // bits of the balls
-    bits pressed;       // the same as a packet
+    int h, j, touched;  // bits of the balls on which forces act, by contact or by oil
+    bits pressed;       // those with contact, as a packet
     PocketGap gap;
 } TouchedPacket;
 
-// Bits of the balls of a packet that press on a wall, behind what the walls have moved; `near`: those that
-// can have reached it.
+// Bits of the balls of a packet that press on a wall or on the oil before it, behind what the walls have moved; `near`:
+// those that can have reached it.
 static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places, bits *pressed)
 {
@@ -190,7 +229,8 @@ static int find_touched(const Model *model, const Work *w, int h, int j, int nea
     // a ball that touches the other half alone loads nothing here
     const wide load = pocket_share(model->d, h, gap->n_x, gap->delta).load;
     *pressed = wide_above(wide_min(load, gap->delta), 0.0);
-    return wide_mask(*pressed);
+    if (!model->d->squeeze.filled) return wide_mask(*pressed);
+    return near & wide_mask(*pressed | wide_above(gap->delta, -model->d->squeeze.reach));
 }
 
 // No contact in a packet of walls.
@@ -202,6 +242,7 @@ static void clear_touches(Work *w, int h, int j)
     wide_store(&w->elastic.touch_t[h][j], zero);
     wide_store(&w->elastic.touch_k[h][j], zero);
     wide_store(&w->elastic.touch_rate[h][j], zero);
+    wide_store(&w->elastic.touch_Q[h][j], zero);
 }
 
 // Motion of the walls, forces and modal forces of a packet.
@@ -235,11 +276,13 @@ void pocket_elastic(const Model *model, Work *w)
     TouchedPacket packets[2 * PACKETS];
     WallPlaces places[2];
     int count = 0;
+    clear_films(model, w);
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
             *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
-            const int near = wide_mask(wide_above(at->gap.delta + w->elastic.reach[h], 0.0));
+            const int near =
+                wide_mask(wide_above(at->gap.delta + (w->elastic.reach[h] + model->d->squeeze.reach), 0.0));
             if (near != 0)
                 at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h], &at->pressed);
             if (at->touched != 0)

@@ -277,6 +277,7 @@ static void clear_walls(Work *w, int h, int j)
     wide_store(&e->touch_t[h][j], zero);
     wide_store(&e->touch_k[h][j], zero);
     wide_store(&e->touch_rate[h][j], zero);
+    wide_store(&e->touch_Q[h][j], zero);
     wide_store(&e->touch_chi[h][j], zero);
     wide_store(&e->touch_radius[h][j], zero);
     wide_store(&e->wall_energy[h][j], zero);
@@ -303,6 +304,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
     wide_store(&e->touch_k[h][j], wide_select(pressed, stiffness, zero));
     wide_store(&e->touch_rate[h][j], wide_select(pressed, rate, zero));
+    wide_store(&e->touch_Q[h][j], wide_load(&w->pocket[h].Q[j]));
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
     wide_store(&e->touch_chi[h][j], zero);
     wide_store(&e->touch_radius[h][j], zero);

@@ -129,7 +129,7 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
         memcpy(fast->touch_t[h], w->elastic.touch_t[h], sizeof fast->touch_t[h]);
         memcpy(fast->touch_k[h], w->elastic.touch_k[h], sizeof fast->touch_k[h]);
         memcpy(fast->touch_rate[h], w->elastic.touch_rate[h], sizeof fast->touch_rate[h]);
-        memcpy(fast->touch_Q[h], w->pocket[h].Q, sizeof fast->touch_Q[h]);
+        memcpy(fast->touch_Q[h], w->elastic.touch_Q[h], sizeof fast->touch_Q[h]);
         memcpy(fast->touch_r[h], w->elastic.touch_r[h], sizeof fast->touch_r[h]);
         memcpy(fast->touch_chi[h], w->elastic.touch_chi[h], sizeof fast->touch_chi[h]);
         memcpy(fast->touch_radius[h], w->elastic.touch_radius[h], sizeof fast->touch_radius[h]);

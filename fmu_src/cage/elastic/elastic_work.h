@@ -40,8 +40,8 @@ typedef struct {
     mode_array wall_force[2];
 
     // contacts with the walls (pocket.c): direction (x, t) from the pocket's axis to the ball, stiffness along it [N/m],
-    // 0 without contact, and the rate of the approach by ball and half as rigid bodies [m/s]
-    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2];
+    // 0 without contact, the rate of the approach by ball and half as rigid bodies [m/s], and the load [N]
+    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2], touch_Q[2];
 
     // of a ribbon's walls (pocket_spheres.c) also: direction r, the place's angle chi, negative on the side t < 0, and radius
     // [m]; elastic energy of contact and wall beside the modes [J]

@@ -1,0 +1,109 @@
+"""riveted-bearing identify: parameters from measurements."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..results import make_folder
+from ..scene import read_toml
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+
+
+@command
+def identify(
+    study: Annotated[
+        Path,
+        typer.Argument(
+            help="study file (TOML): parameters with ranges, targets; see docs/identify.md", metavar="STUDY.toml"
+        ),
+    ],
+    fmu: FMU = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(help="folder of runs, identify.json, identified.toml and page; default: results/STUDY"),
+    ] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """Which values of unknown parameters measurements decide, and which they do not; a second call does only missing
+    runs.
+    """
+    from ..design.sensitivity import salib
+    from ..errors import UserError
+    from ..fmu import Model
+    from ..identify.answer import write_answer, write_page, write_scene
+    from ..identify.fit import identify as fit
+    from ..identify.rig import Rig
+    from ..identify.study import plan_identify
+
+    if not study.is_file():
+        raise UserError(f"{study}: no such study file")
+    model, document = Model(fmu), read_toml(study)
+    if "claims" in document:
+        return identify_paper(study, document, model, out or Path("results") / study.stem, scheduler, workers)
+    plan = plan_identify(study, document, model)
+    salib("identify")  # before there is a folder
+    folder = out or Path("results") / study.stem
+    with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
+        rig = Rig(plan, document, model, folder, client, progress)
+        make_folder(folder)
+        found = fit(plan, rig, rig.start())
+    basis = list(rig.basis())
+    print_basis(basis)
+    print_found(found)
+    values = [one.value for one in found.intervals.values()]
+    for label, path in (
+        ("results", write_answer(found, basis, folder / "identify.json")),
+        ("scene", write_scene(found, rig.scene_at(plan.names, values), folder / "identified.toml")),
+        ("page", write_page(found, basis, folder / "identify.html")),
+    ):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def identify_paper(study, document, model, folder, scheduler, workers):
+    """The paper's claims as targets, in stages."""
+    from ..identify.claims import (
+        Bench,
+        identify_claims,
+        plan_claims,
+        set_rows,
+        write_claims,
+        write_claims_page,
+    )
+
+    plan = plan_claims(study, document, model)
+    make_folder(folder)
+    with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
+        found = identify_claims(plan, Bench(plan, model, folder, client, progress))
+    print_table(*set_rows(found))
+    for note in found.notes:
+        console.print(escape(note), soft_wrap=True)
+    for label, path in (
+        ("results", write_claims(found, folder / "claims.json")),
+        ("page", write_claims_page(found, folder / "claims.html")),
+    ):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def print_found(found):
+    """Parameters with intervals, errors, and the notes."""
+    from ..identify.answer import error_rows, parameter_rows
+
+    confidence = f"{100 * found.study.settings['confidence']:g} % interval"
+    print_table(("parameter", "value", confidence, "searched", ""), parameter_rows(found))
+    heads = ("targets", "number", "error after the fit", "before")
+    print_table(heads, error_rows(found))
+    console.print("[dim]errors: RMS of (result - measured)/uncertainty with fresh seeds[/]", soft_wrap=True)
+    for note in found.notes:
+        console.print(escape(note), soft_wrap=True)
+
+
+def print_table(heads, rows):
+    """A table of texts."""
+    table = Table(heads[0], *(Column(head, justify="right") for head in heads[1:]), box=None, pad_edge=False)
+    for row in rows:
+        table.add_row(*map(escape, row))
+    console.print(table)

@@ -1,0 +1,50 @@
+"""riveted-bearing spectrum: spectrum and envelope spectrum of a run."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from .terminal import command, console
+
+
+@command
+def spectrum(
+    result: Annotated[Path, typer.Argument(help="result file of `run`")],
+    channel: Annotated[
+        str | None,
+        typer.Option(
+            help="output to analyse; default: housing.a_y, housing.F_y, ring.a_y or ring.y, the first that moves"
+        ),
+    ] = None,
+    band: Annotated[
+        tuple[float, float] | None,
+        typer.Option(help="band of the envelope in Hz, of a run-up in orders; default: largest spectral kurtosis"),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="folder for the files; default: beside the result")] = None,
+):
+    """Spectrum and envelope spectrum of a run, with the lines of cage, balls and races: table, CSV and picture."""
+    from ..results import make_folder, read_result
+    from ..spectrum import plot_spectra, spectra, write_spectra
+
+    found = spectra(read_result(result), channel, band)
+    folder = out or result.parent
+    make_folder(folder)
+    console.print(
+        f"{found.channel}: band of the envelope {found.band[0]:,.4g} to {found.band[1]:,.4g}, "
+        f"resolution {found.resolution:.3g} ({found.axis})"
+    )
+    heads = "line", "expected", "found", "amplitude", "times the median", "stands out"
+    rows = Table(*(Column(head, justify="left" if head == "line" else "right") for head in heads), box=None)
+    for line in found.lines:
+        times = line.amplitude / line.background if line.background > 0.0 else 0.0
+        values = f"{line.expected:,.4g}", f"{line.found:,.4g}", f"{line.amplitude:.3g}", f"{times:.1f}"
+        rows.add_row(line.name, *values, "yes" if line.stands_out else "no")
+    console.print(rows)
+    for path in (
+        write_spectra(found, folder / f"{result.stem}_spectrum.csv"),
+        plot_spectra(found, folder / f"{result.stem}_spectrum.png"),
+    ):
+        console.print(f"written  [cyan]{escape(str(path))}[/]", soft_wrap=True)

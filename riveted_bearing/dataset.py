@@ -1,0 +1,128 @@
+"""Labelled signals: the runs of a design with their vibration, as a Parquet dataset to train on.
+
+    scene = "spall"                      # a sweep file (sweep.py): scene, [parameters], [[vary]], [sample], repeats ...
+    [dataset]
+    channels = ["housing.a_y"]           # signals to keep; default: housing.a_y
+    [[vary]]
+    outer.spall_length = ["0 mm", "1 mm"]
+    outer.spall_width = ["0 mm", "3 mm"]
+    outer.spall_depth = ["0 um", "50 um"]
+    [[vary]]
+    shaft.omega = ["1500 rev/min", "3000 rev/min"]
+
+A row holds what a sweep's row holds (all parameters and inputs in SI units, status, statistics) and further the labels
+(label.fault: none, outer, inner or both; label.length, width and depth of the larger spall; label.waviness, the largest
+amplitude), the kinematic frequencies of the computed speeds, and for each channel a list of single-precision samples
+from start.settle on, signal.rate apart.  Rows are written as they arrive; a second call does only runs that are missing.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from .errors import UserError, unknown
+from .scene import read_toml, section_of
+from .spectrum import kinematic_frequencies, speed_of
+from .summary import settled
+from .sweep import plan_sweep
+
+SECTION = ("channels",)
+CHANNELS = ("housing.a_y",)
+SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
+RACES = ("outer", "inner")
+SIZES = ("length", "width", "depth")
+FREQUENCIES = ("shaft", "FTF", "BSF", "BPFO", "BPFI")
+
+
+def load_dataset(path, model):
+    """The Sweep of a dataset's TOML file, whose rows have labels and signals; UserError naming file, key and value."""
+    from pathlib import Path
+
+    path = Path(path)
+    if not path.is_file():
+        raise UserError(f"{path}: no such dataset file")
+    document = read_toml(path)
+    section = section_of(path, document, "dataset")
+    for key in section:
+        if key not in SECTION:
+            raise unknown(path, "key", f"dataset.{key}", [f"dataset.{name}" for name in SECTION])
+    channels = channels_of(path, section.get("channels", list(CHANNELS)), model)
+    document = {key: value for key, value in document.items() if key != "dataset"}
+    simulation = section_of(path, document, "simulation")
+    if "outputs" in simulation:
+        raise UserError(f"{path}: simulation.outputs: [dataset] channels names the outputs of a dataset")
+    recorded = [*dict.fromkeys([*channels, *SPEEDS])]
+    document["simulation"] = simulation | {"outputs": recorded}
+    plan = plan_sweep(path.stem, document, model, path)
+    for scene in plan.scenes.values():
+        settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+        if scene.t_end <= settle:
+            raise UserError(
+                f"{path}: simulation.t_end = {scene.t_end:g} s: more than start.settle = {settle:g} s is allowed"
+            )
+    return replace(
+        plan, further=(Measure(channels), Fields(channels, {name: units_of(model, name) for name in channels}))
+    )
+
+
+def channels_of(path, names, model):
+    """The channels to keep, checked."""
+    if not isinstance(names, list) or not names or not all(isinstance(name, str) for name in names):
+        raise UserError(f'{path}: dataset.channels = {names!r}: a list of outputs such as ["housing.a_y"] is allowed')
+    for name in names:
+        if name not in model.outputs:
+            raise unknown(path, "channel", name, list(model.outputs))
+    return tuple(dict.fromkeys(names))
+
+
+def units_of(model, name):
+    return model.outputs[name].unit or "1"
+
+
+class Measure:
+    """Labels and signals of a run's Result by column; goes to the workers."""
+
+    def __init__(self, channels):
+        self.channels = channels
+
+    def __call__(self, result):
+        rows = settled(result)
+        t = result.data["time"][rows]
+        speeds = {name: speed_of(result, name, rows) for name in SPEEDS}
+        frequencies = kinematic_frequencies(result, speeds, orders=False)
+        return (
+            labels(result.parameters)
+            | {f"frequency.{name}": frequencies[name] for name in FREQUENCIES}
+            | {"signal.rate": 1.0 / float(np.mean(np.diff(t))) if len(t) > 1 else math.nan}
+            | {f"signal.{name}": result.data[name][rows].astype(np.float32) for name in self.channels}
+        )
+
+
+class Fields:
+    """The fields of these columns."""
+
+    def __init__(self, channels, units):
+        self.channels, self.units = channels, units
+
+    def __call__(self):
+        import pyarrow as pa
+
+        fields = [pa.field("label.fault", pa.string())]
+        fields += [pa.field(f"label.{name}", pa.float64(), metadata={"unit": "m"}) for name in (*SIZES, "waviness")]
+        names = [f"frequency.{name}" for name in FREQUENCIES] + ["signal.rate"]
+        fields += [pa.field(name, pa.float64(), metadata={"unit": "Hz"}) for name in names]
+        return fields + [
+            pa.field(f"signal.{name}", pa.list_(pa.float32()), metadata={"unit": self.units[name]})
+            for name in self.channels
+        ]
+
+
+def labels(parameters):
+    """What is wrong with the bearing of these parameters."""
+    spalled = [race for race in RACES if parameters.get(f"{race}.spall_length", 0.0) > 0.0]
+    worst = max(spalled, key=lambda race: parameters[f"{race}.spall_length"], default=None)
+    fault = "none" if not spalled else "both" if len(spalled) == 2 else spalled[0]
+    sizes = {f"label.{size}": parameters[f"{worst}.spall_{size}"] if worst else 0.0 for size in SIZES}
+    waves = [value for name, value in parameters.items() if name.startswith(("outer.waviness[", "inner.waviness["))]
+    return {"label.fault": fault} | sizes | {"label.waviness": max(waves, default=0.0)}

@@ -1,0 +1,580 @@
+"""The file of an identification, read and checked before anything is simulated.
+
+    scene = "demo"                       # as in a sweep, and so are [simulation], [parameters], [inputs]
+    seeds = 2                            # runs of each point of the search, the same start.seed for all
+    seed = 1                             # first start.seed, and seed of the study's own choices
+    check_seeds = 8                      # fresh seeds of the answer
+    held_out = 3                         # each so many-th target is kept from the fit; 0: none
+    confidence = 0.95
+    [parameter]                          # what is to be found, with its range
+    cage.guide_clearance = ["0.1 mm", "0.3 mm"]
+    oil.eta = { low = "2 mPa.s", high = "20 mPa.s", scale = "log", mean = "6 mPa.s", sd = "2 mPa.s" }    # normal prior
+    [screen]
+    method = "latin_hypercube"           # or "morris", then with trajectories and levels
+    count = 40
+    [search]
+    rounds = 2                           # of the surrogate, each with so many points
+    points = 12
+    [[point]]                            # operating points; none: the scene itself
+    name = "28k"
+    inputs.shaft.omega = "28000 rev/min"
+    [[target]]
+    point = "28k"                        # default: the first point
+    measure = "mean(bearing.power_loss)" # a response or any column of a sweep, std(x), q05(x), q50(x), q95(x)
+    value = "350 W"
+    uncertainty = "3 %"                  # one standard deviation, of the value or in its unit
+    [[target]]                           # a line of a spectrum: RMS amplitude in frequency +- width/2
+    line = "housing.F_y"
+    frequency = "1250 Hz"
+    width = "50 Hz"
+    value = "3 N"
+    uncertainty = "0.3 N"
+    over = "cold"                        # the target is the ratio to another point's, or with `minus` the difference
+    held_out = true                      # in the place of the rule above
+    [[series]]                           # a measured series: its statistics and bands of its spectrum are targets
+    file = "rig.csv"                     # or .parquet
+    columns.housing.F_y = "Fy [kN]"      # channel = column; time = "t [ms]"
+    statistics = ["mean", "std"]
+    bands = 4
+    uncertainty = "2 %"                  # of the sensor, beside the scatter of the series itself
+
+A weight is 1/uncertainty^2.  Without an uncertainty a target has no weight and is refused.
+"""
+
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+from scipy.stats import norm
+
+from ..design.bench import COLUMNS as RESPONSES
+from ..errors import UserError, refusal, unknown
+from ..overlay import find_column, in_si, numbers
+from ..overlay import read_table as read_csv_table
+from ..results import read_table as read_parquet_table
+from ..scene import leaves, load_scene, section_of
+from ..sweep import KINDS, beside, bounds, count_of, known_names
+from ..units import SECONDS, scales_of, to_si
+from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
+
+KEYS = (
+    *("description", "scene", "simulation", "parameters", "inputs", "seeds", "seed", "check_seeds", "held_out"),
+    *("confidence", "parameter", "screen", "search", "point", "target", "series"),
+)
+PARAMETER = ("low", "high", "scale", "mean", "sd")
+SCREEN = {"method": "latin_hypercube", "count": 40, "trajectories": 6, "levels": 4}
+SEARCH = {"rounds": 2, "points": 12}
+POINT = ("name", "inputs", "parameters", "simulation")
+COMMON = ("point", "over", "minus", "uncertainty", "held_out")
+TARGET = ("measure", "line", "frequency", "width", "value", *COMMON)
+SERIES = ("file", "time", "columns", "statistics", "bands", *COMMON)
+HERTZ = {"Hz": (1.0, 0.0), "kHz": (1e-3, 0.0)}
+SHORT = {"slip": "mean(cage.slip_ratio)", "cage_speed": "stat.cage_omega", "heat": "mean(bearing.power_loss)"}
+NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A value to be found between low and high (SI); log: searched by ratios; mean, sd: of a normal prior, None: the
+    whole range is equally likely.
+    """
+
+    name: str
+    low: float
+    high: float
+    log: bool = False
+    mean: float | None = None
+    sd: float | None = None
+
+    def value(self, u):
+        """The value at a share u of the range."""
+        if self.log:
+            return self.low * (self.high / self.low) ** np.asarray(u, float)
+        return self.low + (self.high - self.low) * np.asarray(u, float)
+
+    def share(self, value):
+        """The share of the range at a value."""
+        if self.log:
+            return np.log(np.asarray(value, float) / self.low) / np.log(self.high / self.low)
+        return (np.asarray(value, float) - self.low) / (self.high - self.low)
+
+    def penalty(self, u):
+        """-2 ln of the prior's density but for a constant."""
+        return 0.0 * u if self.mean is None else ((self.value(u) - self.mean) / self.sd) ** 2
+
+    def known(self, confidence):
+        """Ends of the prior's own interval, as shares of the range."""
+        half = 0.5 * confidence
+        if self.mean is None:
+            return 0.5 - half, 0.5 + half
+        z = norm.ppf(0.5 + half) * self.sd
+        ends = np.clip([self.mean - z, self.mean + z], self.low, self.high)
+        return tuple(map(float, self.share(ends)))
+
+
+@dataclass(frozen=True)
+class Target:
+    """A measured figure: of an operating point, as its ratio or difference ("over", "minus") to another, or of it alone.
+
+    column: of a row; value, uncertainty: in SI, the latter one standard deviation; origin: where the value is from.
+    """
+
+    name: str
+    point: int
+    column: str
+    value: float
+    uncertainty: float
+    held_out: bool
+    unit: str = "1"
+    operation: str = ""
+    other: int = 0
+    origin: str = "given"
+
+    @property
+    def weight(self):
+        """Of its squared deviation in the fit."""
+        return self.uncertainty**-2
+
+
+@dataclass(frozen=True)
+class Study:
+    """An identification that was checked; points: names and documents of the operating points; measures: of channels,
+    computed by the workers.
+    """
+
+    path: Path
+    description: str
+    parameters: list
+    targets: list
+    points: list
+    measures: tuple
+    outputs: tuple
+    settings: dict = field(default_factory=dict)
+
+    @property
+    def names(self):
+        """Of the parameters."""
+        return [parameter.name for parameter in self.parameters]
+
+    def values(self, u):
+        """Values of points of the unit cube [n, d]."""
+        return np.column_stack([p.value(column) for p, column in zip(self.parameters, np.atleast_2d(u).T, strict=True)])
+
+    @property
+    def fitted(self):
+        """Mask of the targets that the fit sees."""
+        return np.array([not target.held_out for target in self.targets])
+
+
+def plan_identify(path, document, model):
+    """The Study of a document; raises UserError naming what cannot be used."""
+    path = Path(path)
+    for key in document:
+        if key not in KEYS:
+            raise unknown(path, "key", key, KEYS)
+    settings = {
+        key: count_of(path, key, document.get(key, n)) for key, n in (("seeds", 2), ("seed", 1), ("check_seeds", 8))
+    }
+    if settings["check_seeds"] < 2:
+        raise refusal(path, "check_seeds", settings["check_seeds"], "from 2 on, which show scatter, is allowed")
+    settings["held_out"] = document.get("held_out", 3)
+    if (
+        isinstance(settings["held_out"], bool)
+        or not isinstance(settings["held_out"], int)
+        or settings["held_out"] < 0
+        or settings["held_out"] == 1
+    ):
+        raise refusal(path, "held_out", settings["held_out"], "0 (none), or from 2 on (each so many-th), is allowed")
+    settings["confidence"] = fraction(path, "confidence", document.get("confidence", 0.95))
+    settings |= {"screen": screen_of(path, document), "search": counts_of(path, document, "search", SEARCH)}
+    points = points_of(path, document, model)
+    parameters = parameters_of(path, document, model, points)
+    scenes = [scene_of(path, document, model, changes) for _, changes in points]
+    reader = Reader(path, model, points, scenes, settings["held_out"])
+    for i, block in enumerate(blocks_of(path, document, "target"), 1):
+        reader.target(f"target {i}", block)
+    for i, block in enumerate(blocks_of(path, document, "series"), 1):
+        reader.series(f"series {i}", block)
+    if not reader.targets:
+        raise UserError(
+            f"{path}: no target: [[target]] with value and uncertainty, or [[series]] with a file, is needed"
+        )
+    if all(target.held_out for target in reader.targets):
+        raise UserError(f"{path}: all targets are held out: nothing to fit")
+    measures = tuple(dict.fromkeys(reader.measures))
+    return Study(
+        path,
+        str(document.get("description", "")),
+        parameters,
+        reader.targets,
+        points,
+        measures,
+        tuple(dict.fromkeys(reader.outputs)),
+        settings,
+    )
+
+
+def fraction(path, key, value):
+    """A number between 0 and 1."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < 1.0:
+        raise refusal(path, key, value, "a number between 0 and 1 is needed")
+    return float(value)
+
+
+def blocks_of(path, document, key):
+    """The tables of [[key]]."""
+    blocks = document.get(key, [])
+    if not isinstance(blocks, list) or not all(isinstance(block, dict) for block in blocks):
+        raise UserError(f"{path}: {key}: write [[{key}]] with its keys below it")
+    return blocks
+
+
+def counts_of(path, document, name, defaults):
+    """Whole numbers of a section."""
+    section = section_of(path, document, name)
+    for key in section:
+        if key not in defaults:
+            raise unknown(path, "key", f"{name}.{key}", [f"{name}.{known}" for known in defaults])
+    return {key: count_of(path, f"{name}.{key}", section.get(key, default)) for key, default in defaults.items()}
+
+
+def screen_of(path, document):
+    """Settings of [screen]."""
+    section = section_of(path, document, "screen")
+    for key in section:
+        if key not in SCREEN:
+            raise unknown(path, "key", f"screen.{key}", [f"screen.{known}" for known in SCREEN])
+    found = SCREEN | section
+    if found["method"] not in ("latin_hypercube", "morris"):
+        raise refusal(path, "screen.method", found["method"], "allowed: latin_hypercube, morris")
+    for key in ("count", "trajectories", "levels"):
+        count_of(path, f"screen.{key}", found[key])
+    if found["levels"] < 2 or found["levels"] % 2:
+        raise refusal(path, "screen.levels", found["levels"], "an even number is needed")
+    return found
+
+
+def points_of(path, document, model):
+    """(name, document) of each operating point; one without changes if there are none."""
+    found = []
+    for i, block in enumerate(blocks_of(path, document, "point"), 1):
+        for key in block:
+            if key not in POINT:
+                raise unknown(f"{path}: point {i}", "key", key, POINT)
+        name = block.get("name", f"point {i}")
+        if not isinstance(name, str) or not name or name in [other for other, _ in found]:
+            raise refusal(path, f"point {i}: name", name, "a text is needed, another one for each point")
+        found.append((name, {key: section_of(path, block, key) for key in POINT[1:]}))
+    return found or [("", {})]
+
+
+def parameters_of(path, document, model, points):
+    """The Parameters of [parameter]."""
+    section = section_of(path, document, "parameter")
+    found, known = [], known_names(model)
+    for name, value in leaves(section, known):
+        if name not in known or name.startswith(NOT_FOUND):
+            raise unknown(path, "parameter or input", name, [key for key in known if not key.startswith(NOT_FOUND)])
+        table = (
+            value
+            if isinstance(value, dict)
+            else dict(zip(("low", "high"), value))
+            if isinstance(value, list) and len(value) == 2
+            else None
+        )
+        where = f"parameter.{name}"
+        if table is None or not {"low", "high"} <= set(table):
+            raise refusal(path, where, value, "[lowest, highest] or { low = ..., high = ... } is needed")
+        for key in table:
+            if key not in PARAMETER:
+                raise unknown(path, "key", f"{where}.{key}", [f"{where}.{known}" for known in PARAMETER])
+        low, high = bounds(path, where.removeprefix("parameter."), (table["low"], table["high"]), model)
+        variable = (model.parameters | model.inputs)[name]
+        for end in (low, high):
+            try:
+                model.check_range(end, variable)
+            except UserError as problem:
+                raise refusal(path, where, value, problem) from None
+        if not low < high:
+            raise refusal(path, where, value, "the lowest value must be below the highest")
+        scale = table.get("scale", "linear")
+        if scale not in ("linear", "log"):
+            raise refusal(path, f"{where}.scale", scale, "allowed: linear, log")
+        if scale == "log" and low <= 0.0:
+            raise refusal(path, where, value, "a logarithmic scale needs a lowest value above 0")
+        if ("mean" in table) != ("sd" in table):
+            raise refusal(path, where, value, "a normal prior needs both mean and sd")
+        mean = sd = None
+        if "mean" in table:
+            scales = model.units[variable.unit]
+            mean = quantity(path, f"{where}.mean", table["mean"], scales)
+            sd = spread(path, f"{where}.sd", table["sd"], scales, mean)
+            if not low <= mean <= high:
+                raise refusal(path, f"{where}.mean", table["mean"], "a mean between low and high is needed")
+        found.append(Parameter(name, low, high, scale == "log", mean, sd))
+    if not found:
+        raise UserError(f"{path}: parameter: name at least one parameter or input with its lowest and highest value")
+    for name, changes in points:
+        own = {key for section in ("inputs", "parameters") for key, _ in leaves(changes.get(section, {}), known)}
+        if both := own & {parameter.name for parameter in found}:
+            raise UserError(f"{path}: {', '.join(sorted(both))}: to be found, but point {name} sets it")
+    return found
+
+
+def quantity(path, key, value, scales):
+    """An SI value; UserError naming the key."""
+    try:
+        return to_si(value, scales)
+    except UserError as problem:
+        raise refusal(path, key, value, problem) from None
+
+
+def spread(path, key, value, scales, mean):
+    """A standard deviation in SI: of a unit, or in percent of the mean; offsets of units do not count."""
+    relative = isinstance(value, str) and value.strip().endswith("%")
+    if relative:
+        found = abs(mean) * quantity(path, key, value, scales_of("1", {}))
+    else:
+        found = quantity(path, key, value, {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()})
+    if not found > 0.0:
+        zero = f"{value} of {mean:g} is 0" if relative and found == 0.0 else "one standard deviation"
+        raise refusal(path, key, value, f"{zero}: greater than 0 is needed")
+    return found
+
+
+def scene_of(path, document, model, changes):
+    """The scene of an operating point, before the outputs that the targets need."""
+    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
+    return load_scene(beside(path, document.get("scene")), model, (str(path), common), (str(path), changes))
+
+
+class Reader:
+    """Targets as they are read, with the measures and outputs that they need."""
+
+    def __init__(self, path, model, points, scenes, every):
+        self.path, self.model, self.points, self.scenes, self.every = path, model, points, scenes, every
+        self.targets, self.measures, self.outputs = [], [], []
+
+    def target(self, where, block):
+        """One [[target]]."""
+        where = f"{self.path}: {where}"
+        for key in block:
+            if key not in TARGET:
+                raise unknown(where, "key", key, TARGET)
+        if ("measure" in block) == ("line" in block):
+            raise UserError(f"{where}: either measure or line is needed")
+        point, operation, other = self.place(where, block)
+        if "line" in block:
+            column, unit, scales = self.line(where, block, point)
+        else:
+            column, unit, scales = self.column(where, block["measure"])
+        if operation == "over":
+            unit, scales = "1", scales_of("1", {})
+        elif operation == "minus":
+            scales = {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
+        for key in ("value", "uncertainty"):
+            if key not in block:
+                raise UserError(f"{where}: {key} is missing: its weight follows from value and uncertainty")
+        value = quantity(where, "value", block["value"], scales)
+        uncertainty = spread(where, "uncertainty", block["uncertainty"], scales, value)
+        self.add(where, block, block.get("measure", column), point, column, value, uncertainty, unit, operation, other)
+
+    def add(self, where, block, label, point, column, value, uncertainty, unit, operation="", other=0, origin="given"):
+        """Append a Target."""
+        held = block.get("held_out", bool(self.every) and (len(self.targets) + 1) % self.every == 0)
+        if not isinstance(held, bool):
+            raise refusal(where, "held_out", held, "true or false is needed")
+        at = self.points[point][0]
+        name = f"{at}: {label}" if at else label
+        if operation:
+            name += f" {operation} {self.points[other][0]}"
+        self.targets.append(Target(name, point, column, value, uncertainty, held, unit, operation, other, origin))
+
+    def place(self, where, block):
+        """Numbers of the operating point and of another, and the operation between."""
+        names = [name for name, _ in self.points]
+
+        def number(key):
+            if block[key] not in names:
+                raise unknown(where, key, block[key], names)
+            return names.index(block[key])
+
+        operations = [key for key in ("over", "minus") if key in block]
+        if len(operations) > 1:
+            raise UserError(f"{where}: either over or minus is needed")
+        operation = operations[0] if operations else ""
+        point = number("point") if "point" in block else 0
+        return point, operation, number(operation) if operation else 0
+
+    def column(self, where, text):
+        """Column, unit and scales of a measure."""
+        if not isinstance(text, str):
+            raise refusal(where, "measure", text, "the name of a response or column is needed")
+        column = (SHORT | RESPONSES).get(text, text)
+        if (measure := parsed(column)) is not None:
+            unit, scales = self.channel(where, "measure", measure.channel)
+            self.measures.append(measure)
+            return measure.column, unit, scales
+        if match := re.fullmatch(rf"({'|'.join(KINDS)})\(([^()]+)\)", column):
+            unit, scales = self.channel(where, "measure", match[2])
+            return column, unit, scales
+        if column in self.model.outputs or column in self.model.locals:
+            variable = (self.model.outputs | self.model.locals)[column]
+            return column, variable.unit or "1", self.model.units[variable.unit]
+        if column == "damage":
+            return column, "1", scales_of("1", {})
+        allowed = ["damage", *SHORT, *RESPONSES, *self.model.outputs]
+        allowed += [f"mean({name})" for name in self.model.outputs]
+        raise unknown(where, "measure", text, allowed)
+
+    def channel(self, where, key, name):
+        """Unit and scales of a channel over time, which the runs then record."""
+        known = self.model.inputs | self.model.outputs
+        if name not in known:
+            raise unknown(where, key, name, known)
+        self.outputs.append(name)
+        return known[name].unit or "1", self.model.units[known[name].unit]
+
+    def line(self, where, block, point):
+        """Column, unit and scales of a line of a spectrum."""
+        unit, scales = self.channel(where, "line", block["line"])
+        for key in ("frequency", "width"):
+            if key not in block:
+                raise UserError(f"{where}: {key} is missing")
+        f, width = (quantity(where, key, block[key], HERTZ) for key in ("frequency", "width"))
+        lowest, highest = self.limits(point)
+        if not 0.0 < width < 2.0 * f:
+            raise refusal(where, "width", block["width"], "more than 0 and less than twice the frequency is allowed")
+        if min(width, f - 0.5 * width) < lowest:
+            raise refusal(
+                where,
+                "width",
+                block["width"],
+                f"at least {lowest:.4g} Hz, as for the lower end, is allowed with this length of the run after start.settle",
+            )
+        if f + 0.5 * width > highest:
+            raise refusal(
+                where,
+                "frequency",
+                block["frequency"],
+                f"at most {highest:.4g} Hz is allowed, half the rate of the run's samples",
+            )
+        measure = Measure("line", block["line"], f - 0.5 * width, f + 0.5 * width)
+        self.measures.append(measure)
+        return measure.column, unit, scales
+
+    def limits(self, point):
+        """Lowest and highest frequency [Hz] of a run's spectrum."""
+        scene = self.scenes[point]
+        settle = scene.parameters.get("start.settle", self.model.default(self.model.parameters["start.settle"]))
+        length = scene.t_end - settle
+        return 1.05 * FEWEST / length if length > 0.0 else np.inf, 0.5 / (scene.step * scene.stride)
+
+    def series(self, where, block):
+        """One [[series]]: statistics and bands of each of its columns as targets."""
+        where = f"{self.path}: {where}"
+        for key in block:
+            if key not in SERIES:
+                raise unknown(where, "key", key, SERIES)
+        if "file" not in block or not isinstance(block["file"], str):
+            raise UserError(f"{where}: file is missing")
+        if "over" in block or "minus" in block:
+            raise UserError(f"{where}: over and minus are for [[target]]")
+        point, _, _ = self.place(where, block)
+        file = self.path.parent / block["file"]
+        names, table = measured_table(file)
+        i, unit = find_column(file, names, block.get("time", "time"))
+        t = in_si(file, names[i], numbers_of(file, names[i], table[i]), unit, SECONDS)
+        if len(t) < 16 * SEGMENTS or np.any(np.diff(t) <= 0.0):
+            raise UserError(f'{file}: column "{names[i]}": at least {16 * SEGMENTS} times that increase are needed')
+        channels = self.model.inputs | self.model.outputs
+        columns = dict(leaves(section_of(where, block, "columns"), channels))
+        if not columns:
+            raise UserError(f"{where}: columns: name at least one channel with the column that was measured")
+        kinds = block.get("statistics", ["mean", "std"])
+        allowed = ["mean", "rms", *STATISTICS]
+        if not isinstance(kinds, list) or any(kind not in allowed for kind in kinds):
+            raise refusal(where, "statistics", kinds, f"a list of {', '.join(allowed)} is needed")
+        count = block.get("bands", 0)
+        if count != 0:
+            count_of(where, "bands", count)
+        for channel, wanted in columns.items():
+            unit, scales = self.channel(where, "channel", channel)
+            i, own = find_column(file, names, wanted)
+            values = in_si(file, names[i], numbers_of(file, names[i], table[i]), own, scales)
+            measures = [Measure(kind, channel) for kind in kinds] + self.bands_of(where, channel, point, t, count)
+            for measure in measures:
+                self.measured(where, block, measure, point, t, values, unit, file, names[i])
+
+    def bands_of(self, where, channel, point, t, count):
+        """Measures of so many bands that run and series both have."""
+        if not count:
+            return []
+        lowest, highest = self.limits(point)
+        lowest = max(lowest, 1.05 * FEWEST * SEGMENTS / (t[-1] - t[0]))
+        highest = min(highest, 0.5 * (len(t) - 1) / (t[-1] - t[0])) * (1.0 - 1e-9)
+        most = int(np.log2(max(highest / lowest, 1.0)))
+        if count > most:
+            raise refusal(
+                where,
+                "bands",
+                count,
+                f"at most {most} octaves lie between {lowest:.4g} and {highest:.4g} Hz, which run and series both have",
+            )
+        return [Measure("band", channel, *map(float, ends)) for ends in bands(lowest, highest, count)]
+
+    def measured(self, where, block, measure, point, t, values, unit, file, column):
+        """The Target of a figure of a measured series."""
+        plain = {"mean": np.mean, "rms": lambda x: np.sqrt(np.mean(x**2))}
+        measure_of = measure if measure.kind not in plain else lambda _, x: float(plain[measure.kind](x))
+        value, scatter = of_series(measure_of, t, values)
+        if not np.isfinite(value) or not np.isfinite(scatter):
+            raise UserError(f'{file}: column "{column}": no {measure.kind}: the times are not equally spaced')
+        if "uncertainty" in block:  # of the sensor
+            scales = {"log10": (1.0, 0.0)} if measure.kind == "band" else self.model.units[unit]
+            relative = isinstance(block["uncertainty"], str) and block["uncertainty"].strip().endswith("%")
+            if measure.kind == "band" and relative:  # a share of the amplitude
+                sensor = spread(where, "uncertainty", block["uncertainty"], scales_of("1", {}), 1.0) / np.log(10.0)
+            elif measure.kind == "band":
+                sensor = 0.0  # a shift of the zero is in no band
+            else:
+                sensor = spread(where, "uncertainty", block["uncertainty"], scales, value)
+            scatter = float(np.hypot(scatter, sensor))
+        if not scatter > 0.0:
+            raise UserError(
+                f'{file}: column "{column}": {measure.column} does not scatter, its uncertainty is 0: give one'
+            )
+        if measure.kind not in plain:
+            self.measures.append(measure)
+        unit = "1" if measure.kind == "band" else unit
+        self.add(
+            where, block, measure.column, point, measure.column, value, scatter, unit, origin=f"{file.name}: {column}"
+        )
+
+
+def measured_table(file):
+    """Headers "name [unit]" and columns of a CSV or Parquet file."""
+    if file.suffix != ".parquet":
+        return read_csv_table(file)
+    if not file.is_file():
+        raise UserError(f"{file}: no such file")
+    try:
+        table = read_parquet_table(file)
+    except Exception as problem:  # pyarrow has many
+        raise UserError(f"{file}: not a Parquet table: {problem}") from None
+    names = []
+    for one in table.schema:
+        unit = (one.metadata or {}).get(b"unit", b"").decode()
+        names.append(f"{one.name} [{unit}]" if unit and not one.name.endswith("]") else one.name)
+    if not table.num_rows:
+        raise UserError(f"{file}: the table has no rows")
+    return names, [column.to_pylist() for column in table.columns]
+
+
+def numbers_of(file, name, column):
+    """A column as floats; UserError if it is empty."""
+    column = ["" if entry is None else entry for entry in column]
+    if all(isinstance(entry, str) and not entry.strip() for entry in column):
+        raise UserError(f'{file}: column "{name}" is empty')
+    return numbers(file, name, column)
