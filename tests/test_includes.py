@@ -1,11 +1,10 @@
 """The direction of the C core's includes: from the wrapper down to plain numbers, never up, and never from one physical
-element to another; the cage behind its door; who writes the members of Work.
+element to another; the cage behind its door.
 
 A new file of fmu_src goes into the group whose users may include it.
 """
 
 import re
-from collections import defaultdict
 from pathlib import Path
 
 import pytest
@@ -39,13 +38,6 @@ INNER = {
     "derived.c": {"centrifugal.h", "pocket_squeeze.h"},
 }
 ONE_KIND = {"two_half": "elastic/", "elastic": "two_half/"}
-# Elements of which the shape of the cage chooses one.
-TWINS_IN_TASK = {"pocket_spheres.c": "pocket.c"}
-# Sums to which several elements add.
-SUMS = set(
-    "F_x F_r F_t M_x M_r M_t dissipated D_x D_r D_t D_omega_x D_omega_r D_omega_t pocket_dissipated squeeze ring half film "
-    "cage_dissipated joint_dissipated".split()
-)
 
 
 def included(path):
@@ -126,26 +118,3 @@ def test_kinds_of_cages_do_not_know_each_other():
             text = code_of(path)
             assert f"cage/{other}" not in path.read_text(), path.name
             assert not re.search(rf"(?:->|\.){other[:-1]}\b", text), path.name
-
-
-def writers():
-    """Files that write members of Work, by member."""
-    body = re.search(r"typedef struct \{([^{}]*)\} Work;", code_of(SOURCES / "physics/model.h")).group(1)
-    members = {
-        name for line in re.findall(r"\w+ ([^;]+);", body) for name in re.findall(r"(\w+)(?:\[\w+\])*\s*(?:,|$)", line)
-    }
-    assert {"Q_i", "u_x", "delta_c", "land_dissipated"} <= members and len(members) > 90
-    found = defaultdict(set)
-    store = r"wide_store\(&w->(\w+)|\bw->(\w+)(?:\[[^\]]+\])* *[+-]?=(?!=)"
-    for path in FILES:
-        if path.suffix == ".c" and path.name not in ("start.c", "derived.c"):  # first values
-            for stored, assigned in re.findall(store, code_of(path)):
-                found[stored or assigned].add(TWINS_IN_TASK.get(path.name, path.name))
-    return {name: files for name, files in found.items() if name in members}
-
-
-def test_each_member_of_work_has_one_writer():
-    """Read from the sources, as far as they name Work w; sums alone have several."""
-    found = writers()
-    assert len(found) > 40
-    assert not {name: files for name, files in found.items() if len(files) > 1 and name not in SUMS}
