@@ -3,10 +3,8 @@
 import math
 import re
 from dataclasses import replace
-from importlib.resources import files
 from pathlib import Path
 
-import jinja2
 import numpy as np
 
 from bearing_model.generated import variables
@@ -18,6 +16,7 @@ from .duty.sn import Strength, assumed, in_words
 from .errors import UserError
 from .life import fatigue_law, rivet_life
 from .overlay import read_measured, views
+from .pages import PARTS, page_text
 from .results import FORMATS, read_result, write_atomically
 from .summary import (
     DEG,
@@ -39,7 +38,6 @@ from .summary import (
 )
 from .units import hours_text, scales_of, suffix
 
-PARTS = files("riveted_bearing") / "data" / "report"
 FIRST = 3  # rows without statistics that stand on the cards
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
 NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {
@@ -98,15 +96,12 @@ def write_report(result, path, decides=None, measured=()):
 
 def render(result, decides=None, measured=()):
     """The page as text; decides: see report_pages; measured: Series beside the run's."""
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
     film, missing = frames(result)
     lives, elastic = all_lives(result), result.parameters.get("scene.cage") == "elastic"
-    return environment.from_string((PARTS / "page.html").read_text(encoding="utf-8")).render(
+    return page_text(
+        "page.html",
         about=NOT_SAID | result.about,
         stopped=result.stopped,
-        style=(PARTS / "style.css").read_text(encoding="utf-8"),
         script="".join((PARTS / name).read_text(encoding="utf-8") for name in ("drawing.js", "animation.js")),
         film=film,
         missing=missing,

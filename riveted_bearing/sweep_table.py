@@ -5,14 +5,13 @@ and a page.
 import math
 from dataclasses import dataclass
 
-import jinja2
 import numpy as np
 from scipy import stats
 
 from . import charts
 from .basis import basis
+from .pages import save_page
 from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
-from .report import PARTS
 from .results import write_atomically
 from .units import suffix
 
@@ -205,24 +204,20 @@ def write_picture(table, path):
 
 def write_page(table, description, path):
     """Table and charts as one HTML page, whole or not at all; returns the path."""
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
     heads, cells = lines(table)
     pictures = [
         charts.svg(lambda fig, r=response: draw_response(fig.subplots(), table, r), (4.9, 3.2), response.title)
         for response in table.responses
     ]
-    text = environment.from_string((PARTS / "sweep.html").read_text(encoding="utf-8")).render(
+    return save_page(
+        path,
+        "sweep.html",
         name=table.name,
         description=description,
         basis=table.basis,
         confidence=f"{100 * CONFIDENCE:g} %",
-        style=(PARTS / "style.css").read_text(encoding="utf-8"),
         heads=heads,
         cells=cells,
         texts=len(table.factors),
         charts=pictures,
     )
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path

@@ -14,15 +14,14 @@ import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import jinja2
 import numpy as np
 from matplotlib.ticker import NullFormatter
 from scipy.stats import t as student
 
 from ..errors import UserError, refusal, unknown
 from ..fmu import Model
+from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING
-from ..report import PARTS
 from ..results import write_atomically
 from ..scene import in_words, leaves, read_toml, section_of
 from ..sweep import columns_of
@@ -420,13 +419,11 @@ def write_page(found, path):
     """Write the page, whole or not at all; returns its path."""
     from .. import charts
 
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
     height = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
-    text = environment.from_string((PARTS / "designs.html").read_text(encoding="utf-8")).render(
+    return save_page(
+        path,
+        "designs.html",
         found=found,
-        style=(PARTS / "style.css").read_text(encoding="utf-8"),
         responses=RESPONSES,
         units={
             "stat.sigma_head_p999": (1e-6, "MPa"),
@@ -443,5 +440,3 @@ def write_page(found, path):
             ),
         },
     )
-    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return Path(path)

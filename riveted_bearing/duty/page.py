@@ -2,13 +2,13 @@
 
 import math
 
-import jinja2
 import matplotlib
 import numpy as np
 
 from .. import charts
+from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
-from ..report import PARTS, figure
+from ..report import figure
 from ..results import write_atomically
 from ..summary import RPM
 from ..units import LONGEST, hours_text
@@ -22,13 +22,10 @@ def write_page(life, path, notes):
     """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out.  Returns the
     path.
     """
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
-    template = environment.from_string((PARTS / "life.html").read_text(encoding="utf-8"))
-    text = template.render(
+    return save_page(
+        path,
+        "life.html",
         mission=life.mission,
-        style=(PARTS / "style.css").read_text(encoding="utf-8"),
         cards=list(cards(life)),
         rows=list(part_rows(life)),
         notes=notes,
@@ -37,8 +34,6 @@ def write_page(life, path, notes):
             for name, (draw, size, label) in CHARTS.items()
         },
     )
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
 
 
 def share_text(share):

@@ -17,7 +17,6 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
 
-import jinja2
 import numpy as np
 
 from bearing_model.instance.fatigue import fully_reversed
@@ -26,9 +25,9 @@ from .. import charts
 from ..design.bench import display_of
 from ..errors import UserError, shortlist
 from ..life import CHANNELS, cycle_damages, fatigue_law_at
+from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
-from ..report import PARTS, curve, figure
-from ..results import write_atomically
+from ..report import curve, figure
 from ..runner import simulate
 from ..summary import (
     assumed_rows,
@@ -573,19 +572,16 @@ def mission_sheet(life, evidence, target=None, decides=None, files=()):
 
 def write_sheet(sheet, path):
     """Write the page, whole or not at all; returns its path."""
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
-    text = environment.from_string((PARTS / "sheet.html").read_text(encoding="utf-8")).render(
+    return save_page(
+        path,
+        "sheet.html",
         sheet=sheet,
-        style=(PARTS / "sheet.css").read_text(encoding="utf-8"),
+        style="sheet.css",
         states=STATES,
         figure=figure,
         version=__version__,
         date=datetime.now(UTC).isoformat(timespec="minutes").replace("+00:00", " UTC"),
     )
-    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return Path(path)
 
 
 def result_sheet(result, path, fmu=None, target=None, decides=None):

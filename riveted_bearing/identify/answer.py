@@ -1,19 +1,17 @@
 """What an identification leaves: identify.json, the scene file identified.toml, and the page identify.html."""
 
 import json
-from importlib.resources import files
 
-import jinja2
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from .. import charts
 from ..design.bench import display_of, displayed, shown, titled
+from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED
 from ..results import to_toml, write_atomically
 from ..version import __version__
 
-PARTS = files("riveted_bearing") / "data" / "report"
 VERDICTS = {"both": "decided", "below": "bounded from below", "above": "bounded from above", "no": "not decided"}
 
 
@@ -156,9 +154,6 @@ def plain(history):
 
 def write_page(found, basis, path):
     """Write the page, whole or not at all; returns the path."""
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
     study = found.study
     pictures = [
         charts.svg(
@@ -173,11 +168,12 @@ def write_page(found, basis, path):
         (name, *(f"{x:.2f}" for x in row)) for name, row in zip(study.names, found.correlations, strict=True)
     ]
     effects = [(target.name, *(f"{x:.1f}" for x in found.effects[:, k])) for k, target in enumerate(study.targets)]
-    text = environment.from_string((PARTS / "identify.html").read_text(encoding="utf-8")).render(
+    return save_page(
+        path,
+        "identify.html",
         name=study.path.stem,
         description=study.description,
         basis=list(basis),
-        style=(PARTS / "style.css").read_text(encoding="utf-8"),
         notes=found.notes,
         confidence=f"{100 * study.settings['confidence']:g} %",
         seeds=study.settings["check_seeds"],
@@ -191,8 +187,6 @@ def write_page(found, basis, path):
         effects=effects,
         charts=pictures,
     )
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
 
 
 def deviations(fig, found):

@@ -21,7 +21,6 @@ import json
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import jinja2
 import numpy as np
 from scipy.stats import qmc, spearmanr
 from scipy.stats import t as student
@@ -29,13 +28,13 @@ from scipy.stats import t as student
 from .. import charts
 from ..design.bench import displayed, titled
 from ..errors import refusal, unknown
+from ..pages import save_page
 from ..paper_study.claims import MEASURES, PICTURES, figures_of, others, repeated, sweep_of
 from ..paper_study.study import Runs, runs_of, study_sweep
 from ..plot import HEAD, MUTED
 from ..results import make_folder, write_atomically
 from ..scene import leaves, section_of
 from ..sweep import count_of, key_of, run_sweep
-from .answer import PARTS
 from .fit import FRESH
 from .study import parameters_of
 
@@ -418,9 +417,6 @@ def set_rows(found):
 
 def write_claims_page(found, path):
     """Write the page, whole or not at all; returns the path."""
-    environment = jinja2.Environment(
-        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
-    )
     study, heads_rows = found.study, set_rows(found)
     which = [*fitted_conditions(study), *held_out_conditions(study)]
     fitted = len(fitted_conditions(study))
@@ -430,10 +426,11 @@ def write_claims_page(found, path):
         (picture, title, line, "fitted" if k < fitted else "held out", marks[found.untuned["met"][k]], marks[best[k]])
         for k, (picture, title, line) in enumerate(which)
     ]
-    text = environment.from_string((PARTS / "identify_claims.html").read_text(encoding="utf-8")).render(
+    return save_page(
+        path,
+        "identify_claims.html",
         name=study.path.stem,
         description=study.description,
-        style=(PARTS / "style.css").read_text(encoding="utf-8"),
         screens=study.settings["screens"],
         figures=len(found.best[0]) + len(found.chance[0]),
         verified=len(found.verified),
@@ -444,8 +441,6 @@ def write_claims_page(found, path):
         sets=heads_rows[1],
         conditions=rows,
     )
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
 
 
 def shares_chart(fig, found):

@@ -1,0 +1,34 @@
+"""HTML pages: templates of data/report, which share a frame (frame.html) and parts (parts.html)."""
+
+from pathlib import Path
+
+import jinja2
+
+from .results import write_atomically
+
+PARTS = Path(__file__).parent / "data" / "report"
+
+
+def page_text(template, style="style.css", **values):
+    """A page as text; template and style: files of data/report.
+
+    Raises
+    ------
+    jinja2.UndefinedError
+        The template names a value that is not given.
+    """
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(PARTS),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    return environment.get_template(template).render(style=(PARTS / style).read_text(encoding="utf-8"), **values)
+
+
+def save_page(path, template, **values):
+    """Write a page (page_text), whole or not at all; returns its path."""
+    text = page_text(template, **values)
+    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return Path(path)
