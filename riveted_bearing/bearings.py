@@ -284,11 +284,15 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     Z = document.get("Z")
     if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
         raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
-    data = dict(catalogue_values(path, section_of(path, document, "catalogue")))
+    numbers = dict(section_of(path, document, "catalogue"))
+    play = numbers.pop("clearance", None)
+    data = dict(catalogue_values(path, numbers))
     check_boundary(path, document, data, entry)
     given = dict(
         start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), variables.PARAMETERS)
     )
+    if play is not None:
+        given |= clearance_class(path, play, given, data, entry)
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
     oil.check_pair(path, given, written)
@@ -567,11 +571,27 @@ def rivet_values(path, section, where):
             raise refusal(path, f"{where}{key}", value, problem) from None
 
 
+def clearance_class(path, name, given, data, entry):
+    """bearing.P_d by the name of a class, which needs a bore and no clearance in [parameters] beside it."""
+    if name not in catalogue.CLEARANCE:
+        raise refusal(path, "catalogue.clearance", name, f"allowed: {', '.join(catalogue.CLEARANCE)}")
+    if "bearing.P_d" in given:
+        raise refusal(path, "catalogue.clearance", name, "allowed without bearing.P_d, which is given too")
+    bore = data.get("bore", entry.bore if entry else None)
+    if bore is None:
+        raise refusal(path, "catalogue.clearance", name, "it needs catalogue.bore")
+    P_d = catalogue.clearance(bore, name)
+    if P_d is None:
+        limit = f"the classes are of bores up to {catalogue.UP_TO[-1]} mm; give bearing.P_d"
+        raise refusal(path, "catalogue.clearance", name, limit)
+    return {"bearing.P_d": P_d}
+
+
 def catalogue_values(path, section):
     """Keys and SI values of the catalogue's data, each checked."""
     for key, value in section.items():
         if key not in CATALOGUE:
-            raise unknown(path, "catalogue key", key, CATALOGUE)
+            raise unknown(path, "catalogue key", key, (*CATALOGUE, "clearance"))
         try:
             yield key, positive(value, unit_scales("N" if key in ("C", "C_0") else "m"))
         except UserError as problem:

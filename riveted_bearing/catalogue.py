@@ -28,18 +28,14 @@ BALL_SIZES = sorted(
 # angle of the arc that the balls take when they are filled in: usual 180 to 200 degrees
 LARGEST_FILL = math.radians(205.0)
 THICKEST_BALL = 0.325  # ball diameter over the difference of the bearing's diameters: usual 0.28 to 0.32
-CLEARANCE_CN = (  # bore up to [mm], least and largest radial internal clearance of class CN [um]: ISO 5753-1:2009
-    (10, 2, 13),
-    (18, 3, 18),
-    (24, 5, 20),
-    (30, 5, 20),
-    (40, 6, 20),
-    (50, 6, 23),
-    (65, 8, 28),
-    (80, 10, 30),
-    (100, 12, 36),
-    (120, 15, 41),
-)
+CLEARANCE = {  # class: least and largest radial internal clearance [um] for bores up to UP_TO: ISO 5753-1:2009
+    "C2": ((0, 7), (0, 9), (0, 10), (1, 11), (1, 11), (1, 11), (1, 15), (1, 15), (1, 18), (2, 20)),
+    "CN": ((2, 13), (3, 18), (5, 20), (5, 20), (6, 20), (6, 23), (8, 28), (10, 30), (12, 36), (15, 41)),
+    "C3": ((8, 23), (11, 25), (13, 28), (13, 28), (15, 33), (18, 36), (23, 43), (25, 51), (30, 58), (36, 66)),
+    "C4": ((14, 29), (18, 33), (20, 36), (23, 41), (28, 46), (30, 51), (38, 61), (46, 71), (53, 84), (61, 97)),
+    "C5": ((20, 37), (25, 45), (28, 48), (30, 53), (40, 64), (45, 73), (55, 90), (65, 105), (75, 120), (90, 140)),
+}
+UP_TO = (10, 18, 24, 30, 40, 50, 65, 80, 100, 120)  # mm
 
 
 @dataclass(frozen=True)
@@ -101,9 +97,13 @@ def balls(entry):
     return Z, round(D, 9)
 
 
-def clearance(bore):
-    """Radial internal clearance by rule [m]: the middle of class CN for the bore [m]; None beyond the table."""
-    for largest, low, high in CLEARANCE_CN:
+def clearance(bore, name="CN"):
+    """Radial internal clearance by rule [m]: the middle of a class for the bore [m]; None beyond the table.
+
+    >>> print(f"{1e6 * clearance(0.035):g} {1e6 * clearance(0.035, 'C3'):g}")
+    13 24
+    """
+    for largest, (low, high) in zip(UP_TO, CLEARANCE[name], strict=True):
         if bore <= 1e-3 * largest + 1e-9:
             return round(0.5e-6 * (low + high), 9)
     return None

@@ -14,7 +14,7 @@ from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError
 from riveted_bearing.bearings import bearing_case
-from riveted_bearing.catalogue import CLEARANCE_CN, balls, clearance, entries
+from riveted_bearing.catalogue import CLEARANCE, balls, clearance, entries
 from riveted_bearing.origin import not_given
 from riveted_bearing.scaling import BORE, WIDTH, scaled_parameters, scaled_rivet
 
@@ -116,7 +116,40 @@ def test_clearance_is_the_middle_of_class_cn():
         and clearance(0.041) == pytest.approx(14.5e-6)
     )
     assert clearance(0.2) is None
-    assert all(np.diff([row[2] for row in CLEARANCE_CN]) >= 0)
+    bounds = np.array(list(CLEARANCE.values()))
+    assert np.all(np.diff(bounds, axis=1) >= 0) and np.all(np.diff(bounds, axis=0) >= 0)
+    assert np.all(bounds[1:, :, 0] <= bounds[:-1, :, 1])  # classes beside each other overlap
+
+
+OWN = 'designation = "mine"\nZ = 8\n[parameters]\nbearing.D = "25 mm"\nbearing.d_m = "180 mm"\n'
+CLASS = 'designation = "6309"\n[catalogue]\n'
+
+
+def test_clearance_by_a_class(tmp_path):
+    """C3 of the 6309's bore of 45 mm: 18...36 um."""
+    path = tmp_path / "own.toml"
+    path.write_text(CLASS + 'clearance = "C3"\n')
+    case = bearing_case(path)
+    assert case.values["bearing.P_d"] == pytest.approx(27e-6) and case.origin["bearing.P_d"] == "yours"
+    path.write_text(CLASS)
+    assert bearing_case(path).values["bearing.P_d"] == pytest.approx(14.5e-6)
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        (CLASS + 'clearance = "C7"\n', "catalogue.clearance = 'C7'.*allowed: C2, CN, C3, C4, C5"),
+        (CLASS + "clearance = 3\n", "catalogue.clearance = 3.*allowed: C2"),
+        (CLASS + 'clearance = "C3"\n[parameters]\nbearing.P_d = "20 um"\n', "without bearing.P_d"),
+        (OWN + '[catalogue]\nclearance = "C3"\n', "needs catalogue.bore"),
+        (OWN + '[catalogue]\nbore = "150 mm"\nclearance = "C3"\n', "up to 120 mm"),
+    ],
+)
+def test_class_that_is_refused(tmp_path, text, named):
+    path = tmp_path / "own.toml"
+    path.write_text(text)
+    with pytest.raises(UserError, match=named):
+        bearing_case(path)
 
 
 def test_scaling_gives_the_6207_back():
