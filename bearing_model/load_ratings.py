@@ -1,4 +1,5 @@
-"""Load ratings of a single-row deep groove ball bearing from its balls: dynamic by ISO 281, static by ISO 76.
+"""Load ratings of a single-row deep groove ball bearing from its balls: dynamic by ISO 281, static by ISO 76; its reference
+viscosity.
 
     C   = b_m f_c Z^(2/3) D^1.8 (D up to 25.4 mm, else 3.647 D^1.4)      f_c, f_0: functions of gamma = D/d_m for the standards' grooves
     C_0 = f_0 Z D^2
@@ -7,6 +8,8 @@ The standards tabulate f_c and f_0; the formulas behind the tables are used here
 Sources: ISO 281:2007; ISO/TR 1281-1:2008 (f_c); ISO 76:2006 and ISO/TR 10657:1991 (f_0: 4200 MPa under the ball load 5
 C_0/Z).
 """
+
+import math
 
 from bearing_model.physics.hertz_exact import ball_race_contact
 
@@ -51,3 +54,15 @@ def dynamic_rating(Z, D, d_m):
 def static_rating(Z, D, d_m):
     """Basic static radial load rating C_0 [N]; D, d_m [m].  ISO 76:2006, 5.1."""
     return rating_factor_0(D / d_m) * Z * (1e3 * D) ** 2
+
+
+def reference_viscosity(omega, d_m):
+    """Kinematic viscosity nu_1 [m2/s] that separates the surfaces enough at this speed [rad/s]; the ratio kappa = nu/nu_1
+    enters ISO 281's modified life.  ISO 281:2007, 9.3.3.2, equations (28) and (29), in r/min, mm and mm2/s.
+
+    >>> print(f"{1e6 * reference_viscosity(2e3 * math.pi / 30, 0.1):.1f}")
+    10.1
+    """
+    n = abs(omega) * 30.0 / math.pi
+    factor, exponent = (45000.0, -0.83) if n < 1000.0 else (4500.0, -0.5)
+    return 1e-6 * factor * n**exponent * (1e3 * d_m) ** -0.5

@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from bearing_model.load_ratings import dynamic_rating, rating_factor_0, rating_factor_c, static_rating
+from bearing_model.load_ratings import (
+    dynamic_rating,
+    rating_factor_0,
+    rating_factor_c,
+    reference_viscosity,
+    static_rating,
+)
 
 # ISO 281:2007, table 2
 F_C = {0.05: 46.7, 0.10: 55.5, 0.12: 57.5, 0.16: 59.6, 0.20: 59.9, 0.22: 59.6, 0.24: 59.0, 0.30: 56.0}
@@ -37,3 +43,14 @@ def test_large_balls_count_less():
     assert below == pytest.approx(above, rel=2e-4)
     slope = np.log(dynamic_rating(9, 30e-3, 0.15) / dynamic_rating(9, 28e-3, 0.14)) / np.log(30 / 28)
     assert slope == pytest.approx(1.4, abs=1e-6)
+
+
+def test_reference_viscosity():
+    """Figures read off the diagram of ISO 281 (figure 4) for d_m = 100 mm: about 150 mm2/s at 60 r/min, 14 at 1000, 4.5 at
+    10,000; both equations meet at 1000 r/min within 2.5 %.
+    """
+    turn = np.pi / 30.0
+    for n, nu in ((60.0, 150.0), (1000.0, 14.2), (10_000.0, 4.5)):
+        assert reference_viscosity(n * turn, 0.1) == pytest.approx(1e-6 * nu, rel=0.02)
+    below, above = (reference_viscosity(n * turn, 0.1) for n in (999.99, 1000.01))
+    assert 1.0 < below / above < 1.025

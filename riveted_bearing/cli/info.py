@@ -10,6 +10,7 @@ from rich.table import Column, Table
 
 from bearing_model.generated import variables
 from bearing_model.kinematics import fault_frequencies
+from bearing_model.load_ratings import reference_viscosity
 from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
 
@@ -175,9 +176,10 @@ def oil(case):
     start = {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
     T = own.pop("oil.T")
     points = ("oil.nu_1", "oil.nu_2")
+    eta = viscosity(own, start, T)
     yield (
         f"oil viscosity at {T - ZERO:.4g} degC",
-        f"{1e3 * viscosity(own, start, T):.4g}",
+        f"{1e3 * eta:.4g}",
         "mPa.s",
         origins(case, "oil.eta"),
     )
@@ -187,6 +189,10 @@ def oil(case):
         "mm2/s",
         origins(case, *points),
     )
+    if case.load.omega:
+        kappa = eta / own["oil.rho"] / reference_viscosity(case.load.omega, case.bearing.d_m)
+        speed = f"{RPM * abs(case.load.omega):,.0f} rev/min"
+        yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{kappa:.3g}", "", ""
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
     yield (
         "oil, inner ring, outer ring, balls, cage",
