@@ -235,10 +235,11 @@ static bool check_ribbon(Bearing *b)
         return false;
     }
     if (p->cage.pocket_filling != 0.0) {
-        bearing_log(b, LOG_ERROR,
-                    "cage.pocket_filling = %g: 0 is allowed of a ribbon cage (cage.shape), whose pockets have "
-                    "no law of a film yet",
-                    p->cage.pocket_filling);
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.pocket_filling = %g: 0 is allowed of a ribbon cage (cage.shape), whose pockets have "
+            "no law of a film yet",
+            p->cage.pocket_filling);
         fine = false;
     }
     fine &= require(b, p->cage.pocket_radius == 0.0 || fabs(p->cage.pocket_radius - radius) <= 1e-6 * radius,

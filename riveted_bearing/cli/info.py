@@ -10,7 +10,6 @@ from rich.table import Column, Table
 
 from bearing_model.generated import variables
 from bearing_model.kinematics import fault_frequencies
-from bearing_model.load_ratings import reference_viscosity
 from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
 
@@ -170,6 +169,8 @@ def preload(case):
 
 def oil(case):
     """Name, value, unit and origin of oil and temperatures."""
+    from bearing_model.load_ratings import reference_viscosity
+
     from ..oil import viscosity
 
     own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
