@@ -139,6 +139,7 @@ class PythonModel:
         for values, changes in ((self.p, parameters), (self.u, inputs)):  # unchecked, as the C structs are
             for name, value in changes.items():
                 group, member = name.replace("[j]", "").replace("[k]", "").replace("[n]", "").split(".")
+                value = np.array(value) if isinstance(value, list) else value
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
         self.p.mark_given(variables.PARAMETERS)
         self.p = temperature_apply(self.p, self.u, derived.default_table())
