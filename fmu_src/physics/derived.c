@@ -81,16 +81,39 @@ static Spall spall_of(const Race *race, double length, double width, double dept
     return s;
 }
 
+// Table of the waves over a turn that begins at phi = -pi.
+static void derive_waves(const double amplitude[WAVES], const double phase[WAVES],
+                         double wave[WAVE_CELLS + 1][2])
+{
+    // c_n exp(i n phi) with exp(i n phi) step by step: w is the real part of the sum, dw/dphi the imaginary part of -n
+    // times it
+    const double width = 2.0 * PI / WAVE_CELLS;
+    double re[WAVES], im[WAVES];
+    for (int i = 0; i < WAVES; i++) {
+        re[i] = amplitude[i] * portable_cos(phase[i]);
+        im[i] = amplitude[i] * portable_sin(phase[i]);
+    }
+    for (int k = 0; k < WAVE_CELLS; k++) {
+        const double phi = (k - WAVE_CELLS / 2) * width, c = portable_cos(phi), s = portable_sin(phi);
+        double c_n = 1.0, s_n = 0.0, w = 0.0, dw = 0.0;
+        for (int i = 0; i < WAVES; i++) {
+            const double next = c_n * c - s_n * s;
+            s_n = s_n * c + c_n * s, c_n = next;
+            w += re[i] * c_n - im[i] * s_n;
+            dw -= (i + 1) * (re[i] * s_n + im[i] * c_n);
+        }
+        wave[k][0] = w, wave[k][1] = dw * width;
+    }
+    memcpy(wave[WAVE_CELLS], wave[0], sizeof wave[0]);
+}
+
 // Waves and spall of a race (race_surface.h).
 static void derive_surface(const double amplitude[WAVES], const double phase[WAVES], double middle,
                            double length, double width, double depth, double edge, double track, Race *race)
 {
     RaceSurface *s = &race->surface;
-    for (int i = 0; i < WAVES; i++) {
-        s->re[i] = amplitude[i] * portable_cos(phase[i]);
-        s->im[i] = amplitude[i] * portable_sin(phase[i]);
-        if (amplitude[i] != 0.0) s->waves = i + 1;
-    }
+    s->wavy = race_waves_given(amplitude);
+    if (s->wavy) derive_waves(amplitude, phase, s->wave);
     s->track = track;
     s->curvature = 1.0 / race->hertz.R_x;
     s->middle_cos = portable_cos(middle), s->middle_sin = portable_sin(middle);

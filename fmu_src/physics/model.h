@@ -27,7 +27,7 @@ typedef struct {
     double R_x;      // reduced radius in the rolling direction [m]
 } Hertz;
 
-enum { WAVES = 60 };  // orders of a race's waviness
+enum { WAVES = 60, WAVE_CELLS = 512 };  // orders of a race's waviness, cells of its table over a turn
 
 // A spall at the contacts with one race (race_surface.h).
 typedef struct {
@@ -39,12 +39,12 @@ typedef struct {
 
 // Waves and spall of a race (race_surface.h); all is 0 of a perfect one.
 typedef struct {
-    int waves;                      // highest order with an amplitude
-    double re[WAVES], im[WAVES];    // A_n cos(phase_n), A_n sin(phase_n) [m]
-    bool spalled;                   // whether there is a spall
-    double middle_cos, middle_sin;  // of the angle of its middle
-    double track;                   // radius of the track [m]
-    double curvature;               // 1/R_x [1/m]
+    bool wavy;                       // whether there are waves
+    double wave[WAVE_CELLS + 1][2];  // their height w, slope dw/dphi x width of a cell at its ends [m]
+    bool spalled;                    // whether there is a spall
+    double middle_cos, middle_sin;   // of the angle of its middle
+    double track;                    // radius of the track [m]
+    double curvature;                // 1/R_x [1/m]
     Spall spall;
 } RaceSurface;
 
