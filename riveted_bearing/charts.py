@@ -336,9 +336,9 @@ def energy(figure, result):
 
 
 def vibrates(result):
-    """Whether a race is not perfect or the housing sits on springs: then the page shows the vibration."""
+    """Whether a race is not perfect, a ball has a spall or the housing sits on springs: then the page shows the vibration."""
     p = result.parameters
-    surfaces = (value for name, value in p.items() if re.match(r"(outer|inner)\.(spall_length$|waviness\[)", name))
+    surfaces = (value for name, value in p.items() if re.match(r".*\.spall_length$|\w+\.waviness\[", name))
     return p.get("housing.motion") == "supported" or any(surfaces)
 
 

@@ -11,8 +11,8 @@
     shaft.omega = ["1500 rev/min", "3000 rev/min"]
 
 A row holds what a sweep's row holds (all parameters and inputs in SI units, status, statistics) and further the labels
-(label.fault: none, outer, inner or both; label.length, width and depth of the larger spall; label.waviness, the largest
-amplitude), the kinematic frequencies of the computed speeds, and for each channel a list of single-precision samples
+(label.fault: none, outer, inner, both, ball, or names with +; label.length, width and depth of the longest spall;
+label.waviness, the largest amplitude), the kinematic frequencies of the computed speeds, and for each channel a list of single-precision samples
 from start.settle on, signal.rate apart.  Rows are written as they arrive; a second call does only runs that are missing.
 """
 
@@ -120,9 +120,13 @@ class Fields:
 
 def labels(parameters):
     """What is wrong with the bearing of these parameters."""
-    spalled = [race for race in RACES if parameters.get(f"{race}.spall_length", 0.0) > 0.0]
-    worst = max(spalled, key=lambda race: parameters[f"{race}.spall_length"], default=None)
-    fault = "none" if not spalled else "both" if len(spalled) == 2 else spalled[0]
+    lengths = {
+        name.removesuffix(".spall_length"): x for name, x in parameters.items() if name.endswith(".spall_length")
+    }
+    spalled = [body for body, length in lengths.items() if length > 0.0]
+    worst = max(spalled, key=lengths.get, default=None)
+    places = [race for race in RACES if race in spalled] + ["ball"] * any(body not in RACES for body in spalled)
+    fault = "both" if places == [*RACES] else "+".join(places) or "none"
     sizes = {f"label.{size}": parameters[f"{worst}.spall_{size}"] if worst else 0.0 for size in SIZES}
     waves = [value for name, value in parameters.items() if name.startswith(("outer.waviness[", "inner.waviness["))]
     return {"label.fault": fault} | sizes | {"label.waviness": max(waves, default=0.0)}

@@ -134,11 +134,12 @@ class PythonModel:
     """Parameters, inputs, derived constants and the results of the last evaluation."""
 
     def __init__(self, core, parameters, inputs):
-        self.core, self.work = core, PythonWork()
+        self.core, self.work, self.turn = core, PythonWork(), None
         self.p, self.u = Parameters(), Inputs()
         for values, changes in ((self.p, parameters), (self.u, inputs)):  # unchecked, as the C structs are
             for name, value in changes.items():
                 group, member = name.replace("[j]", "").replace("[k]", "").replace("[n]", "").split(".")
+                value = np.array(value) if isinstance(value, list) else value
                 setattr(getattr(values, group), member + "_" * (member == "lambda"), value)
         self.p.mark_given(variables.PARAMETERS)
         self.p = temperature_apply(self.p, self.u, derived.default_table())
@@ -147,7 +148,7 @@ class PythonModel:
         self.pointer = self
 
     def model(self, t=0.0):
-        return Model(self.p, self.d, ring_load_update(self.p, self.u, t), modes=self.modes)
+        return Model(self.p, self.d, ring_load_update(self.p, self.u, t), modes=self.modes, turn=self.turn)
 
     def kernel(self, name):
         return lambda _, work: KERNELS[name](self.model(), work.w)

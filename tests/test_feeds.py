@@ -58,12 +58,12 @@ INSTEAD_OF_ZERO = {  # another value where the start value is zero, which mostly
     "gravity.z": 9.81,
     "frame.radius": 0.1,
     "solver.step": 5e-6,
-    **{f"{race}.spall_{name}": value for race in ("outer", "inner") for name, value in SPALL.items()},
+    **{f"{body}.spall_{name}": value for body in ("outer", "inner", "ball[j]") for name, value in SPALL.items()},
     **{f"{race}.{name}": value for race in ("outer", "inner") for name, value in WAVES.items()},
     "pulse.F_r": 1000.0,
     "pulse.F_a": 1000.0,
 }
-WHOLE = {f"{race}.spall_{size}" for race in ("outer", "inner") for size in ("length", "width", "depth")}
+WHOLE = {f"{body}.spall_{size}" for body in ("outer", "inner", "ball[j]") for size in ("length", "width", "depth")}
 BESIDE = {"oil.nu_1": "oil.nu_2 = 5e-6\n", "oil.nu_2": "oil.nu_1 = 25e-6\n"}
 NO_EFFECT = {"solver.max_steps": "a limit that no run here reaches", "solver.clock": "measures the machine"}
 

@@ -40,6 +40,17 @@ SCENES = [
     {"scene.cage": CageModel.TWO_HALF, "scene.traction": Traction.POINT, "scene.lubrication": Lubrication.MIXED},
 ]
 SUPPORTED = {"ring.tilt_mode": TiltMode.SUPPORTED, "gravity.y": -9.81, "gravity.z": 3.0}
+SPALLS = {  # of some balls, some at the outer contact and some at the inner one
+    "ball[j].spall_angle": np.array([0.15 * (j - 4) + (0.0, np.pi)[j % 2] for j in range(Z)]),
+    "ball[j].spall_length": np.where(np.arange(Z) % 4 == 3, 0.0, np.linspace(4e-3, 7e-3, Z)),
+    "ball[j].spall_width": np.where(np.arange(Z) % 4 == 3, 0.0, np.linspace(5e-4, 6e-3, Z)),
+    "ball[j].spall_depth": np.where(np.arange(Z) % 4 == 3, 0.0, np.linspace(1e-5, 1e-4, Z)),
+}
+
+
+def spalls_of(image):
+    """Parameters of the spalls of balls that have changed places."""
+    return {name: image(name, value).tolist() for name, value in SPALLS.items()}
 
 
 def difference(a, b):
@@ -105,8 +116,9 @@ def test_turn_by_a_pitch(core, scene, n, record_property):
         rotated(outer, names, angle)
     gravity = {"gravity.y": -9.81, "gravity.z": 3.0}
     rotated(gravity, ("gravity.y", "gravity.z"), angle)
-    here = core.model(parameters=scene | SUPPORTED, inputs=INPUTS)
-    there = core.model(parameters=scene | SUPPORTED | gravity, inputs=outer)
+    spalls = spalls_of(lambda _, value: value), spalls_of(lambda _, value: np.roll(value, n))
+    here = core.model(parameters=scene | SUPPORTED | spalls[0], inputs=INPUTS)
+    there = core.model(parameters=scene | SUPPORTED | gravity | spalls[1], inputs=outer)
     for j in range(Z):
         here.p.ball.dD[j] = there.p.ball.dD[(j + n) % Z] = 1e-7 * (j - 4)
     for model in (here, there):
@@ -144,8 +156,13 @@ def test_mirror_z(core, scene, record_property):
     """The image in z = 0, rotation reversed: dy/dt is mirrored; observed 1e-11."""
     odd = ("shaft.F_z", "shaft.M_y", "shaft.tilt_y", "shaft.omega")
     image_inputs = {name: -value if name in odd else value for name, value in INPUTS.items()}
-    here = core.model(parameters=scene | SUPPORTED, inputs=INPUTS)
-    there = core.model(parameters=scene | SUPPORTED | {"gravity.z": -3.0}, inputs=image_inputs)
+
+    def image(name, value):  # the other way round
+        return np.roll((-value if name.endswith("angle") else value)[::-1], 1)
+
+    spalls = spalls_of(lambda _, value: value), spalls_of(image)
+    here = core.model(parameters=scene | SUPPORTED | spalls[0], inputs=INPUTS)
+    there = core.model(parameters=scene | SUPPORTED | {"gravity.z": -3.0} | spalls[1], inputs=image_inputs)
     rng, worst = np.random.default_rng(2), 0.0
     for _ in range(10):
         y = running_state(here, rng)
@@ -174,8 +191,9 @@ def test_mirror_x(core, scene, record_property):
     """
     odd = ("shaft.F_x", "shaft.M_y", "shaft.M_z", "shaft.tilt_y", "shaft.tilt_z", "impact.F_a")
     image_inputs = {name: -value if name in odd else value for name, value in INPUTS.items()}
-    here = core.model(parameters=scene | SUPPORTED, inputs=INPUTS)
-    there = core.model(parameters=scene | SUPPORTED, inputs=image_inputs)
+    spalls = spalls_of(lambda _, value: value)
+    here = core.model(parameters=scene | SUPPORTED | spalls, inputs=INPUTS)
+    there = core.model(parameters=scene | SUPPORTED | spalls, inputs=image_inputs)
     rng, worst = np.random.default_rng(3), 0.0
     for _ in range(10):
         y = running_state(here, rng, stuck=True)

@@ -278,12 +278,17 @@ class Trajectory:
         self.u[0] = model.u[0]
         self.values = np.frombuffer(core.ffi.buffer(self.u)).reshape(3, -1)
         self.start, self.values[1] = self.values[0].copy(), 1e5 * self.size * drawn(rng, -1.0)
+        self.angle = list(model.turn.angle) if model.d.spalled else []
 
     def outputs(self, dt, du, y):
         lib, array = self.core.lib, self.core.array
         self.values[0] = self.start + du
         lib.input_trajectory_update(self.model.p, self.u, self.t, self.t, self.trajectory)
         lib.test_ring_load_at(self.trajectory, self.t + dt, self.model.ring_load)
+        if self.model.d.spalled:
+            self.model.turn.angle = [
+                angle + dt * rate for angle, rate in zip(self.angle, self.model.turn.rate, strict=True)
+            ]
         y_dot = rhs(self.model, y)
         members = {
             "model": self.model.pointer,
@@ -308,14 +313,46 @@ class Trajectory:
         return np.frombuffer(self.core.ffi.buffer(out)).copy()
 
 
+# Waves of both races, spalls of both and of all balls, some at the outer contact and some at the inner one.
+SPALL = {"angle": 0.03, "length": 6e-3, "width": 1.5e-3, "depth": 4e-5}
+SURFACES = {f"{race}.spall_{name}": value for race in ("inner", "outer") for name, value in SPALL.items()}
+SURFACES |= {f"{race}.waviness[n]": [2e-6 / (1.0 + n) for n in range(60)] for race in ("inner", "outer")}
+SURFACES |= {f"ball[j].spall_{name}": [0.8 * value] * Z for name, value in SPALL.items()}
+SURFACES["ball[j].spall_angle"] = [0.12 * (j - 4) + (0.0, np.pi)[j % 2] for j in range(Z)]
+
+
+def turning(core, model):
+    """Lets the model see how far its balls have turned, and how fast."""
+    model.turn = core.new("BallTurn")
+    model.turn.angle, model.turn.rate = list(model.p.ball.spall_angle), [-4000.0 - 50.0 * j for j in range(Z)]
+    model.pointer.turn = model.turn
+
+
+@pytest.mark.parametrize("scene", SCENES[::5], ids=lambda scene: "-".join(part.name for part in scene))
+def test_matrix_with_surfaces(core, scene):
+    """The rows of balls and ring as above, with races that are not perfect and balls with spalls."""
+    rng, rows = np.random.default_rng(17), np.zeros(N_STATES, dtype=bool)
+    for name, place in SLICE.items():
+        rows[place] = name.startswith(("ball", "ring"))
+    for kind in KINDS:
+        model, y = prepared(core, kind, scene, rng, **SURFACES)
+        turning(core, model)
+        relative, share = compare(matrix(model, y), *difference_matrix(model, y, rng))
+        assert share > 0.7, kind
+        assert np.mean(relative[rows] > 1e-6) < 3e-4, kind
+        assert relative[rows].max() < 1e-4, kind
+
+
+@pytest.mark.parametrize("surfaces", [{}, SURFACES], ids=["perfect", "surfaces"])
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
-def test_outputs_by_time_inputs_and_states(core, scene):
+def test_outputs_by_time_inputs_and_states(core, scene, surfaces):
     """One direction in time, all inputs and all states at once: every output that follows from an evaluation, in the
-    middle of a pulse.
+    middle of a pulse.  Balls with spalls go on turning.
     """
     rng, judged = np.random.default_rng(12), 0
     for kind in KINDS:
-        model, y = prepared(core, kind, scene, rng, **PULSE)
+        model, y = prepared(core, kind, scene, rng, **PULSE, **surfaces)
+        turning(core, model)
         trajectory = Trajectory(core, model, 3e-4, rng)
         dt, du, dy = 1e-6, trajectory.size * drawn(rng, 0.5), 0.1 * STEP * rng.uniform(-1.0, 1.0, N_STATES)
         noise = rounding(lambda y, trajectory=trajectory: trajectory.outputs(0.0, 0.0, y), y, rng)

@@ -169,13 +169,19 @@ SURFACES = {f"{race}.waviness[{n}]": 1e-6 for race in ("inner", "outer") for n i
 SURFACES |= {f"{race}.spall_length": 4e-3 for race in ("inner", "outer")}
 SURFACES |= {f"{race}.spall_width": 2e-3 for race in ("inner", "outer")}
 SURFACES |= {f"{race}.spall_depth": 5e-5 for race in ("inner", "outer")}
+BALL_SPALLS = {
+    f"ball[{j}].spall_{name}": value
+    for j in (1, 4, 9)
+    for name, value in {"length": 2e-3, "width": 3e-3, "depth": 5e-5, "angle": 0.3 * j}.items()
+}
 
 
 @X86
+@pytest.mark.parametrize("balls", [{}, BALL_SPALLS], ids=["races", "balls"])
 @pytest.mark.parametrize("cage", [1, 3])
-def test_surfaces_and_housing(folder, eight, cage):
-    """Races that are not perfect in a housing on springs."""
-    parameters = SURFACES | {"scene.cage": cage, "housing.motion": 2, "scene.lubrication": 2}
+def test_surfaces_and_housing(folder, eight, cage, balls):
+    """Races that are not perfect and balls with spalls in a housing on springs."""
+    parameters = SURFACES | balls | {"scene.cage": cage, "housing.motion": 2, "scene.lubrication": 2}
     assert differing(folder, eight, parameters, {}, {3: {"housing.v_y": 0.01}}) == []
 
 

@@ -167,6 +167,14 @@ def test_labels():
     assert found["label.fault"] == "both" and found["label.length"] == 2e-3 and found["label.depth"] == 2e-5
     assert found["label.waviness"] == 1e-6
     assert labels({})["label.fault"] == "none"
+    ball = {
+        "ball[3].spall_length": 5e-3,
+        "ball[3].spall_width": 4e-3,
+        "ball[3].spall_depth": 3e-5,
+        "ball[4].spall_length": 0.0,
+    }
+    assert labels(ball)["label.fault"] == "ball" and labels(both | ball)["label.length"] == 5e-3
+    assert labels(both | ball)["label.fault"] == "outer+inner+ball"
 
 
 def test_dataset(tmp_path, fmu):

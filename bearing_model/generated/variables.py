@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{c64e103b-2c7a-2d90-4792-e894b5ae4a87}"
+MODEL_GUID = "{8e6a4aca-584b-8f5c-92b4-c4edba1ec6f7}"
 Z = 9
 
 
@@ -209,6 +209,11 @@ PARAMETERS = {
         Variable("inner.spall_width", 9122, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Width of the spall across the track, in the middle of the contacts", "no spall", False, "it is part of the geometry"),
         Variable("inner.spall_depth", 9123, "Real", "m", "um", 0.0, 0.0, 0.01, 1, None, "Depth of the spall", "no spall", False, "it is part of the geometry"),
         Variable("inner.spall_edge", 9124, "Real", "m", "mm", 5e-05, 1e-06, 0.01, 1, None, "Length over which the ball's path into the spall is rounded where the ball meets the bottom or the other edge", "regularization: at most a quarter of the length is in force", False, "it is part of the geometry"),
+        Variable("ball[j].spall_angle", 9700, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, Z, None, "Angle of the middle of the ball's spall at the start, about the rolling axis from the outer contact toward growing azimuth", "at the contact with the outer race", False, "it is a property of a body"),
+        Variable("ball[j].spall_length", 9740, "Real", "m", "mm", 0.0, 0.0, 1.0, Z, None, "Length of the spall along the ball's track", "no spall", False, "it is a property of a body"),
+        Variable("ball[j].spall_width", 9780, "Real", "m", "mm", 0.0, 0.0, 0.1, Z, None, "Width of the spall across the track, in the middle of the contacts", "no spall", False, "it is a property of a body"),
+        Variable("ball[j].spall_depth", 9820, "Real", "m", "um", 0.0, 0.0, 0.01, Z, None, "Depth of the spall", "no spall", False, "it is a property of a body"),
+        Variable("ball[j].spall_edge", 9860, "Real", "m", "mm", 5e-05, 1e-06, 0.01, Z, None, "Length over which the path into the spall is rounded where the race meets the bottom or the other edge", "regularization: at most a quarter of the length is in force", False, "it is a property of a body"),
         Variable("outer.waviness[n]", 9200, "Real", "m", "um", 0.0, 0.0, 0.0001, 60, None, "Amplitude of n waves around the outer race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])", "perfect race", False, "it is part of the geometry"),
         Variable("outer.waviness_phase[n]", 9300, "Real", "rad", "deg", 0.0, -6.2832, 6.2832, 60, None, "Phase of n waves around the outer race; phi from +Y toward +Z at the start, turning with the ring", "perfect race", False, "it is part of the geometry"),
         Variable("inner.waviness[n]", 9400, "Real", "m", "um", 0.0, 0.0, 0.0001, 60, None, "Amplitude of n waves around the inner race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])", "perfect race", False, "it is part of the geometry"),

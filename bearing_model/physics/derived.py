@@ -28,7 +28,14 @@ from bearing_model.generated.variables import (
     Z,
 )
 from bearing_model.physics.hertz import Hertz, hertz_contact
-from bearing_model.physics.race_surface import RaceSurface, race_surface_of, race_surfaces_given
+from bearing_model.physics.race_surface import (
+    RaceSurface,
+    Spall,
+    ball_spalls_given,
+    race_surface_of,
+    race_surfaces_given,
+    spall_of,
+)
 from bearing_model.physics.ring_fit import ring_fit_of
 from bearing_model.rivet import rivet_table
 from bearing_model.rivet.rivet_rom import joint_hole_stiffness, rivet_rom_fit_eff, rivet_rom_fit_flags
@@ -47,6 +54,7 @@ class Race(NamedTuple):
     ln_Lambda: float  # ln of Lambda at U = 1 m/s, Q = 1 N
     hertz: Hertz
     surface: RaceSurface
+    balls: Spall  # of the balls there [Z]
 
 
 class Derived(SimpleNamespace):
@@ -98,6 +106,7 @@ def derive_race(p, f, side, surface):
         ln_Lambda=ln_film(2.0 * E_star, 1.0 / rho_x, hertz.k, p, p.oil.sigma_race),
         hertz=hertz,
         surface=race_surface_of(surface, 0.5 * (p.bearing.d_m + side * D), hertz),
+        balls=spall_of(p.ball, 0.5 * (D + p.ball.dD), hertz),
     )
 
 
@@ -155,7 +164,7 @@ def derive_balls(p, d):
     d.drag = 0.5 * p.oil.C_d * reference_density(p) * 0.25 * np.pi * D**2
     d.inner = derive_race(p, p.bearing.f_i, -1.0, p.inner)
     d.outer = derive_race(p, p.bearing.f_e, 1.0, p.outer)
-    d.rough = race_surfaces_given(p)
+    d.rough, d.spalled = race_surfaces_given(p), ball_spalls_given(p)
     d.fit = ring_fit_of(p)
     derive_inlets(p, d)
     derive_mixture(p, d)

@@ -43,6 +43,7 @@ class Model:
     ring_load: RingLoad
     trajectory: InputTrajectory | None = None  # where the drive changes with time: takes its place
     modes: object = None  # of the cage's halves where they vibrate (cage.py)
+    turn: np.ndarray | None = None  # of balls with spalls (ball_spall.py) [rad]; None: that of the start
 
     @classmethod
     def of(cls, parameters=None, inputs=None, t=0.0, table=None):

@@ -209,24 +209,37 @@ def check_ribbon(p):
     )
 
 
-def check_spall(p, race, bottom):
+def check_spall(p, body, sizes, diameter):
     """A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the
-    ball, and its depth is small beside the ball, which rolls over its edges.  bottom: diameter of the groove's bottom.
+    ball, and its depth is small beside the ball, which rolls over its edges.  body: name of the ring or ball of this
+    diameter.
     """
-    D, parts = p.bearing.D, {name: getattr(getattr(p, race), f"spall_{name}") for name in ("length", "width", "depth")}
+    D, parts = p.bearing.D, dict(zip(("length", "width", "depth"), sizes, strict=True))
     limits = {
-        "length": (0.5 * math.pi * bottom, "half the circumference of the groove's bottom"),
+        "length": (0.5 * math.pi * diameter, "half the circumference"),
         "width": (D, "bearing.D"),
         "depth": (0.05 * D, "bearing.D/20"),
     }
     whole = (
-        f"a spall has {race}.spall_length, {race}.spall_width and {race}.spall_depth; more than 0 m is allowed, or 0 m for "
+        f"a spall has {body}.spall_length, {body}.spall_width and {body}.spall_depth; more than 0 m is allowed, or 0 m for "
         "all three"
     )
     for name, value in parts.items():
         most, meaning = limits[name]
-        require(value <= most, f"{race}.spall_{name} = {value} m: at most {meaning}, {most:g} m, is allowed")
-        require(value > 0.0 or not any(parts.values()), f"{race}.spall_{name} = 0 m: {whole}")
+        require(value <= most, f"{body}.spall_{name} = {value} m: at most {meaning}, {most:g} m, is allowed")
+        require(value > 0.0 or not any(parts.values()), f"{body}.spall_{name} = 0 m: {whole}")
+
+
+def check_spalls(p):
+    """Spalls of both rings and of the balls."""
+
+    def sizes(q):
+        return q.spall_length, q.spall_width, q.spall_depth
+
+    check_spall(p, "inner", sizes(p.inner), p.bearing.d_m - p.bearing.D)
+    check_spall(p, "outer", sizes(p.outer), p.bearing.d_m + p.bearing.D)
+    for j, of_ball in enumerate(zip(*sizes(p.ball), strict=True), 1):
+        check_spall(p, f"ball[{j}]", of_ball, p.bearing.D)
 
 
 def check_geometry(p):
@@ -272,8 +285,7 @@ def check_geometry(p):
     )
     wider = f"0 or more than the outside diameter of the outer ring, {outside:g} m, is allowed"
     require(housing == 0.0 or housing > outside, f"housing.outside = {housing} m: {wider}")
-    check_spall(p, "inner", d_m - D)
-    check_spall(p, "outer", d_m + D)
+    check_spalls(p)
     half = 0.5 * p.cage.width
     require(
         p.cage.land_width <= half,

@@ -12,7 +12,8 @@ The outer race is the same with the outer ring's centre, axis and motion (outer_
 
 The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.py).
 
-Races that are not perfect have approaches and normals of their own (race_surface.py).
+Races that are not perfect have approaches and normals of their own (race_surface.py), balls with spalls moments too
+(ball_spall.py).
 
 No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a potential.
 Slip and mean speed at the contact point p + R n, seen from the frame that orbits with the ball:
@@ -36,9 +37,17 @@ from scipy.special import roots_jacobi
 from bearing_model.generated.variables import Lubrication, Traction
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
+from bearing_model.physics.ball_spall import add_ball_spalls, ball_roll
 from bearing_model.physics.hertz import hertz_damped, hertz_load
 from bearing_model.physics.outer_ring import outer_ring, spread
-from bearing_model.physics.race_surface import race_surface_drop, race_surface_load, race_surface_waves
+from bearing_model.physics.race_surface import (
+    Spall,
+    race_surface_drop,
+    race_surface_load,
+    race_surface_waves,
+    spall_drop,
+    spall_strips,
+)
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_rate, ring_fit_speed
 from bearing_model.physics.rotor import Rotor, rotor_body_axes
 from bearing_model.physics.traction import (
@@ -152,45 +161,61 @@ def contact_motion(c, Omega, omega_b, omega_m):
     return c
 
 
-def surface_contact(race, R_g, R, lambda_, ring, w):
-    """The contact where the race is not perfect; stored: its elastic energy [J], damped: power of its
-    damping [W].
-
-    ring: Rotor whose body axes turn with the race; w: the balls' motions.
+def surface_place(R_g, ring, w):
+    """Places of the balls on a race that is not perfect; ring: Rotor whose body axes turn with the race, w: the balls'
+    motions.
     """
 
     def local(v):
         return vec_local(v, w.cos_theta, w.sin_theta)
 
-    p = vec(w.x, w.r, 0.0) - local(ring.x)
-    a, Omega = local(ring.a), local(ring.Omega)
-    along = vec_dot(p, a)
-    radial = p - along * a
-    r = np.sqrt(vec_dot(radial, radial))
-    e = radial / r
-    t = vec_cross(a, e)
-    L = along * a + (r - R_g) * e
-    L_abs = np.sqrt(vec_dot(L, L))
-    n = L / L_abs
+    at = SimpleNamespace(p=vec(w.x, w.r, 0.0) - local(ring.x), a=local(ring.a), Omega=local(ring.Omega), s=ring.s)
+    along = vec_dot(at.p, at.a)
+    radial = at.p - along * at.a
+    at.r = np.sqrt(vec_dot(radial, radial))
+    e = radial / at.r
+    at.t = vec_cross(at.a, e)
+    L = along * at.a + (at.r - R_g) * e
+    at.L = np.sqrt(vec_dot(L, L))
+    at.n = L / at.L
+    at.approach = vec(w.v_x, w.v_r, w.v_t) - local(ring.v) - vec_cross(at.Omega, at.p)
+    at.spin = vec(w.omega_x, w.omega_r, w.omega_t) - at.Omega
+    at.cos_phi, at.sin_phi = vec_dot(e, local(ring.b_y)), vec_dot(e, local(ring.b_z))
+    return at
 
-    # height and drop at the ball's angle
-    cos_phi, sin_phi = vec_dot(e, local(ring.b_y)), vec_dot(e, local(ring.b_z))
-    height, slope = race_surface_waves(race.surface, cos_phi, sin_phi)
-    f = drop = 0.0 * cos_phi
+
+def surface_contact(race, R, lambda_, at, w, angle=None):
+    """The contact where the race is not perfect or the ball has a spall; stored: its elastic energy [J], damped: power of
+    its damping [W], P: moment on the ball by its spall [N.m].
+
+    at: by surface_place; angle: cos, sin and rate of the spalls' angles on the balls from the contact, None if no ball has
+    one.
+    """
+    # heights and drops at the ball's angles
+    height, slope = race_surface_waves(race.surface, at.cos_phi, at.sin_phi)
+    f = drop = f_ball = drop_ball = rate_ball = 0.0 * at.cos_phi
+    strips, none = None, Spall(R, race.hertz.R_x)
     if race.surface.spalled:
-        f, drop = race_surface_drop(race.surface, cos_phi, sin_phi)
-    Q_0, Q_spall, stored, delta = race_surface_load(race.surface, race.hertz, L_abs - (race.r_g - R) + height, f)
+        f, drop = race_surface_drop(race.surface, at.cos_phi, at.sin_phi)
+    if angle is not None:
+        f_ball, drop_ball = spall_drop(race.balls, *angle[:2])
+        rate_ball = angle[2]
+    if race.surface.spalled or angle is not None:
+        strips = spall_strips(race.surface.spall, f, none if angle is None else race.balls, f_ball)
+    delta = at.L - (race.r_g - R) + height
+    Q_0, Q_race, Q_ball, stored, delta = race_surface_load(race.hertz, delta, strips)
 
-    # minus the gradient of the energy, Q (n + q t); its direction is the normal
-    q = (slope - Q_spall / (Q_0 + 1e-30) * drop) / r
+    # minus the gradient of the energy, Q (n + q t), whose direction is the normal, and the moment Q m on the ball
+    q = (slope - Q_race / (Q_0 + 1e-30) * drop) / at.r
+    m = Q_ball / (Q_0 + 1e-30) * drop_ball
     length = np.sqrt(1.0 + q * q)
-    approach = vec(w.v_x, w.v_r, w.v_t) - local(ring.v) - vec_cross(Omega, p)
-    c = SimpleNamespace(R=R, p=p, n=(n + q * t) / length, t_1=(t - q * n) / length, approach=approach, stored=stored)
+    n, t_1 = (at.n + q * at.t) / length, (at.t - q * at.n) / length
+    c = SimpleNamespace(R=R, p=at.p, n=n, t_1=t_1, approach=at.approach, stored=stored)
     c.delta, c.sqrt_delta = delta, np.sqrt(maximum(delta, 0.0))
-    rate = length * vec_dot(c.n, approach)
+    rate = length * vec_dot(c.n, c.approach) - m * rate_ball
     Q = Q_0 * maximum(1.0 + lambda_ * rate, 0.0)
-    c.Q, c.damped = Q * length, (Q - Q_0) * rate
-    return contact_motion(c, Omega, vec(w.omega_x, w.omega_r, w.omega_t), w.omega_m)
+    c.Q, c.P, c.damped = Q * length, Q * m, (Q - Q_0) * rate
+    return contact_motion(c, at.Omega, vec(w.omega_x, w.omega_r, w.omega_t), w.omega_m)
 
 
 def perfect_contacts(model, w, R_g):
@@ -209,15 +234,28 @@ def perfect_contacts(model, w, R_g):
 
 
 def rough_contacts(model, w, R_g):
-    """The same where a race is not perfect."""
-    d, given, contacts = model.d, model.ring_load, []
+    """The same where a race is not perfect or a ball has a spall; further the turn of the balls and their places on both
+    races, None if no ball has one.
+    """
+    d, given, places = model.d, model.ring_load, []
     rings = (w.ring, given.inner_angle), (outer_ring(given, w.x), given.outer_angle)
-    for race, radius, (ring, angle) in zip((d.inner, d.outer), (R_g, d.outer.R_g), rings, strict=True):
-        turned = Rotor(x=ring.x, v=ring.v, a=ring.a, Omega=ring.Omega)
+    for radius, (ring, angle) in zip((R_g, d.outer.R_g), rings, strict=True):
+        turned = Rotor(x=ring.x, v=ring.v, a=ring.a, Omega=ring.Omega, s=ring.s)
         rotor_body_axes(turned, *spread((np.cos(angle), np.sin(angle)), w.x))
-        contacts.append(surface_contact(race, radius, d.R, model.p.bearing.lambda_, turned, w))
-    w.race_stored = contacts[0].stored + contacts[1].stored
-    return contacts
+        places.append(surface_place(radius, turned, w))
+    angle_i = angle_e = spalls = None
+    if d.spalled:
+        turn = model.p.ball.spall_angle if model.turn is None else model.turn
+        apart = spread((given.inner_angle - given.outer_angle,), w.x)[0]
+        roll = ball_roll(*places, turn, apart)
+        angle_i, angle_e = (roll.cos_i, roll.sin_i, roll.rate_i), (roll.cos_e, roll.sin_e, roll.rate_e)
+        spalls, w.turn_rate = (roll, *places), roll.rate_e
+    inner, outer = (
+        surface_contact(race, d.R, model.p.bearing.lambda_, at, w, angle)
+        for race, at, angle in zip((d.inner, d.outer), places, (angle_i, angle_e), strict=True)
+    )
+    w.race_stored = inner.stored + outer.stored
+    return inner, outer, spalls
 
 
 def race_contact_force(model, w):
@@ -225,8 +263,10 @@ def race_contact_force(model, w):
     p, d = model.p, model.d
     mixed = p.scene.lubrication == Lubrication.MIXED
     R_g = d.inner.R_g + ring_fit_growth(d.fit, ring_fit_speed(model.ring_load))
-    inner, outer = (rough_contacts if d.rough else perfect_contacts)(model, w, R_g)
+    inner, outer, spalls = rough_contacts(model, w, R_g) if d.rough else (*perfect_contacts(model, w, R_g), None)
     T_i, T_e = race_traction(model, d.inner, inner, mixed), race_traction(model, d.outer, outer, mixed)
+    if spalls is not None:
+        add_ball_spalls(*spalls, inner.P, outer.P, T_i, T_e)
     F_i, F_e = (c.Q * -c.n + T.F_s + T.F_c for c, T in ((inner, T_i), (outer, T_e)))
 
     # sums on the balls, the wrench on the ring

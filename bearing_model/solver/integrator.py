@@ -266,6 +266,11 @@ def simulate(
         raise ValueError(f"tolerance = {tolerance}: more than 0 is allowed")
     if Parameters(parameters).housing.motion == HousingMotion.SUPPORTED:
         raise ValueError("housing.motion = supported: the FMU alone integrates a housing on springs; given is allowed")
+    spalled = np.flatnonzero(Parameters(parameters).ball.spall_length > 0.0)
+    if len(spalled):
+        raise ValueError(
+            f"ball[{spalled[0] + 1}].spall_length: the FMU alone follows the turn of a ball; 0 m is allowed"
+        )
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     here = input_trajectory_update(

@@ -451,4 +451,9 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"housing.a_x", "m/s2", 9655, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_RING, -1, offsetof(Outputs, housing.a_x), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"housing.a_y", "m/s2", 9656, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_RING, -1, offsetof(Outputs, housing.a_y), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"housing.a_z", "m/s2", 9657, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_RING, -1, offsetof(Outputs, housing.a_z), 0.0, -INFINITY, INFINITY, false, NULL, 0},
+    {"ball[j].spall_angle", "rad", 9700, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ball.spall_angle), 0.0, -6.2832, 6.2832, false, "it is a property of a body", 0},
+    {"ball[j].spall_length", "m", 9740, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ball.spall_length), 0.0, 0.0, 1.0, false, "it is a property of a body", 0},
+    {"ball[j].spall_width", "m", 9780, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ball.spall_width), 0.0, 0.0, 0.1, false, "it is a property of a body", 0},
+    {"ball[j].spall_depth", "m", 9820, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ball.spall_depth), 0.0, 0.0, 0.01, false, "it is a property of a body", 0},
+    {"ball[j].spall_edge", "m", 9860, Z, TYPE_REAL, CAUSALITY_PARAMETER, GROUP_COUNT, -1, offsetof(Parameters, ball.spall_edge), 5e-05, 1e-06, 0.01, false, "it is a property of a body", 0},
 };

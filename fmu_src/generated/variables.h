@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c64e103b-2c7a-2d90-4792-e894b5ae4a87}"  // digest of the table
+#define MODEL_GUID "{8e6a4aca-584b-8f5c-92b4-c4edba1ec6f7}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -107,6 +107,11 @@ typedef struct {
         double nu;  // [1] Poisson's ratio of the balls
         double expansion;  // [1/K] Thermal expansion of the balls
         double dD[Z];  // [m] Excess of the ball's diameter over bearing.D
+        double spall_angle[Z];  // [rad] Angle of the middle of the ball's spall at the start, about the rolling axis from the outer contact toward growing azimuth
+        double spall_length[Z];  // [m] Length of the spall along the ball's track
+        double spall_width[Z];  // [m] Width of the spall across the track, in the middle of the contacts
+        double spall_depth[Z];  // [m] Depth of the spall
+        double spall_edge[Z];  // [m] Length over which the path into the spall is rounded where the race meets the bottom or the other edge
     } ball;
     struct {
         double spall_angle;  // [rad] Angle of the spall's middle on the outer ring at the start, from +Y toward +Z; it turns with the ring
@@ -666,4 +671,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 402 };  // time is the first
+enum { N_VARIABLES = 407 };  // time is the first

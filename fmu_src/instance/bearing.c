@@ -7,6 +7,7 @@
 #include "instance/outputs.h"
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
+#include "physics/ball_turn.h"
 #include "physics/housing.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
@@ -214,9 +215,10 @@ static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
     trajectory->inner_angle = s->ring_angle[0], trajectory->outer_angle = s->ring_angle[1];
 }
 
-// Puts the outer ring where a housing on springs is.
+// Puts the outer ring where a housing on springs is, and lets the model see how far balls with spalls have turned.
 static void place_housing(Bearing *b)
 {
+    b->model.turn = ball_spalls_given(present_parameters(b)) ? &b->s.integrator.now.turn : NULL;
     const bool supported = present_parameters(b)->housing.motion == HOUSING_MOTION_SUPPORTED;
     b->model.housing = supported ? &b->s.integrator.now.housing : NULL;
     if (supported) housing_place(b->model.housing, &b->ring_load);
@@ -367,6 +369,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = t_start;
     s->integrator.h = FIRST_STEP;
+    ball_turn_start(&s->p, &s->integrator.now.turn);
     derive(b);
     if (b->model.housing) {
         housing_at_base(&b->ring_load, &s->integrator.now.housing);
@@ -551,7 +554,8 @@ static void outputs_beside(const Bearing *b, const Inputs *u, Outputs *out)
     parameters_at(b, u, &hot);
     model_derive(&hot, &d);
     work_init(&d, &w);
-    const Model model = {&hot, &d, &b->ring_load, NULL, cage_derive(&hot, &d, b->cage), b->model.housing};
+    const Model model = {
+        &hot, &d, &b->ring_load, NULL, cage_derive(&hot, &d, b->cage), b->model.housing, b->model.turn};
     b->kernels.rhs(&model, s->integrator.t, s->integrator.now.y, y_dot, &w);
     const Evaluation at = {&model, s->integrator.now.y,   y_dot,
                            &w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};

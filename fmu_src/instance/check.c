@@ -3,6 +3,7 @@
 #include "cage/cage.h"
 #include "instance/log.h"
 #include "numbers/saved_numbers.h"
+#include "physics/race_surface.h"
 #include "physics/ring_fit.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
@@ -269,28 +270,49 @@ static bool check_ribbon(Bearing *b)
 
 // A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the ball, and its
 // depth is small beside the ball, which rolls over its edges.
-static bool check_spall(Bearing *b, const char *race, double length, double width, double depth,
-                        double bottom)
+static bool check_spall(Bearing *b, const char *body, double length, double width, double depth,
+                        double diameter)
 {
     static const char *const NAME[] = {"length", "width", "depth"};
     const double D = b->s.p.bearing.D, value[] = {length, width, depth},
-                 most[] = {0.5 * PI * bottom, D, 0.05 * D};
-    static const char *const LIMIT[] = {"half the circumference of the groove's bottom", "bearing.D",
-                                        "bearing.D/20"};
+                 most[] = {0.5 * PI * diameter, D, 0.05 * D};
+    static const char *const LIMIT[] = {"half the circumference", "bearing.D", "bearing.D/20"};
     const bool any = length > 0.0 || width > 0.0 || depth > 0.0;
     bool fine = true;
     for (int i = 0; i < 3; i++) {
         if (value[i] > most[i]) {
-            bearing_log(b, LOG_ERROR, "%s.spall_%s = %g m: at most %s, %g m, is allowed", race, NAME[i],
+            bearing_log(b, LOG_ERROR, "%s.spall_%s = %g m: at most %s, %g m, is allowed", body, NAME[i],
                         value[i], LIMIT[i], most[i]);
             fine = false;
         } else if (any && value[i] == 0.0) {
             bearing_log(b, LOG_ERROR,
                         "%s.spall_%s = 0 m: a spall has %s.spall_length, %s.spall_width and %s.spall_depth; "
                         "more than 0 m is allowed, or 0 m for all three",
-                        race, NAME[i], race, race, race);
+                        body, NAME[i], body, body, body);
             fine = false;
         }
+    }
+    return fine;
+}
+
+// The spalls of the balls, whose turn the default method alone carries.
+static bool check_ball_spalls(Bearing *b)
+{
+    const Parameters *p = &b->s.p;
+    bool fine = true;
+    for (int j = 0; j < Z; j++) {
+        const double length = p->ball.spall_length[j], width = p->ball.spall_width[j],
+                     depth = p->ball.spall_depth[j];
+        char body[16];
+        snprintf(body, sizeof body, "ball[%d]", j + 1);
+        fine &= check_spall(b, body, length, width, depth, p->bearing.D);
+        if (!spall_given(length, width, depth) || p->solver.method != METHOD_EXPLICIT) continue;
+        bearing_log(
+            b, LOG_ERROR,
+            "ball[%d].spall_length = %g m: solver.method = explicit does not follow the turn of a ball; "
+            "allowed is 0 m, or solver.method = verlet or fixed",
+            j + 1, length);
+        fine = false;
     }
     return fine;
 }
@@ -402,6 +424,7 @@ static bool check_geometry(Bearing *b)
         check_spall(b, "inner", p->inner.spall_length, p->inner.spall_width, p->inner.spall_depth, d_m - D);
     fine &=
         check_spall(b, "outer", p->outer.spall_length, p->outer.spall_width, p->outer.spall_depth, d_m + D);
+    fine &= check_ball_spalls(b);
     const bool moved = p->housing.motion != HOUSING_MOTION_SUPPORTED || p->solver.method != METHOD_EXPLICIT;
     if (!moved)
         bearing_log(b, LOG_ERROR,

@@ -45,15 +45,29 @@ static void scalars_derivative(int n, const scalar *x, double *derivative)
     for (int i = 0; i < n; i++) derivative[i] = scalar_derivative(x[i]);
 }
 
+// The balls' turns where time goes on by dt, of a model of double numbers; NULL if no ball has a spall.
+static const BallTurn *turn_drift(const Model *model, double dt, BallTurn *turn)
+{
+    if (model->turn == NULL) return NULL;
+    const double *angle = (const double *)model->turn, *rate = angle + Z;
+    for (int j = 0; j < Z; j++) {
+        turn->angle[j] = scalar_dual(angle[j], dt * rate[j]);
+        turn->rate[j] = scalar_dual(rate[j], 0.0);
+    }
+    return turn;
+}
+
 void jacobian_product(const Model *model, double t, const double *y, const double *dy,
                       const double *d_ring_load, double *dy_dot, double *dw)
 {
     RingLoad ring_load;
     InputTrajectory trajectory;
+    BallTurn turn;
     Work work = {0};
     scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
     const int states = cage_states(model);
-    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes, model->housing};
+    const Model dual = {
+        model->p, model->d, &ring_load, NULL, model->modes, model->housing, turn_drift(model, 0.0, &turn)};
     scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
     if (model->trajectory) {
         scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
@@ -95,11 +109,13 @@ void jacobian_outputs(const Model *model, const double *trajectory, double t, do
 {
     InputTrajectory inputs;
     RingLoad ring_load;
+    BallTurn turn;
     Work work = {0};
     Outputs out = {0};
     scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
     const int states = cage_states(model);
-    const Model dual = {model->p, model->d, &ring_load, NULL, model->modes, model->housing};
+    const Model dual = {
+        model->p, model->d, &ring_load, NULL, model->modes, model->housing, turn_drift(model, dt, &turn)};
     scalars_join(TRAJECTORY_SCALARS, trajectory, NULL, (scalar *)&inputs);
     if (du)
         for (int i = 0; i < N_INPUTS; i++) ((scalar *)&inputs.u[0])[i] += scalar_dual(0.0, du[i]);

@@ -66,29 +66,72 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
     race->ln_Lambda = ln_film(2.0 * E_star, 1.0 / rho_x, race->hertz.k, p, p->oil.sigma_race);
 }
 
+// A spall at the contacts with one race (race_surface.h).
+static Spall spall_of(const Race *race, double length, double width, double depth, double edge)
+{
+    if (!spall_given(length, width, depth)) return (Spall){.bend = 1.0};
+    const double c = fmin(edge, 0.25 * length), R_x = race->hertz.R_x;
+    Spall s = {.half_length = 0.5 * length, .half_width = 0.5 * width};
+
+    // u_1 (u_1 + c) = 2 R_x depth; a short spall ends before
+    s.u_1 = fmin(0.5 * (sqrt(c * c + 8.0 * R_x * depth) - c), s.half_length - c);
+    s.u_2 = s.u_1 + c;
+    s.bend = 1.0 + s.u_1 / c;
+    s.flank = s.half_width * s.half_width / (race->hertz.a_delta * race->hertz.a_delta);
+    return s;
+}
+
+// Table of the waves over a turn that begins at phi = -pi.
+static void derive_waves(const double amplitude[WAVES], const double phase[WAVES],
+                         double wave[WAVE_CELLS + 1][2])
+{
+    // c_n exp(i n phi) with exp(i n phi) step by step: w is the real part of the sum, dw/dphi the imaginary part of -n
+    // times it
+    const double width = 2.0 * PI / WAVE_CELLS;
+    double re[WAVES], im[WAVES];
+    for (int i = 0; i < WAVES; i++) {
+        re[i] = amplitude[i] * portable_cos(phase[i]);
+        im[i] = amplitude[i] * portable_sin(phase[i]);
+    }
+    for (int k = 0; k < WAVE_CELLS; k++) {
+        const double phi = (k - WAVE_CELLS / 2) * width, c = portable_cos(phi), s = portable_sin(phi);
+        double c_n = 1.0, s_n = 0.0, w = 0.0, dw = 0.0;
+        for (int i = 0; i < WAVES; i++) {
+            const double next = c_n * c - s_n * s;
+            s_n = s_n * c + c_n * s, c_n = next;
+            w += re[i] * c_n - im[i] * s_n;
+            dw -= (i + 1) * (re[i] * s_n + im[i] * c_n);
+        }
+        wave[k][0] = w, wave[k][1] = dw * width;
+    }
+    memcpy(wave[WAVE_CELLS], wave[0], sizeof wave[0]);
+}
+
 // Waves and spall of a race (race_surface.h).
 static void derive_surface(const double amplitude[WAVES], const double phase[WAVES], double middle,
                            double length, double width, double depth, double edge, double track, Race *race)
 {
     RaceSurface *s = &race->surface;
-    for (int i = 0; i < WAVES; i++) {
-        s->re[i] = amplitude[i] * portable_cos(phase[i]);
-        s->im[i] = amplitude[i] * portable_sin(phase[i]);
-        if (amplitude[i] != 0.0) s->waves = i + 1;
-    }
+    s->wavy = race_waves_given(amplitude);
+    if (s->wavy) derive_waves(amplitude, phase, s->wave);
     s->track = track;
     s->curvature = 1.0 / race->hertz.R_x;
-    s->spalled = length > 0.0 && width > 0.0 && depth > 0.0;
-    if (!s->spalled) return;
-    const double c = fmin(edge, 0.25 * length), R_x = race->hertz.R_x;
     s->middle_cos = portable_cos(middle), s->middle_sin = portable_sin(middle);
-    s->half_length = 0.5 * length, s->half_width = 0.5 * width;
+    s->spalled = spall_given(length, width, depth);
+    s->spall = spall_of(race, length, width, depth, edge);
+}
 
-    // u_1 (u_1 + c) = 2 R_x depth; a short spall ends before
-    s->u_1 = fmin(0.5 * (sqrt(c * c + 8.0 * R_x * depth) - c), s->half_length - c);
-    s->u_2 = s->u_1 + c;
-    s->bend = 1.0 + s->u_1 / c;
-    s->flank = s->half_width * s->half_width / (race->hertz.a_delta * race->hertz.a_delta);
+// Spalls of the balls.
+static void derive_ball_spalls(const Parameters *p, Race *race)
+{
+    BallSpalls *b = &race->balls;
+    for (int j = 0; j < LANES; j++) {
+        const Spall s = j < Z ? spall_of(race, p->ball.spall_length[j], p->ball.spall_width[j],
+                                         p->ball.spall_depth[j], p->ball.spall_edge[j])
+                              : (Spall){.bend = 1.0};
+        b->half_length[j] = s.half_length, b->half_width[j] = s.half_width;
+        b->u_1[j] = s.u_1, b->u_2[j] = s.u_2, b->bend[j] = s.bend, b->flank[j] = s.flank;
+    }
 }
 
 static void derive_surfaces(const Parameters *p, Derived *d)
@@ -99,7 +142,10 @@ static void derive_surfaces(const Parameters *p, Derived *d)
                    p->inner.spall_width, p->inner.spall_depth, p->inner.spall_edge, bottom_i, &d->inner);
     derive_surface(p->outer.waviness, p->outer.waviness_phase, p->outer.spall_angle, p->outer.spall_length,
                    p->outer.spall_width, p->outer.spall_depth, p->outer.spall_edge, bottom_e, &d->outer);
+    derive_ball_spalls(p, &d->inner);
+    derive_ball_spalls(p, &d->outer);
     d->rough = race_surfaces_given(p);
+    d->spalled = ball_spalls_given(p);
 }
 
 // Density of the mixture; of the oil, where the flow gives the filling.

@@ -27,21 +27,31 @@ typedef struct {
     double R_x;      // reduced radius in the rolling direction [m]
 } Hertz;
 
-enum { WAVES = 60 };  // orders of a race's waviness
+enum { WAVES = 60, WAVE_CELLS = 512 };  // orders of a race's waviness, cells of its table over a turn
+
+// A spall at the contacts with one race (race_surface.h).
+typedef struct {
+    double half_length, half_width;  // [m]
+    double u_1, u_2;  // distances from its edge to the end of the circle, to the largest drop [m]
+    double bend;      // 1 + u_1/(u_2 - u_1)
+    double flank;     // drop at which the ball rests on the spall's flanks [m]
+} Spall;
 
 // Waves and spall of a race (race_surface.h); all is 0 of a perfect one.
 typedef struct {
-    int waves;                       // highest order with an amplitude
-    double re[WAVES], im[WAVES];     // A_n cos(phase_n), A_n sin(phase_n) [m]
+    bool wavy;                       // whether there are waves
+    double wave[WAVE_CELLS + 1][2];  // their height w, slope dw/dphi x width of a cell at its ends [m]
     bool spalled;                    // whether there is a spall
     double middle_cos, middle_sin;   // of the angle of its middle
     double track;                    // radius of the track [m]
-    double half_length, half_width;  // of the spall [m]
-    double u_1, u_2;   // distances from its edge to the end of the circle, to the largest drop [m]
-    double bend;       // 1 + u_1/(u_2 - u_1)
-    double curvature;  // 1/R_x [1/m]
-    double flank;      // drop at which the ball rests on the spall's flanks [m]
+    double curvature;                // 1/R_x [1/m]
+    Spall spall;
 } RaceSurface;
+
+// Spalls of the balls at the contacts with one race, as in Spall; all is 0 of a ball without.
+typedef struct {
+    constants half_length, half_width, u_1, u_2, bend, flank;
+} BallSpalls;
 
 typedef struct {
     double R_g;         // radius of the circle of groove-curvature centres [m]
@@ -52,6 +62,7 @@ typedef struct {
     double ln_Lambda;   // ln of Lambda at U = 1 m/s, Q = 1 N
     Hertz hertz;
     RaceSurface surface;
+    BallSpalls balls;
 } Race;
 
 // A ring of the radius rho of its section that touches a pocket's sphere along a circle, the seam.
@@ -108,7 +119,8 @@ typedef struct {
     constants R;  // ball radius [m]
     double m, J;  // ball mass [kg], moment of inertia [kg.m2]
     Race inner, outer;
-    bool rough;  // whether a race is not perfect
+    bool rough;    // whether a race is not perfect or a ball has a spall
+    bool spalled;  // whether a ball has a spall
     RingFit fit;
     double starvation, ln_heating;  // of the inlets: exponent / U [s/m], ln of the heating term at U = 1 m/s
     double ln_thermal;              // ln of the thermal loading L of the race films at U = 1 m/s
@@ -211,6 +223,12 @@ typedef struct {
         outer_angle;  // by which the rings have turned since the start [rad]; 0 of perfect races
 } RingLoad;
 
+// ---- how far balls with spalls have turned; written by the step (ball_turn.h) -------------------------------
+typedef struct {
+    scalar angle[Z];  // of the spall's middle from the ball's outer contact, about the rolling axis [rad]
+    scalar rate[Z];   // [rad/s]
+} BallTurn;
+
 // ---- a rigid body with an axis: inner ring or cage half; written by rotor_axis, rotor_body_axes -----------
 typedef struct {
     scalar x[3], v[3];      // geometric centre: position, velocity
@@ -260,8 +278,9 @@ typedef struct {
     // (race_contact_force), pockets (cleared there, added by cage_pockets), drag (drag_force)
     ball_array race_dissipated, inlet_dissipated, spin_dissipated, pocket_dissipated, drag_dissipated;
 
-    // elastic energy of both race contacts [J], where a race is not perfect (race_contact_force)
-    ball_array race_stored;
+    // elastic energy of both race contacts [J], where a race is not perfect or a ball has a spall; rates of the
+    // balls' turns [rad/s], where a ball has one (race_contact_force)
+    ball_array race_stored, turn_rate;
 
     // stiff rates of the race contacts (race_contact_force): |traction|/|slip| [N.s/m], moment/spin about the
     // normal [N.m.s]
@@ -326,6 +345,7 @@ typedef struct {
     const InputTrajectory *trajectory;  // from which the load at any time follows; NULL: the load is held
     const ElasticHalf *modes;  // of the cage's halves, where they are elastic, else NULL (cage/cage.h)
     const Housing *housing;    // where it moves on springs; NULL: its motion is given
+    const BallTurn *turn;      // of balls with spalls; NULL: that of the start
 } Model;
 
 // Derived constants of all elements; the parameters have been checked and have their present temperatures.

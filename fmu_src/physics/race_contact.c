@@ -13,7 +13,8 @@
 //
 // The inner ring grows by its rotation in the fixed frame and its fit: R_g + ring_fit_growth (ring_fit.h).
 //
-// Races that are not perfect have approaches and normals of their own (race_surface.h).
+// Races that are not perfect have approaches and normals of their own (race_surface.h), balls with spalls moments too
+// (ball_spall.h).
 //
 // No offset or tilt is taken as small: the geometry is exact, so that the normal forces derive from a
 // potential.
@@ -30,6 +31,7 @@
 // about the middle, which x_0 tends to. Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 #include "physics/race_contact.h"
 
+#include "physics/ball_spall.h"
 #include "physics/hertz.h"
 #include "physics/outer_ring.h"
 #include "physics/race_surface.h"
@@ -183,8 +185,8 @@ INLINE Contact outer_contact_at_rest(const Model *model, const BallMotion *ball)
 // Place of a packet of balls on a race that is not perfect, as in race_contact, with the rolling direction t and cos and sin
 // of the angle on the race, of ring->b_y and b_z, which turn with it.
 typedef struct {
-    vec p, v, Omega, n, t;
-    wide r, L, cos_phi, sin_phi;
+    vec p, v, Omega, a, n, t;
+    wide r, L, cos_phi, sin_phi, s;
 } SurfacePlace;
 
 INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor *ring, wide cos_theta,
@@ -194,7 +196,9 @@ INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor 
     const vec a = vec_local(ring->a, cos_theta, sin_theta);
     SurfacePlace at = {.p = vec_sub(ball->x, vec_local(ring->x, cos_theta, sin_theta)),
                        .v = vec_local(ring->v, cos_theta, sin_theta),
-                       .Omega = vec_local(ring->Omega, cos_theta, sin_theta)};
+                       .Omega = vec_local(ring->Omega, cos_theta, sin_theta),
+                       .a = a,
+                       .s = wide_set(ring->s)};
     const wide along = vec_dot(at.p, a);
     const vec radial = vec_axpy(-along, a, at.p);
     at.r = wide_sqrt(vec_dot(radial, radial) + tiny);
@@ -209,18 +213,34 @@ INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor 
     return at;
 }
 
-// Contact there, under waves of the height w with the derivative dw; stored: elastic energy of the contact.
-INLINE Contact surface_contact(const Model *model, const Race *race, const BallMotion *ball,
-                               const SurfacePlace *at, wide w, wide dw, wide *stored)
-{
-    wide f = wide_set(0.0), df = f;
-    if (race->surface.spalled) race_surface_drop(&race->surface, at->cos_phi, at->sin_phi, &f, &df);
-    const SurfaceLoad load =
-        race_surface_load(&race->surface, &race->hertz, at->L - (race->r_g - ball->R) + w, f);
+// What a contact has of spalls: drops of the path in the race's and in the ball's, their derivatives by the angles on
+// race and ball, rate of the latter.
+typedef struct {
+    SpallLanes race, ball;
+    wide f, df, f_ball, df_ball, rate;
+    bool two;  // whether balls have spalls
+} SpallPlace;
 
-    // minus the gradient of the energy, Q (n + q t); its direction is the normal
-    const wide q = (dw - load.Q_spall / (load.Q + LEAST_LOAD) * df) / at->r, length = wide_sqrt(1.0 + q * q);
+// Contact there, under waves of the height w with the derivative dw.  stored: elastic energy of the contact; P: moment on
+// the balls by their spalls.
+INLINE Contact surface_contact(const Model *model, const Race *race, const BallMotion *ball,
+                               const SurfacePlace *at, wide w, wide dw, const SpallPlace *in, wide *stored,
+                               wide *P)
+{
+    const wide delta = at->L - (race->r_g - ball->R) + w;
+    SurfaceLoad load;
+    if (race->surface.spalled || in->two) {
+        const SpallStrips strips = spall_strips(&in->race, in->f, &in->ball, in->f_ball);
+        load = race_surface_load(&race->hertz, delta, &strips, in->two);
+    } else {
+        load = race_whole_load(&race->hertz, delta);
+    }
+
+    // minus the gradient of the energy, Q (n + q t), whose direction is the normal, and the moment Q m on the ball
+    const wide q = (dw - load.Q_race / (load.Q + LEAST_LOAD) * in->df) / at->r,
+               length = wide_sqrt(1.0 + q * q);
     const wide inv_length = 1.0 / length;
+    const wide m = in->two ? load.Q_ball / (load.Q + LEAST_LOAD) * in->df_ball : wide_set(0.0);
     Contact c = {.R = ball->R,
                  .n = vec_scale(inv_length, vec_axpy(q, at->t, at->n)),
                  .t_1 = vec_scale(inv_length, vec_axpy(-q, at->n, at->t))};
@@ -229,11 +249,12 @@ INLINE Contact surface_contact(const Model *model, const Race *race, const BallM
     c.spin = vec_sub(ball->omega, at->Omega);
     c.delta = load.delta;
     c.sqrt_delta = wide_sqrt(wide_max(load.delta, wide_set(0.0)));
-    const wide rate = length * vec_dot(c.n, c.approach);
+    wide rate = length * vec_dot(c.n, c.approach);
+    if (in->two) rate = rate - m * in->rate;
     const wide Q = hertz_damped(load.Q, wide_set(model->p->bearing.lambda), rate);
     c.dissipated = (Q - load.Q) * rate;
     c.Q = Q * length;
-    *stored = load.U;
+    *stored = load.U, *P = Q * m;
     contact_motion(ball, at->Omega, &c);
     return c;
 }
@@ -631,48 +652,107 @@ static Rotor turned(const Rotor *ring, scalar angle)
     return out;
 }
 
-// Contacts of all balls with a race whose ring has body axes that turn with it; stored: their elastic energies.
-INLINE void surface_contacts(const Model *model, const Work *w, const Race *race, wide R_g, const Rotor *ring,
-                             vec p[PACKETS], Contact c[PACKETS], wide stored[PACKETS])
+// Places of all balls on a race whose ring has body axes that turn with it.
+INLINE void surface_places(const Model *model, const Work *w, wide R_g, const Rotor *ring,
+                           SurfacePlace at[PACKETS])
 {
-    SurfacePlace at[PACKETS];
     for (int b = 0; b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         const BallMotion ball = ball_motion(model, w, j);
         at[b] = surface_place(&ball, R_g, ring, wide_load(&w->cos_theta[j]), wide_load(&w->sin_theta[j]));
-        p[b] = at[b].p;
     }
+}
+
+// Contacts of all balls with a race; cosine, sine, rate: of their spalls' angles from the contact, two: whether there are
+// any; stored: elastic energies, P: moments on the balls by their spalls.
+INLINE void surface_contacts(const Model *model, const Work *w, const Race *race,
+                             const SurfacePlace at[PACKETS], bool two, const wide cosine[PACKETS],
+                             const wide sine[PACKETS], const wide rate[PACKETS], Contact c[PACKETS],
+                             wide stored[PACKETS], wide P[PACKETS])
+{
     wide cos_phi[PACKETS], sin_phi[PACKETS], height[PACKETS], slope[PACKETS];
     for (int b = 0; b < PACKETS; b++) cos_phi[b] = at[b].cos_phi, sin_phi[b] = at[b].sin_phi;
     race_surface_waves(&race->surface, cos_phi, sin_phi, height, slope);
     for (int b = 0; b < PACKETS; b++) {
         const BallMotion ball = ball_motion(model, w, b * LANE_WIDTH);
-        c[b] = surface_contact(model, race, &ball, &at[b], height[b], slope[b], &stored[b]);
+        const wide none = wide_set(0.0);
+        SpallPlace in = {.f = none, .df = none, .f_ball = none, .df_ball = none, .two = two};
+        in.race = race_spall(&race->surface);
+        in.ball = (SpallLanes){none, none, none, none, none, none, none, none};
+        if (race->surface.spalled) race_surface_drop(&race->surface, cos_phi[b], sin_phi[b], &in.f, &in.df);
+        if (two) {
+            in.ball = ball_spall(race, ball.R, b * LANE_WIDTH);
+            spall_drop(&in.ball, cosine[b], sine[b], &in.f_ball, &in.df_ball);
+            in.rate = rate[b];
+        }
+        c[b] = surface_contact(model, race, &ball, &at[b], height[b], slope[b], &in, &stored[b], &P[b]);
     }
 }
 
-// Balls between races that are not perfect.
-static __attribute__((noinline)) void race_contact_force_rough(const Model *model, Work *w, scalar inner_R_g,
-                                                               bool mixed, bool sliced)
+// What the turn of a ball needs of its place on a race.
+INLINE RollingPlace rolling_place(const SurfacePlace *at, const BallMotion *ball)
+{
+    return (RollingPlace){.n = at->n,
+                          .t = at->t,
+                          .a = at->a,
+                          .approach = vec_sub(vec_sub(ball->v, at->v), vec_cross(at->Omega, at->p)),
+                          .spin = vec_sub(ball->omega, at->Omega),
+                          .r = at->r,
+                          .cos_phi = at->cos_phi,
+                          .sin_phi = at->sin_phi,
+                          .s = at->s};
+}
+
+// Balls between races that are not perfect, or with spalls (two).
+INLINE void rough_balls(const Model *model, Work *w, scalar inner_R_g, bool mixed, bool sliced, bool two)
 {
     const RingLoad *given = model->ring_load;
+    const Derived *d = model->d;
     const Rotor at_rest = outer_ring(given);
     const Rotor inner_ring = turned(&w->ring, given->inner_angle),
                 outer = turned(&at_rest, given->outer_angle);
-    vec p_i[PACKETS], p_e[PACKETS];
+    SurfacePlace at_i[PACKETS], at_e[PACKETS];
+    surface_places(model, w, wide_set(inner_R_g), &inner_ring, at_i);
+    surface_places(model, w, wide_set(d->outer.R_g), &outer, at_e);
+
+    // turns of the balls
+    RollingPlace i[PACKETS], e[PACKETS];
+    BallRoll roll[PACKETS];
+    wide cos_i[PACKETS], sin_i[PACKETS], rate_i[PACKETS], cos_e[PACKETS], sin_e[PACKETS], rate_e[PACKETS];
+    for (int b = 0; two && b < PACKETS; b++) {
+        const int j = b * LANE_WIDTH;
+        const BallMotion ball = ball_motion(model, w, j);
+        i[b] = rolling_place(&at_i[b], &ball), e[b] = rolling_place(&at_e[b], &ball);
+        roll[b] = ball_roll(&i[b], &e[b], ball_angles(model, j), given->inner_angle - given->outer_angle);
+        cos_i[b] = roll[b].cos_i, sin_i[b] = roll[b].sin_i, rate_i[b] = roll[b].rate_i;
+        cos_e[b] = roll[b].cos_e, sin_e[b] = roll[b].sin_e, rate_e[b] = roll[b].rate_e;
+        wide_store(&w->turn_rate[j], rate_e[b]);
+    }
+
     Contact inner_contact[PACKETS], outer_contact[PACKETS];
     Tangential T_i[PACKETS], T_e[PACKETS];
-    wide stored_i[PACKETS], stored_e[PACKETS];
-    surface_contacts(model, w, &model->d->inner, wide_set(inner_R_g), &inner_ring, p_i, inner_contact,
-                     stored_i);
-    surface_contacts(model, w, &model->d->outer, wide_set(model->d->outer.R_g), &outer, p_e, outer_contact,
-                     stored_e);
+    wide stored_i[PACKETS], stored_e[PACKETS], P_i[PACKETS], P_e[PACKETS];
+    surface_contacts(model, w, &d->inner, at_i, two, cos_i, sin_i, rate_i, inner_contact, stored_i, P_i);
+    surface_contacts(model, w, &d->outer, at_e, two, cos_e, sin_e, rate_e, outer_contact, stored_e, P_e);
     race_tractions(model, inner_contact, outer_contact, mixed, sliced, T_i, T_e);
     for (int b = 0; b < PACKETS; b++) {
+        if (two) add_ball_spalls(&roll[b], &i[b], &e[b], P_i[b], P_e[b], &T_i[b], &T_e[b]);
         wide_store(&w->race_stored[b * LANE_WIDTH], stored_i[b] + stored_e[b]);
         store_contacts(w, b * LANE_WIDTH, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
-        store_forces(w, b * LANE_WIDTH, p_i[b], &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
+        store_forces(w, b * LANE_WIDTH, at_i[b].p, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
     }
+}
+
+static __attribute__((noinline)) void race_contact_force_rough(const Model *model, Work *w, scalar inner_R_g,
+                                                               bool mixed, bool sliced)
+{
+    rough_balls(model, w, inner_R_g, mixed, sliced, false);
+}
+
+static __attribute__((noinline)) void race_contact_force_spalled(const Model *model, Work *w,
+                                                                 scalar inner_R_g, bool mixed, bool sliced)
+{
+    rough_balls(model, w, inner_R_g, mixed, sliced, true);
 }
 
 void race_contact_force(const Model *model, Work *w)
@@ -681,7 +761,9 @@ void race_contact_force(const Model *model, Work *w)
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     const scalar R_g = model->d->inner.R_g + growth;
-    if (model->d->rough)
+    if (model->d->spalled)
+        race_contact_force_spalled(model, w, R_g, mixed, sliced);
+    else if (model->d->rough)
         race_contact_force_rough(model, w, R_g, mixed, sliced);
     else if (outer_ring_moves(model->ring_load))
         race_contact_force_moving(model, w, R_g, mixed, sliced);

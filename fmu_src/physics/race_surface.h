@@ -1,7 +1,9 @@
 // A race that is not perfect: waves around it and a spall at the bottom of its groove.
 //
 //   phi      angle of the ball on its race, from +Y toward +Z at the start; the race turns with its ring
-//   w(phi)   sum of A_n cos(n phi + phase_n), n = 1...60: height of the race into the bearing's clearance
+//   w(phi)   sum of A_n cos(n phi + phase_n), n = 1...60: height of the race into the bearing's clearance.  A table of
+//            512 cells with cubic Hermite polynomials: C1, and with cells of the width h off by (n h)^4/384 A_n, 8e-4 of
+//            A_60 and 4e-7 of A_9.  The law is that of the polynomials, dw/dphi their derivative.
 //   f(s)     drop of the ball's path in the spall, s = R_t (phi - phi_0) along the track of radius R_t
 //
 // A ball that enters a spall turns about the spall's edge, because it has a finite size: Ahmadi, Petersen & Howard (2015),
@@ -24,6 +26,9 @@
 // with delta = |L| - (r_g - R) + w.  A narrow spall thus leaves the ball on its flanks.  The force is minus the gradient
 // of U: Q n plus a part along the track, as if the normal were tilted.  This part turns the ring, and the ring's rotation
 // does the work of the moving profile.  Smoothness: C1.  The small roll of a ring whose tilt turns (rotor.h) is left out.
+//
+// A spall on a ball (ball_spall.h) has the same laws, with s along the ball's great circle.  Where it meets a spall of the
+// race, both drops add up over the width that both have.
 #pragma once
 
 #include "physics/hertz.h"
@@ -36,87 +41,188 @@ static inline bool race_waves_given(const double amplitude[WAVES])
     return any;
 }
 
-// Whether a race is not perfect.
+// Whether these are the sizes of a spall.
+static inline bool spall_given(double length, double width, double depth)
+{
+    return length > 0.0 && width > 0.0 && depth > 0.0;
+}
+
+// Whether a ball has a spall.
+static inline bool ball_spalls_given(const Parameters *p)
+{
+    bool any = false;
+    for (int j = 0; j < Z; j++)
+        any |= spall_given(p->ball.spall_length[j], p->ball.spall_width[j], p->ball.spall_depth[j]);
+    return any;
+}
+
+// Whether a race is not perfect, or a ball has a spall.
 static inline bool race_surfaces_given(const Parameters *p)
 {
-    const bool inner =
-        p->inner.spall_length > 0.0 && p->inner.spall_width > 0.0 && p->inner.spall_depth > 0.0;
-    const bool outer =
-        p->outer.spall_length > 0.0 && p->outer.spall_width > 0.0 && p->outer.spall_depth > 0.0;
-    return inner || outer || race_waves_given(p->inner.waviness) || race_waves_given(p->outer.waviness);
+    const bool inner = spall_given(p->inner.spall_length, p->inner.spall_width, p->inner.spall_depth);
+    const bool outer = spall_given(p->outer.spall_length, p->outer.spall_width, p->outer.spall_depth);
+    return inner || outer || race_waves_given(p->inner.waviness) || race_waves_given(p->outer.waviness) ||
+           ball_spalls_given(p);
 }
 
 static const double LEAST_LOAD = 1e-30;  // keeps shares of no load from dividing by 0 [N]
 
-// Height w of the waves and its derivative by phi, of all packets, which go through each order together.
+// Angle of the point (cosine, sine), -pi...pi.
+INLINE wide angle_of(wide cosine, wide sine)
+{
+    const wide acute = 2.0 * wide_atan(sine / (1.0 + wide_abs(cosine)));
+    const wide half = wide_select(wide_above(sine, 0.0), wide_set(PI), wide_set(-PI));
+    return wide_select(wide_above(-cosine, 0.0), half - acute, acute);
+}
+
+// Height w of the waves and its derivative by phi, of all packets: cubic Hermite polynomials between the table's points.
 INLINE void race_surface_waves(const RaceSurface *s, const wide cos_phi[PACKETS], const wide sin_phi[PACKETS],
                                wide w[PACKETS], wide dw[PACKETS])
 {
-    // Horner's scheme in z = exp(i phi): w = Re sum c_k z^k, dw/dphi = -Im sum k c_k z^k
-    wide re[PACKETS], im[PACKETS], k_re[PACKETS], k_im[PACKETS];
-    for (int i = 0; i < PACKETS; i++) re[i] = im[i] = k_re[i] = k_im[i] = wide_set(0.0);
-    for (int k = s->waves; k > 0; k--) {
-        const double re_k = s->re[k - 1], im_k = s->im[k - 1];
-        for (int i = 0; i < PACKETS; i++) {
-            const wide a = re[i] + re_k, b = im[i] + im_k, c = k_re[i] + k * re_k, d = k_im[i] + k * im_k;
-            re[i] = wide_fma(a, cos_phi[i], -(b * sin_phi[i]));
-            im[i] = wide_fma(a, sin_phi[i], b * cos_phi[i]);
-            k_re[i] = wide_fma(c, cos_phi[i], -(d * sin_phi[i]));
-            k_im[i] = wide_fma(c, sin_phi[i], d * cos_phi[i]);
-        }
+    for (int i = 0; i < PACKETS; i++) w[i] = dw[i] = wide_set(0.0);
+    if (!s->wavy) return;
+
+    // cell and place in it, 0...1; a NaN gives cell 0
+    const double per_angle = WAVE_CELLS / (2.0 * PI);
+    ball_array cell, value[2], slope[2];
+    wide place[PACKETS];
+    for (int i = 0; i < PACKETS; i++) {
+        const wide u = angle_of(cos_phi[i], sin_phi[i]) * per_angle + 0.5 * WAVE_CELLS;
+        const wide whole = wide_floor(wide_min(wide_max(u, wide_set(0.0)), wide_set(WAVE_CELLS - 1.0)));
+        wide_store(&cell[i * LANE_WIDTH], whole);
+        place[i] = u - whole;
     }
-    for (int i = 0; i < PACKETS; i++) w[i] = re[i], dw[i] = -k_im[i];
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j++) {
+        const double (*node)[2] = &s->wave[(int)scalar_value(cell[j])];
+        for (int i = 0; i < 2; i++) value[i][j] = node[i][0], slope[i][j] = node[i][1];
+    }
+
+    // w = w_0 + x (s_0 + x (c_2 + x c_3)), c_2 and c_3 from the other end
+    for (int i = 0; i < PACKETS; i++) {
+        const int j = i * LANE_WIDTH;
+        const wide x = place[i], w_0 = wide_load(&value[0][j]), s_0 = wide_load(&slope[0][j]);
+        const wide rise = wide_load(&value[1][j]) - w_0, bend = wide_load(&slope[1][j]) + s_0;
+        const wide c_2 = 3.0 * rise - bend - s_0, c_3 = bend - 2.0 * rise;
+        w[i] = wide_fma(x, wide_fma(x, wide_fma(x, c_3, c_2), s_0), w_0);
+        dw[i] = per_angle * wide_fma(x, wide_fma(3.0 * x, c_3, 2.0 * c_2), s_0);
+    }
 }
 
-// Drop f of the ball's path in the spall and its derivative by phi.
-INLINE void race_surface_drop(const RaceSurface *s, wide cos_phi, wide sin_phi, wide *f, wide *df)
+// Spalls at the contacts of a packet, of the race or of the balls.
+typedef struct {
+    wide track, curvature;  // radius of the path [m], 1/R_x [1/m]
+    wide half_length, half_width, u_1, u_2, bend, flank;
+} SpallLanes;
+
+INLINE SpallLanes race_spall(const RaceSurface *s)
 {
-    const wide c = wide_fma(cos_phi, wide_set(s->middle_cos), sin_phi * s->middle_sin);
-    const wide sine = wide_fma(sin_phi, wide_set(s->middle_cos), -(cos_phi * s->middle_sin));
-    const wide along = 2.0 * s->track * wide_atan(sine / wide_max(1.0 + c, wide_set(1e-9)));
-    const wide u = wide_min(wide_max(s->half_length - wide_abs(along), wide_set(0.0)), wide_set(s->u_2));
+    const Spall *one = &s->spall;
+    return (SpallLanes){wide_set(s->track),        wide_set(s->curvature), wide_set(one->half_length),
+                        wide_set(one->half_width), wide_set(one->u_1),     wide_set(one->u_2),
+                        wide_set(one->bend),       wide_set(one->flank)};
+}
+
+INLINE SpallLanes ball_spall(const Race *race, wide R, int j)
+{
+    const BallSpalls *b = &race->balls;
+    return (SpallLanes){R,
+                        wide_set(race->surface.curvature),
+                        wide_load(&b->half_length[j]),
+                        wide_load(&b->half_width[j]),
+                        wide_load(&b->u_1[j]),
+                        wide_load(&b->u_2[j]),
+                        wide_load(&b->bend[j]),
+                        wide_load(&b->flank[j])};
+}
+
+// Drop f of the ball's path in a spall and its derivative by the angle from the spall's middle.
+INLINE void spall_drop(const SpallLanes *s, wide cosine, wide sine, wide *f, wide *df)
+{
+    const wide along = 2.0 * s->track * wide_atan(sine / wide_max(1.0 + cosine, wide_set(1e-9)));
+    const wide u = wide_min(wide_max(s->half_length - wide_abs(along), wide_set(0.0)), s->u_2);
     const wide over = wide_max(u - s->u_1, wide_set(0.0)),
                slope = s->track * s->curvature * (u - s->bend * over);
     *f = 0.5 * s->curvature * (u * u - s->bend * (over * over));
     *df = wide_select(wide_above(along, 0.0), -slope, slope);
 }
 
+// The same in the spall of a race at the angle phi on it.
+INLINE void race_surface_drop(const RaceSurface *s, wide cos_phi, wide sin_phi, wide *f, wide *df)
+{
+    const SpallLanes spall = race_spall(s);
+    const wide cosine = wide_fma(cos_phi, wide_set(s->middle_cos), sin_phi * s->middle_sin);
+    const wide sine = wide_fma(sin_phi, wide_set(s->middle_cos), -(cos_phi * s->middle_sin));
+    spall_drop(&spall, cosine, sine, f, df);
+}
+
 // Load and energy of a contact with the approach delta outside the spall and delta - f in it.
 typedef struct {
-    wide Q, Q_spall;  // all of it, that of the spall's strips
+    wide Q, Q_race, Q_ball;  // all of it, that of the strips over the race's spall, over the ball's
     wide U;
     wide delta;  // approach with which a perfect race has the load Q; without contact the negative gap
 } SurfaceLoad;
 
-// Part of a perfect contact's load (*S) and of its energy (*E) within the spall's width.
-INLINE void race_surface_shares(const RaceSurface *s, const Hertz *hertz, wide delta, wide *S, wide *E)
+// Part of a perfect contact's load (*S) and of its energy (*E) within half a width.
+INLINE void race_surface_shares(wide half_width, const Hertz *hertz, wide delta, wide *S, wide *E)
 {
-    const wide a = hertz->a_delta * wide_sqrt(delta) + 1e-12, X = wide_min(s->half_width / a, wide_set(1.0)),
+    const wide a = hertz->a_delta * wide_sqrt(delta) + 1e-12, X = wide_min(half_width / a, wide_set(1.0)),
                X_2 = X * X;
     *S = 0.5 * X * (3.0 - X_2);
     *E = 0.125 * X * wide_fma(X_2, wide_fma(wide_set(3.0), X_2, wide_set(-10.0)), wide_set(15.0));
 }
 
-INLINE SurfaceLoad race_surface_load(const RaceSurface *s, const Hertz *hertz, wide delta, wide f)
+// Strips of two widths: the ball's spall lies over the race's.  Of both, the narrower one's strips drop by both.
+typedef struct {
+    bits race_wider;
+    wide half_width[2], f[2], flank[2];  // the wider one, the narrower one
+} SpallStrips;
+
+INLINE SpallStrips spall_strips(const SpallLanes *race, wide f_race, const SpallLanes *ball, wide f_ball)
 {
-    const wide zero = wide_set(0.0), K = wide_set(hertz->K), in = delta - f;
-    SurfaceLoad out;
-    if (!s->spalled) {
-        out.Q = hertz_load(K, delta), out.Q_spall = zero;
-        out.U = hertz_energy(K, delta), out.delta = delta;
-        return out;
+    const bits wider = wide_above(race->half_width - ball->half_width, 0.0);
+    return (SpallStrips){
+        wider,
+        {wide_select(wider, race->half_width, ball->half_width),
+         wide_select(wider, ball->half_width, race->half_width)},
+        {wide_select(wider, f_race, f_ball), wide_select(wider, f_ball, f_race)},
+        {wide_select(wider, race->flank, ball->flank), wide_select(wider, ball->flank, race->flank)}};
+}
+
+// Load without a spall.
+INLINE SurfaceLoad race_whole_load(const Hertz *hertz, wide delta)
+{
+    const wide K = wide_set(hertz->K), none = wide_set(0.0);
+    return (SurfaceLoad){hertz_load(K, delta), none, none, hertz_energy(K, delta), delta};
+}
+
+// Load with a spall of the race; two: with spalls of balls too.
+INLINE SurfaceLoad race_surface_load(const Hertz *hertz, wide delta, const SpallStrips *s, bool two)
+{
+    const wide zero = wide_set(0.0), K = wide_set(hertz->K), in = delta - s->f[0];
+    wide S, E, S_in, E_in;
+    race_surface_shares(s->half_width[0], hertz, wide_max(delta, zero), &S, &E);
+    race_surface_shares(s->half_width[0], hertz, wide_max(in, zero), &S_in, &E_in);
+    wide Q_narrow = zero, U_narrow = zero, fall = s->f[0];
+    if (two) {
+        const wide both = in - s->f[1];
+        wide S_out, E_out, S_both, E_both;
+        race_surface_shares(s->half_width[1], hertz, wide_max(in, zero), &S_out, &E_out);
+        race_surface_shares(s->half_width[1], hertz, wide_max(both, zero), &S_both, &E_both);
+        Q_narrow = hertz_load(K, both) * S_both;
+        U_narrow = hertz_energy(K, both) * E_both;
+        S_in = S_in - S_out, E_in = E_in - E_out;
+        fall = fall + wide_min(s->f[1], s->flank[1]);
     }
-    wide S, E, S_spall, E_spall;
-    race_surface_shares(s, hertz, wide_max(delta, zero), &S, &E);
-    race_surface_shares(s, hertz, wide_max(in, zero), &S_spall, &E_spall);
-    out.Q_spall = hertz_load(K, in) * S_spall;
-    out.Q = hertz_load(K, delta) * (1.0 - S) + out.Q_spall;
-    out.U = hertz_energy(K, delta) * (1.0 - E) + hertz_energy(K, in) * E_spall;
+    const wide Q_wide = hertz_load(K, in) * S_in + Q_narrow;
+    SurfaceLoad out = {.Q = hertz_load(K, delta) * (1.0 - S) + Q_wide,
+                       .Q_race = wide_select(s->race_wider, Q_wide, Q_narrow),
+                       .Q_ball = wide_select(s->race_wider, Q_narrow, Q_wide),
+                       .U = hertz_energy(K, delta) * (1.0 - E) + (hertz_energy(K, in) * E_in + U_narrow)};
 
     // delta = (Q/K)^(2/3); the ball rests on the flanks before it reaches the bottom where b^2/a_delta^2 < f
-    const wide part = out.Q / hertz->K, flank = wide_set(s->flank);
+    const wide part = out.Q / hertz->K;
     const wide equal = wide_exp(wide_log(wide_max(part, wide_set(1e-300))) * (2.0 / 3.0));
-    const wide gap = wide_min(delta - wide_min(f, flank), zero);
+    const wide gap = wide_min(delta - wide_min(fall, s->flank[0]), zero);
     out.delta = wide_select(wide_above(part, 1e-290), equal, gap);
     return out;
 }

@@ -74,7 +74,7 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
 void rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w)
 {
     RingLoad ring_load;
-    const Model now = {model->p, model->d, &ring_load, NULL, model->modes, model->housing};
+    const Model now = {model->p, model->d, &ring_load, NULL, model->modes, model->housing, model->turn};
     if (model->trajectory)
         ring_load_at(model->trajectory, t, &ring_load);
     else if (model->housing)

@@ -19,6 +19,7 @@
 #include "numbers/elementary.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
+#include "physics/race_surface.h"
 #include "solver/bearing_step.h"
 #include "solver/state_vector.h"
 #include "solver/stepping.h"
@@ -552,6 +553,9 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
     const double LARGEST_HOUSING = 1e9;  // of position, velocity, acceleration and load
     const bool supported = p->housing.motion == HOUSING_MOTION_SUPPORTED;
     fine &= values_are_within(s->now.housing.x, 4 * HOUSING_DOF, supported ? LARGEST_HOUSING : 0.0);
+    const bool turn = ball_spalls_given(p);
+    fine &= values_are_within(s->now.turn.angle, Z, turn ? largest_of(SCALE_ANGLE) : 0.0) &&
+            values_are_within(s->now.turn.rate, Z, turn ? largest_of(SCALE_SPIN) : 0.0);
 
     // States, their rates and the differences of their rates.
     for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_ALL_BLOCKS; b++) {

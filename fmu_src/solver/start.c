@@ -346,7 +346,7 @@ double start_state(const Kernels *kernels, const Model *model, Work *w, double *
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const RingLoad *given = model->ring_load, rest = resting(given);
-    const Model at_rest = {p, d, &rest, NULL, NULL, NULL};
+    const Model at_rest = {p, d, &rest, NULL, NULL, NULL, NULL};
     const bool prescribed = p->ring.motion == RING_MOTION_PRESCRIBED;
     Equilibrium eq = {
         .kernels = kernels, .model = &at_rest, .w = w, .tilts = p->ring.tilt_mode != TILT_MODE_PRESCRIBED};

@@ -17,6 +17,7 @@
 // (Swope et al. 1982).
 #include "solver/verlet.h"
 
+#include "physics/ball_turn.h"
 #include "physics/housing.h"
 #include "physics/rhs.h"
 #include "physics/ring_load.h"
@@ -164,16 +165,30 @@ static void remember_friction(double h, const VerletState *from, VerletState *to
     }
 }
 
-// The right-hand side with a housing on springs; sets the housing's acceleration.
-static __attribute__((noinline)) void rhs_with_housing(const Model *model, double t, const double *y,
-                                                       double *f, Housing *housing, Work *w)
+// The right-hand side with what moves beside the state: a housing on springs, whose acceleration it sets, and the turn of
+// balls with spalls, whose rates it sets.
+static __attribute__((noinline)) void rhs_beside(const Model *model, double t, VerletState *now, Work *w)
 {
-    RingLoad ring_load = *model->ring_load;
-    if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
-    housing_place(housing, &ring_load);
-    const Model with = {model->p, model->d, &ring_load, NULL, model->modes, housing};
-    rhs(&with, t, y, f, w);
-    housing_acceleration(&with, w, housing);
+    RingLoad ring_load;
+    Model with = *model;
+    if (model->turn) with.turn = &now->turn;
+    if (model->housing) {
+        ring_load = *model->ring_load;
+        if (model->trajectory) ring_load_at(model->trajectory, t, &ring_load);
+        housing_place(&now->housing, &ring_load);
+        with.ring_load = &ring_load, with.trajectory = NULL, with.housing = &now->housing;
+    }
+    rhs(&with, t, now->y, now->f, w);
+    if (model->housing) housing_acceleration(&with, w, &now->housing);
+    if (model->turn) ball_turn_rates(w, &now->turn);
+}
+
+static void rhs_now(const Model *model, double t, VerletState *now, Work *w)
+{
+    if (model->housing || model->turn)
+        rhs_beside(model, t, now, w);
+    else
+        rhs(model, t, now->y, now->f, w);
 }
 
 // Where the housing is at the end of the step, with predicted velocities.
@@ -187,12 +202,15 @@ static void housing_predict(double h, const Housing *from, Housing *to)
     }
 }
 
+// Its velocities there: the trapezoidal rule.
+static void housing_correct(double gamma, const Housing *from, Housing *to)
+{
+    for (int i = 0; i < HOUSING_DOF; i++) to->v[i] = from->v[i] + gamma * (from->a[i] + to->a[i]);
+}
+
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
-    if (model->housing)
-        rhs_with_housing(model, t, now->y, now->f, &now->housing, w);
-    else
-        rhs(model, t, now->y, now->f, w);
+    rhs_now(model, t, now, w);
     cage_split(model, now->y, w, now->f, &now->cage);
 }
 
@@ -209,15 +227,12 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
     cage_predict(model, w, &cage, &from->cage, y);
-    to->housing = from->housing;
-    if (model->housing) {
-        housing_predict(h, &from->housing, &to->housing);
-        rhs_with_housing(model, t + h, y, to->f, &to->housing, w);
-        for (int i = 0; i < HOUSING_DOF; i++)
-            to->housing.v[i] = from->housing.v[i] + gamma * (from->housing.a[i] + to->housing.a[i]);
-    } else {
-        rhs(model, t + h, y, to->f, w);
-    }
+    to->housing = from->housing, to->turn = from->turn;
+    if (model->housing) housing_predict(h, &from->housing, &to->housing);
+    if (model->turn) ball_turn_predict(h, &to->turn);
+    rhs_now(model, t + h, to, w);
+    if (model->housing) housing_correct(gamma, &from->housing, &to->housing);
+    if (model->turn) ball_turn_correct(gamma, &from->turn, &to->turn);
     remember_films(w, to);
     cage_arrive(model, w, &cage, &from->cage, y, to->f, &to->cage);
 
