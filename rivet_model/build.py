@@ -16,7 +16,19 @@ from threadpoolctl import threadpool_limits
 
 from bearing_model.rivet import rivet_table
 
-from . import half, half_loads, half_modes, half_shape, impacts, land_bending, plastic_fit, reduction, stiffness, table
+from . import (
+    half,
+    half_loads,
+    half_modes,
+    half_shape,
+    half_strength,
+    impacts,
+    land_bending,
+    plastic_fit,
+    reduction,
+    stiffness,
+    table,
+)
 from .geometry import Geometry
 from .load_cases import COARSE, SHIPPED, TRUTH, Joint
 from .section_mesh import Fineness
@@ -65,9 +77,11 @@ def make_table(geometry, coarse=False, workers=2, progress=_quiet, hold_out=320,
 
 
 def made_half(elastic, alone, progress=lambda done, total: None):
-    """HalfData of a condensed half, of a ribbon with the bending of its lands."""
+    """HalfData of a condensed half, of a ribbon with the bending of its lands and its strength."""
     made = half_loads.make_half(elastic, alone, progress)
-    return land_bending.with_bending(made, elastic, alone) if elastic.g.shape == "ribbon" else made
+    if elastic.g.shape != "ribbon":
+        return made
+    return replace(land_bending.with_bending(made, elastic, alone), yield_force=half_strength.yield_force(elastic))
 
 
 def made_modes(elastic, alone, cage, count, progress=lambda done, total: None):

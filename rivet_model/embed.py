@@ -107,7 +107,7 @@ def _half_source(half):
     radii, size, of_path, spin = len(half.radii), "2", "", ""
     if radii:  # a ribbon
         size, of_path = f"2 * {radii}", f", {radii}, path_radius"
-        spin = f".spin_steps = {len(half.spin_preload)}, .spin_preload = spin_preload, "
+        spin = f".spin_steps = {len(half.spin_preload)}, .spin_preload = spin_preload, .yield_force = {float(half.yield_force)!r}, "
     arrays = [
         _array("path_chi", half.chi),
         _array("path_rows", path_rows(half), "float"),

@@ -93,6 +93,7 @@ def _half_section(half):
         **{name: float(f"{getattr(half, name):.9g}") for name in ("m", "x_c", "J_p", "J_t", "k_closed", "k_open")},
         "chi": [float(v) for v in half.chi],
         **({name: rounded(getattr(half, name), 9).tolist() for name in OF_RIBBON} if len(half.radii) else {}),
+        **({"yield_force": float(f"{half.yield_force:.4g}")} if len(half.radii) else {}),
         "path": rounded(tidy(half.path), 4).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
         "land": rounded(tidy(half.land)).tolist(),

@@ -167,11 +167,12 @@ def flag_note(result):
 
 def is_known(name, given, parameters):
     """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's
-    density from the flow of oil.
+    density from the flow of oil; or has no effect: the clearance of a land that a cage guided by its balls does not have.
     """
     follows = {
         "oil.eta": {"oil.nu_1", "oil.nu_2"} <= given,
         "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0,
+        "cage.guide_clearance": parameters.get("cage.guidance") == "balls",
     }
     return name in given or follows.get(name, False)
 

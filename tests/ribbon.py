@@ -19,18 +19,22 @@ RIBBON = {
 SHAPE = "cage.shape"
 
 
+def writable(core, what, size):
+    """Let this process write a constant of the library, `size` bytes at the cffi pointer `what`."""
+    libc, page = ctypes.CDLL(None, use_errno=True), mmap.PAGESIZE
+    address = int(core.ffi.cast("uintptr_t", what))
+    start = address // page * page
+    length = ctypes.c_size_t(address + size - start)
+    if libc.mprotect(ctypes.c_void_p(start), length, mmap.PROT_READ | mmap.PROT_WRITE):
+        raise OSError(ctypes.get_errno(), "mprotect")
+
+
 def unlock(core):
     """Let this process's library run a ribbon cage on the table of the machined one, which `build --cage ribbon` alone does otherwise: the
     mark that the build fixes cage.shape is cleared in the library's constant table.
     """
     ffi, lib = core.ffi, core.lib
     shape = next(v for v in lib.VARIABLES if ffi.string(v.name).decode() == SHAPE)
-    if not shape.built:
-        return
-    libc, page = ctypes.CDLL(None, use_errno=True), mmap.PAGESIZE
-    address = int(ffi.cast("uintptr_t", ffi.addressof(shape)))
-    start = address // page * page
-    length = address + ffi.sizeof("Variable") - start
-    if libc.mprotect(ctypes.c_void_p(start), ctypes.c_size_t(length), mmap.PROT_READ | mmap.PROT_WRITE):
-        raise OSError(ctypes.get_errno(), "mprotect")
-    shape.built = False
+    if shape.built:
+        writable(core, ffi.addressof(shape), ffi.sizeof("Variable"))
+        shape.built = False

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from mechanics import Instance
+from ribbon import writable
 
 from bearing_model.generated import variables
 from bearing_model.physics.derived import default_table
@@ -10,7 +11,16 @@ from bearing_model.physics.hertz import hertz_contact
 
 REST = {"shaft.omega": 0.0, "shaft.F_x": 0.0}  # nothing tilts the balls' plane
 TABLE = default_table()
-KINDS = ("LAND_CONTACT", "POCKET_EXIT", "ELLIPSE_CUT", "OVERPRESSURE", "JOINT_OPEN", "RIVET_YIELD", "MOTION_LAG")
+KINDS = (
+    "LAND_CONTACT",
+    "POCKET_EXIT",
+    "ELLIPSE_CUT",
+    "OVERPRESSURE",
+    "JOINT_OPEN",
+    "RIVET_YIELD",
+    "CAGE_YIELD",
+    "MOTION_LAG",
+)
 NEAR = 1e-6  # relative distance from a limit, far above rounding
 
 
@@ -103,6 +113,24 @@ def test_rivets_yield_under_too_much_preload(core):
         instance = Instance(core, {"joint.preload": factor * at_yield, "scene.cage": 1}, REST | {"shaft.F_y": 0.0})
         assert instance.output("event.rivet_yield") == rivets
         assert sum("yields" in text for text in instance.messages) == (rivets > 0)
+
+
+def test_cage_yields_under_the_force_of_its_table(core):
+    """A force just below and just above the largest of a step, put into the table as a ribbon's; the machined half's has
+    none, and no event.
+    """
+    instance = Instance(core).step(5e-3)
+    peak, half = instance.output("cage.F_pocket_peak"), core.lib.rivet_table.half
+    assert peak > 1.0 and instance.output("event.cage_yield") == 0
+    writable(core, core.ffi.addressof(half), core.ffi.sizeof("CageHalfData"))
+    try:
+        for factor, yields in ((1.0 + NEAR, 0), (1.0 - NEAR, 1)):
+            half.yield_force = factor * peak
+            instance = Instance(core).step(5e-3)
+            assert instance.output("event.cage_yield") == instance.output("event.cage_yield_onsets") == yields
+            assert sum("the cage yields" in text for text in instance.messages) == yields
+    finally:
+        half.yield_force = 0.0
 
 
 def test_onsets_are_reported_ever_more_rarely(core):

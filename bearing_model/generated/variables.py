@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ddaae873-a423-ce4e-c635-045d8eae3b00}"
+MODEL_GUID = "{8e6a4aca-584b-8f5c-92b4-c4edba1ec6f7}"
 Z = 9
 
 
@@ -586,6 +586,7 @@ OUTPUTS = {
         Variable("event.rivet_break", 7010, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
         Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong", None, False, None),
         Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None, False, None),
+        Variable("event.cage_yield", 7021, "Real", "1", None, None, None, None, 1, "event", "1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield", None, False, None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None, False, None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None, False, None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None, False, None),
@@ -596,6 +597,7 @@ OUTPUTS = {
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None, False, None),
         Variable("event.rivet_break_onsets", 7020, "Real", "1", None, None, None, None, 1, "event", "Communication steps since the start in which a rivet broke by its damage", None, False, None),
         Variable("event.motion_lag_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Onsets of catching up with a given motion since the start", None, False, None),
+        Variable("event.cage_yield_onsets", 7022, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a ribbon cage since the start", None, False, None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None, False, None),
     )
 }

@@ -63,6 +63,7 @@ class HalfData:
     radii: np.ndarray = field(default_factory=lambda: np.zeros(0))  # nodes of the wall's radius [m], of a ribbon's only
     # of a ribbon's only: preload under spin over s = P + w, w = spin[5] omega^2, at equal steps of w/s (rivet_model/land_bending.py)
     spin_preload: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    yield_force: float = 0.0  # of a ribbon's only: of a ball on its pocket, under which the half begins to yield [N]
 
     def __post_init__(self):
         self.path = single(self.path)
@@ -227,7 +228,9 @@ def _ribbon_arrays(path, section, ribbon):
         "half.radii: three rising radii are needed",
     )
     _need(np.all(preload > 0), path, "half.spin_preload: positive numbers are needed")
-    return {"radii": radii, "spin_preload": preload}
+    force = section.number("yield_force")
+    _need(force > 0.0, path, f"half.yield_force = {force} N: more than 0 is needed")
+    return {"radii": radii, "spin_preload": preload, "yield_force": force}
 
 
 def _read_half(path, section, Z, ribbon):

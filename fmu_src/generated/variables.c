@@ -350,6 +350,8 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"event.motion_lag_onsets", "1", 7018, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.motion_lag_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"event.step_too_long_onsets", "1", 7019, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.step_too_long_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"event.rivet_break_onsets", "1", 7020, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.rivet_break_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
+    {"event.cage_yield", "1", 7021, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.cage_yield), 0.0, -INFINITY, INFINITY, false, NULL, 0},
+    {"event.cage_yield_onsets", "1", 7022, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.cage_yield_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"loss.races", "W", 8101, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.races), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"loss.inlet", "W", 8102, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.inlet), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"loss.spin", "W", 8103, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.spin), 0.0, -INFINITY, INFINITY, false, NULL, 0},

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ddaae873-a423-ce4e-c635-045d8eae3b00}"  // digest of the table
+#define MODEL_GUID "{8e6a4aca-584b-8f5c-92b4-c4edba1ec6f7}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -572,6 +572,7 @@ typedef struct {
         scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
         scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
+        scalar cage_yield;  // [1] 1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
@@ -582,6 +583,7 @@ typedef struct {
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
         scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
         scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
+        scalar cage_yield_onsets;  // [1] Onsets of yield of a ribbon cage since the start
     } event;
 } Outputs;
 
@@ -669,4 +671,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 405 };  // time is the first
+enum { N_VARIABLES = 407 };  // time is the first

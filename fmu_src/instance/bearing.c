@@ -114,7 +114,7 @@ static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->head_peak, s->mid_peak, now);
+    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->force_peak, s->head_peak, s->mid_peak, now);
     now[EVENT_RIVET_BREAK].count = s->breakage.latest;
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;

@@ -126,7 +126,7 @@ static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *e
     for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
-void events_now(const Model *model, const Work *w, const MotionLag *lag, double step,
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double step, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
 {
     memset(now, 0, EVENT_COUNT * sizeof *now);
@@ -137,6 +137,8 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
     rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
     clearance(model, &now[EVENT_NO_CLEARANCE]);
     steps(model, w, step, &now[EVENT_STEP_TOO_LONG]);
+    if (rivet_table.half.yield_force > 0.0)
+        add(&now[EVENT_CAGE_YIELD], 0, force_peak, rivet_table.half.yield_force);
     now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
 }
 
@@ -231,6 +233,13 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "which allow "
                  "%.4g s: the results are wrong; set solver.step to that or less",
                  now->value, now->limit);
+        return;
+    case EVENT_CAGE_YIELD:
+        snprintf(
+            text, size,
+            "the cage yields: a ball pushes its pocket with %.4g N, and a half of the ribbon begins to yield "
+            "under %.4g N; its displacements are those of an elastic sheet",
+            now->value, now->limit);
         return;
     case EVENT_MOTION_LAG: motion_text(now, text, size); return;
     case EVENT_COUNT: break;

@@ -13,6 +13,8 @@
 //   rivet yield    sigma_head_peak or sigma_mid_peak beyond the yield stress since the last communication point;
 //                  the stress is linear elastic
 //   rivet break    a rivet's damage has reached 1 in the last communication step (breakage.h); each is reported
+//   cage yield     the largest pocket force since the last communication point exceeds the one under which a half of a
+//                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once
@@ -30,6 +32,7 @@ typedef enum {
     EVENT_RIVET_BREAK,
     EVENT_STEP_TOO_LONG,
     EVENT_MOTION_LAG,
+    EVENT_CAGE_YIELD,
     EVENT_COUNT
 } EventKind;
 
@@ -51,8 +54,8 @@ typedef struct {
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 
 // All kinds of events but rivets that break at the state whose results are w.  lag: motions of the last step; step: length of equal steps [s],
-// else 0; head_peak, mid_peak: peak stresses of each rivet [Pa].
-void events_now(const Model *model, const Work *w, const MotionLag *lag, double step,
+// else 0; force_peak: largest pocket force [N]; head_peak, mid_peak: peak stresses of each rivet [Pa].
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double step, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.

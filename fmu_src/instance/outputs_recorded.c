@@ -85,7 +85,8 @@ static void fill_event(Bearing *b)
 {
     Event now[EVENT_COUNT];
     const double *onsets = b->s.event.onsets;
-    events_now(&b->model, &b->w, &b->s.lag, fixed_length(b), b->s.head_peak, b->s.mid_peak, now);
+    events_now(&b->model, &b->w, &b->s.lag, fixed_length(b), b->s.force_peak, b->s.head_peak, b->s.mid_peak,
+               now);
     now[EVENT_RIVET_BREAK].count = b->s.breakage.latest;
     b->out.event.land_contact = now[EVENT_LAND_CONTACT].count;
     b->out.event.pocket_exit = now[EVENT_POCKET_EXIT].count;
@@ -97,6 +98,7 @@ static void fill_event(Bearing *b)
     b->out.event.rivet_break = now[EVENT_RIVET_BREAK].count;
     b->out.event.step_too_long = now[EVENT_STEP_TOO_LONG].count;
     b->out.event.motion_lag = now[EVENT_MOTION_LAG].count;
+    b->out.event.cage_yield = now[EVENT_CAGE_YIELD].count;
     b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
     b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
     b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];
@@ -107,6 +109,7 @@ static void fill_event(Bearing *b)
     b->out.event.rivet_break_onsets = onsets[EVENT_RIVET_BREAK];
     b->out.event.step_too_long_onsets = onsets[EVENT_STEP_TOO_LONG];
     b->out.event.motion_lag_onsets = onsets[EVENT_MOTION_LAG];
+    b->out.event.cage_yield_onsets = onsets[EVENT_CAGE_YIELD];
 }
 
 static void fill_constant(Bearing *b)

@@ -113,6 +113,8 @@ typedef struct {
     double spin[ROWS];  // rows of all joints under the centrifugal load, per (rad/s)^2, at this mass
     int spin_steps;     // of a ribbon: S at equal steps of tau (spin_preload.h); 0: none
     const double *spin_preload;
+    double
+        yield_force;  // of a ribbon: force of a ball on its pocket under which it begins to yield [N]; else 0
     const double *land;  // [LAND_WAVES][LAND_EACH][1 and x][ROWS] by a load on the rim (half_path.h)
     JointLaw law;
 } CageHalfData;

@@ -60,6 +60,7 @@ LIMITS = {  # event.* -> in words
     "overpressure": "contact pressure beyond bearing.p_limit",
     "joint_open": "plates of a joint apart",
     "rivet_yield": "rivet beyond its yield stress",
+    "cage_yield": "ribbon cage beyond its yield stress",
     "no_clearance": "bearing without clearance",
     "ellipse_cut": "contact ellipse over the shoulder",
     "pocket_exit": "ball outside its pocket",
