@@ -152,7 +152,11 @@ def assumed_as_bronze(result):
     if result.parameters.get("cage.material", "bronze") == "bronze":
         return ""
     shown = (
-        f"{name} {result.parameters[name]:g}" for name in OF_BRONZE if name in result.parameters and name not in known
+        f"{name} {result.parameters[name]:g}"
+        for name in OF_BRONZE
+        if name in result.parameters
+        and name not in known
+        and not (name == "cage.mu_land" and is_guided_by_balls(result.parameters))
     )
     return ", ".join(shown)
 
@@ -165,6 +169,11 @@ def flag_note(result):
     return f"flags of the rivets (rivet[k].flag): {', '.join(found)}" if found else ""
 
 
+def is_guided_by_balls(parameters):
+    """Whether the cage has no land."""
+    return parameters.get("cage.guidance") == "balls"
+
+
 def is_known(name, given, parameters):
     """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's
     density from the flow of oil; or has no effect: the clearance of a land that a cage guided by its balls does not have.
@@ -172,7 +181,7 @@ def is_known(name, given, parameters):
     follows = {
         "oil.eta": {"oil.nu_1", "oil.nu_2"} <= given,
         "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0,
-        "cage.guide_clearance": parameters.get("cage.guidance") == "balls",
+        "cage.guide_clearance": is_guided_by_balls(parameters),
     }
     return name in given or follows.get(name, False)
 

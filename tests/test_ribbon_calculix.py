@@ -135,24 +135,23 @@ def pushed(ring, folder, place, forces, large=False):
     fixed = "\n".join(f"{n + 1}, 1, 3" for n in under)
     step = "*STEP, NLGEOM, INC=100\n*STATIC\n0.5, 1.0" if large else "*STEP\n*STATIC"
     loads = "\n".join(f"{n}, {i + 1}, {f:.9g}" for n, v in forces.items() for i, f in enumerate(v))
-    prints = "*NODE PRINT, NSET=ALL, FREQUENCY=100\nU\n*EL PRINT, ELSET=HALF, FREQUENCY=100\nS"
+    prints = "*NODE PRINT, NSET=ALL, FREQUENCY=100\nU\n*EL FILE, FREQUENCY=100\nS"
     text = ring.run(folder, f"{step}\n*CLOAD\n{loads}\n{prints}", fixed)
     number = r"((?:\s+[-+.\dE]+){%d})\s*$"
     u = np.zeros_like(ring.nodes)
     for n, row in re.findall(r"^\s*(\d+)" + number % 3, text.rpartition("displacements")[2], re.MULTILINE):
         u[int(n) - 1] = [float(v) for v in row.split()]
-    found = re.findall(r"^\s*(\d+)\s+\d+" + number % 6, text.rpartition("stresses")[2], re.MULTILINE)
-    cell = np.array([int(n) - 1 for n, _ in found])
-    stress = von_mises(np.array([[float(v) for v in row.split()] for _, row in found]))
-    middle = ring.nodes[ring.cells].mean(axis=1)[cell]
-    off = (beside_rivet(*middle[:, 1:].T) > head + sheet) & (np.linalg.norm(middle - place, axis=1) > sheet)
+    rows = (folder / "half.frd").read_text().rpartition(" -4  STRESS")[2].partition("\n -3")[0].splitlines()
+    rows = [row for row in rows if row.startswith(" -1")]  # the number in 10 columns, six stresses in 12 each
+    at = ring.nodes[[int(row[3:13]) - 1 for row in rows]]
+    stress = von_mises(np.array([[float(row[i : i + 12]) for i in range(13, 85, 12)] for row in rows]))
+    off = (beside_rivet(*at[:, 1:].T) > head + sheet) & (np.linalg.norm(at - place, axis=1) > sheet)
     return u, stress[off].max()
 
 
 def test_strength(both, tmp_path):
-    """The largest stress one sheet off heads and contact, under the force that gives most of it: at the integration points
-    of finer elements within 15 % of that at the corners, because those lie up to 6 % of the sheet below its surface
-    and whole elements count as off or not.  Under five times the force that begins to yield, displacements by large
+    """The largest stress one sheet off heads and contact, under the force that gives most of it: within 10 % of the other
+    program's nodal stress.  Under five times the force that begins to yield, displacements by large
     deformation are the linear ones within 1 %: the sheet yields long before small displacements end.
     """
     g, ring, elastic = both
@@ -162,7 +161,7 @@ def test_strength(both, tmp_path):
     place, normal = 1e3 * elastic.point_places()[worst], elastic.wall.normal(*elastic.points[worst])
     linear, found = pushed(ring, tmp_path, place, spread(ring, place, normal))
     print(each, own, found, own / found - 1.0)
-    assert own == pytest.approx(found, rel=0.15)
+    assert own == pytest.approx(found, rel=0.10)
     force = 5e-6 * g.yield_flange / own
     large, _ = pushed(ring, tmp_path, place, spread(ring, place, force * normal), large=True)
     node = np.argmax(np.where(np.linalg.norm(ring.nodes - place, axis=1) > 3.0, linear @ normal, 0.0))

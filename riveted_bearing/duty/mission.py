@@ -227,6 +227,8 @@ def life_settings(path, section):
         raise refusal(
             path, "life.max_seeds", settings["max_seeds"], f"at least {FEWEST} is allowed: fewer show no scatter"
         )
+    if "min_seeds" not in section:
+        settings["min_seeds"] = min(settings["min_seeds"], settings["max_seeds"])
     if not FEWEST <= settings["min_seeds"] <= settings["max_seeds"]:
         bounds = f"from {FEWEST}, which show scatter, to life.max_seeds = {settings['max_seeds']}"
         raise refusal(path, "life.min_seeds", settings["min_seeds"], f"{bounds} is allowed")
@@ -370,12 +372,13 @@ def part_of(path, document, model, label, name, block, weight, event=False):
         (f"{path}: {label}", own),
         ("a mission", {"parameters": {name: value for name, value in FORCED.items() if name in model.parameters}}),
     )
-    if scene.t_end <= scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])):
+    settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+    if scene.t_end <= settle:
         raise refusal(
             f"{path}: {label}",
             "simulation.t_end",
             scene.t_end,
-            "longer than start.settle is needed, before which damage does not count",
+            f"longer than start.settle = {settle:g} s is needed, before which damage does not count",
         )
     simulated = None if block.get("interpolate", False) else scene
     return Part(
