@@ -13,6 +13,7 @@
 #define drag_cage FOR_ISA(drag_cage)
 #define drag_ring FOR_ISA(drag_ring)
 #define land_film_force FOR_ISA(land_film_force)
+#define land_growth_power FOR_ISA(land_growth_power)
 #define ring_acceleration FOR_ISA(ring_acceleration)
 #define rhs FOR_ISA(rhs)
 #define verlet_evaluate FOR_ISA(verlet_evaluate)

@@ -134,7 +134,8 @@ typedef struct {
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
     double com_x[2], com_e;  // centre of mass from the geometric centre: axial, toward pocket 1 [m]
-    double C_land;           // radial guide clearance [m]
+    double C_land;           // radial guide clearance at rest [m]
+    double growth;           // of a half's radius at the land / square of its speed in space [m.s2]
     bool guided;             // by lands on the outer ring, not by the balls
     double play;             // radial clearance of the guidance: C_land, or that of the pockets [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
@@ -301,8 +302,9 @@ typedef struct {
     // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
     scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
 
-    // lands (land_film_force): elastic energy [J], films
-    scalar land_elastic;
+    // lands (land_film_force): elastic energy [J]; of each what its growth adds to it per change of the half's speed [J.s];
+    // films
+    scalar land_elastic, land_growth[2];
     LandFilm film[2];
     LandLoad land[2];
 

@@ -114,6 +114,7 @@ typedef struct {
     int spin_steps;     // of a ribbon: S at equal steps of tau (spin_preload.h); 0: none
     const double *spin_preload;
     const double *land;  // [LAND_WAVES][LAND_EACH][1 and x][ROWS] by a load on the rim (half_path.h)
+    double growth[2];    // of its radius at the land x per (rad/s)^2, at this mass: by 1 [m.s2] and by x [s2]
     JointLaw law;
 } CageHalfData;
 

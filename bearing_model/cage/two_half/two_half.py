@@ -40,7 +40,7 @@ from bearing_model.cage.common.cage_joint import (
 )
 from bearing_model.cage.common.films import HALF, N_HALVES
 from bearing_model.cage.common.spin_preload import spin_bending
-from bearing_model.cage.two_half.half_path import half_path_rows, land_path_rows
+from bearing_model.cage.two_half.half_path import half_path_rows, land_rows
 from bearing_model.cage.two_half.joint_open import joints_open, joints_slip
 from bearing_model.generated.variables import (
     CAGE_BETA,
@@ -89,9 +89,8 @@ def bonded_rows(model, w, omega_2):
     """
     half = model.d.table.half
     rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F, on.radius) for h, on in enumerate(w.pocket))
-    for h in range(2) if w.land else ():
-        load = tuple(part[..., h, :] for part in w.land)
-        rows = rows + land_path_rows(half, model.p.cage.land_x, 2 * h - 1, load)
+    if w.land:
+        rows = rows + land_rows(half, model.p.cage.land_x, w.land)
     return rows + omega_2[..., None] * model.d.centrifugal
 
 
