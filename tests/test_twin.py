@@ -662,7 +662,7 @@ def test_ledger(record_property):
     terms = ledger.supplied | ledger.stored | {f"lost: {name}": value for name, value in ledger.lost.items()}
     turned_over = sum(abs(value[-1]) for value in ledger.supplied.values())
     record_property("J", plain({name: value[-1] for name, value in terms.items()} | {"residual": ledger.residual[-1]}))
-    assert len(terms) == 5 + 6 + 8
+    assert len(terms) == 5 + 7 + 8
     assert np.max(np.abs(ledger.residual)) < 1e-3 * turned_over  # observed 1.2e-5
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0

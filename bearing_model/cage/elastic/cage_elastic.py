@@ -22,16 +22,7 @@ static compliance that the modes leave between the pads of one joint,
 with the joint's law over K (joint_law.py, LawOfModes): its pads move by delta, L = K (e - delta).  So each joint follows
 from its own pads; the motion by the loads of other joints, beside the modes, is left out.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do
-not hold each other about x.
-
-Lands: the films press on the rims and so pry at the joints.  The rivets feel this statically: the loads of bonded joints
-by the films (half_path.py), Delta L out of the plane, and Delta P, dm of the rivet,
-
-    (L, T, m_r, m_t) = law(L_K + Delta L, P + Delta P) + (0, 0, dm_r, dm_t)
-
-are the joints' and rivets' loads of which the stress follows.  The modes and the friction do not feel them, so that
-neither motion nor energy changes: one-way forces of a film on the modes have no damping by it and are unsound
-(docs/notes/lands_that_bend.md).
+not hold each other about x.  The films of the lands load the rivets statically (elastic_lands.py).
 
 The centrifugal load widens a half: its moment of inertia is J_p + 2 sum c_i q_i, and an expanding half slows down.
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
@@ -51,8 +42,8 @@ from bearing_model.cage.common.cage_joint import (
 from bearing_model.cage.common.joint_law import law_answer, law_places, law_sum
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.elastic.elastic_half import IN, ROOT, circle
+from bearing_model.cage.elastic.elastic_lands import elastic_lands
 from bearing_model.cage.elastic.half_modes import OUT
-from bearing_model.cage.two_half.half_path import land_rows
 from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec_cross, vec_dot
@@ -122,14 +113,8 @@ def cage_elastic_loads(model, P, j):
     """Loads of the joints j out of the plane and of their rivets for the motions e [3, ..., Z] and preloads P [..., Z]: sets
     trial loads L_K, load (N, M_r, M_t), rivet (T, m_r, m_t) [3, ..., Z], N_plate and the energy U of the law [J], [..., Z].
     """
-    j.trial = np.moveaxis(np.moveaxis(j.e, 0, -1) @ model.modes.law.stiffness.T, -1, 0)
-    answer_trials(model, P, j)
-
-
-def answer_trials(model, P, j):
-    """The same by the trial loads."""
     intact, half, law, e = model.d.intact, model.modes, model.modes.law, np.moveaxis(j.e, 0, -1)
-    trial = np.moveaxis(j.trial, 0, -1)
+    trial = e @ law.stiffness.T
     places = law_places(law, trial, P + 0.0 * trial[..., 0])
     load, rivet = law_answer(law, places, trial[..., 1])
     j.U = places[0] ** 2 * law_sum(half.law.energy[..., None], places)[..., 0]
@@ -138,7 +123,7 @@ def answer_trials(model, P, j):
         U = 0.5 * np.sum(e * trial, axis=-1) - 0.5 * half.R[0, 0] * broken[..., 0] ** 2
         j.U = np.where(intact > 0.0, j.U, U)
         load, rivet = np.where(intact[:, None] > 0.0, load, broken), intact[:, None] * rivet
-    j.load, (T, m_r, m_t) = (np.moveaxis(x, -1, 0) for x in (load, rivet))
+    j.trial, j.load, (T, m_r, m_t) = (np.moveaxis(x, -1, 0) for x in (trial, load, rivet))
     j.rivet = np.array([maximum(T, 0.0), m_r, m_t])
     j.N_plate = maximum(j.rivet[0] - j.load[0], 0.0)
 
@@ -206,19 +191,9 @@ def cage_elastic_acceleration(model, y, w, y_dot):
         e.energy = e.energy + 0.5 * J * (body.s**2 - w.frame_omega**2)
 
 
-def load_by_lands(model, w):
-    """The joints with what the films of the lands add to bonded ones."""
-    j = w.elastic.joints
-    rows = np.moveaxis(land_rows(model.d.table.half, model.p.cage.land_x, w.land), -1, 0)
-    N, _, _, M_r, M_t, dP, dm_r, dm_t = rows
-    loaded = SimpleNamespace(e=j.e, trial=j.trial + np.stack([N, M_r, M_t]))
-    P = cage_elastic_preload(model, cage_elastic_speed_2(w))
-    answer_trials(model, maximum(P + dP, 0.0), loaded)
-    loaded.rivet = loaded.rivet + model.d.intact * np.stack([0.0 * dP, dm_r, dm_t])
-    return loaded
-
-
 def cage_elastic_rivets(model, w):
     """JointLoads of all joints and their rivets."""
-    j = load_by_lands(model, w) if w.land else w.elastic.joints
-    return cage_joint_loads(model, j.load, j.rivet, cage_joint_carried(model, w))
+    j, shear = w.elastic.joints, cage_joint_carried(model, w)
+    if w.land:
+        j = elastic_lands(model, w, cage_elastic_preload(model, cage_elastic_speed_2(w)), shear)
+    return cage_joint_loads(model, j.load, j.rivet, shear)

@@ -20,15 +20,7 @@
 // follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
 // 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
 // contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
-//
-// Lands: the films press on the rims and so pry at the joints.  The rivets feel this statically: the loads of bonded joints
-// by the films (half_path.h), Delta L out of the plane, and Delta P, dm of the rivet,
-//
-//     (L, T, m_r, m_t) = law(L_K + Delta L, P + Delta P) + (0, 0, dm_r, dm_t)
-//
-// are the joints' and rivets' loads of which the stress follows.  The modes and the friction do not feel them, so that
-// neither motion nor energy changes: one-way forces of a film on the modes have no damping by it and are unsound
-// (docs/notes/lands_that_bend.md).
+// The films of the lands load the rivets statically (elastic_lands.c).
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum c_i
 // q_i.  Coriolis forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and
@@ -38,6 +30,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
+#include "cage/elastic/elastic_lands.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
 
@@ -155,14 +148,18 @@ static void broken_answers(const ElasticHalf *half, ElasticJoints *j, int k)
     }
 }
 
-// Loads of the joints and their rivets by the trial loads.
-static void answer_trials(const Model *model, const ball_array P, ElasticJoints *joints)
+void cage_elastic_loads(const Model *model, const ball_array P, ElasticJoints *joints)
 {
     const ElasticHalf *half = model->modes;
     LawPlaces at;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide L[PAD_OUT] = {wide_load(&joints->trial[0][k]), wide_load(&joints->trial[1][k]),
-                                 wide_load(&joints->trial[2][k])};
+        wide L[PAD_OUT];
+        for (int a = 0; a < PAD_OUT; a++) {
+            const double *K = half->K[a];
+            L[a] = K[0] * wide_load(&joints->e[0][k]) + K[1] * wide_load(&joints->e[1][k]) +
+                   K[2] * wide_load(&joints->e[2][k]);
+            wide_store(&joints->trial[a][k], L[a]);
+        }
         law_places(half->law, L, wide_load(&P[k]), k, &at);
     }
     for (int k = 0; k < Z; k++) {
@@ -178,18 +175,6 @@ static void answer_trials(const Model *model, const ball_array P, ElasticJoints 
         wide_store(&joints->rivet[0][k], T);
         wide_store(&joints->N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
     }
-}
-
-void cage_elastic_loads(const Model *model, const ball_array P, ElasticJoints *joints)
-{
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        for (int a = 0; a < PAD_OUT; a++) {
-            const double *K = model->modes->K[a];
-            wide_store(&joints->trial[a][k], K[0] * wide_load(&joints->e[0][k]) +
-                                                 K[1] * wide_load(&joints->e[1][k]) +
-                                                 K[2] * wide_load(&joints->e[2][k]));
-        }
-    answer_trials(model, P, joints);
 }
 
 scalar cage_elastic_speed_2(const Work *w)
@@ -329,41 +314,19 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
             0.5 * w->elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
 }
 
-// The joints with what the films of the lands add to bonded ones.
-static void load_by_lands(const Model *model, const Work *w, ElasticJoints *loaded)
-{
-    const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
-    const int kind[PAD_OUT] = {ROW_N, ROW_M_R, ROW_M_T}, rivet[PAD_OUT] = {ROW_DP, ROW_DM_R, ROW_DM_T};
-    PathRows rows;
-    ball_array P;
-    memset(&rows, 0, sizeof rows);
-    half_path_add_lands(&model->d->land_path, re, im, &rows);
-    cage_elastic_preload(model, cage_elastic_speed_2(w), P);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide_store(&P[k], wide_max(wide_load(&P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
-        for (int a = 0; a < PAD_OUT; a++) {
-            const wide trial = wide_load(&w->elastic.joints.trial[a][k]);
-            wide_store(&loaded->trial[a][k], trial + wide_load(&rows.row[kind[a]][k]));
-        }
-    }
-    memcpy(loaded->e, w->elastic.joints.e, sizeof loaded->e);
-    answer_trials(model, P, loaded);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        for (int a = 1; a < PAD_OUT; a++) {
-            const wide more = wide_load(&model->d->intact[k]) * wide_load(&rows.row[rivet[a]][k]);
-            wide_store(&loaded->rivet[a][k], wide_load(&loaded->rivet[a][k]) + more);
-        }
-}
-
 void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)
 {
     const ElasticJoints *joints = &w->elastic.joints;
-    ElasticJoints loaded;
     JointShear shear;
     cage_joint_carried(model, w, &shear);
-    if (model->d->guided) {
-        load_by_lands(model, w, &loaded);
-        joints = &loaded;
+    if (!model->d->guided) {
+        cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
+        return;
     }
-    cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
+    ball_array P;
+    LandedJoints landed;
+    const LandedJoints *found = &landed;
+    cage_elastic_preload(model, cage_elastic_speed_2(w), P);
+    elastic_lands(model, w, P, &landed, &shear);
+    cage_joint_loads(model, found->load, found->rivet, &shear, load);
 }
