@@ -38,6 +38,7 @@ spreads the points of the sum so that it is exact but for the film's ends.  The 
 gap. The gap is that of round lands: the bending does not change the film.
 """
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -123,19 +124,45 @@ def land_load(e, V, q2, force, dry):
     return tuple(-size[..., None] * x - dry[..., None] * y[..., 0, :] for x, y in zip(G, at, strict=True))
 
 
+@dataclass
+class LandPressure:
+    """What decides the pressure on the rims, [..., half]."""
+
+    e: np.ndarray  # eccentricity along the half's axes [2, ..., half] [m]
+    V: np.ndarray  # pure squeeze velocity likewise [m/s]
+    cap: np.ndarray  # limiter of the eccentricity over the clearance [1/m]
+    q2: np.ndarray  # gap function
+    kappa: np.ndarray  # [N.s/m]
+    dry: np.ndarray  # load of the dry contact [N]
+
+
+def land_film_loads(w):
+    """Harmonics of the loads on the rims [N] by the pressure, two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
+    on = w.pressure
+    (e_y, e_z), (V_y, V_z) = on.e, on.V
+    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
+    n_y, n_z = V_y / V, V_z / V
+    a, b = (e_y * n_y + e_z * n_z) * on.cap, (e_z * n_y - e_y * n_z) * on.cap
+    I_c, I_s, _ = land_film_integrals(a, b, on.q2)
+    along, across = I_c * V_y - I_s * V_z, I_c * V_z + I_s * V_y
+    force = on.kappa * np.sqrt(along * along + across * across + 1e-30)
+    return land_load(on.e, on.V, on.q2 + 0.0 * e_y, force, on.dry)
+
+
 def no_land(w):
     """Of a cage that balls guide: no film, no contact with the outer ring."""
     none = 0.0 * w.half[0].s
     w.land_elastic = w.land_dissipated = w.land_growth = none
     w.film = [SimpleNamespace(yy=none, yz=none, zz=none, spin=none) for _ in range(2)]
-    w.land = None
+    w.land = w.pressure = None
 
 
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
 
     film[land]: rates yy, yz, zz of its film, -dF/dv [N.s/m], and spin, -dM/domega [N.m.s], [..., 1] each, for the
-    integrator's Jacobian.  land: harmonics of the loads on the rims, Re and Im G_p [..., half, p].  land_growth:
+    integrator's Jacobian.  pressure: LandPressure.  land: of rigid halves the
+    harmonics of the loads on the rims, Re and Im G_p [..., half, p].  land_growth:
     what growth adds to the elastic energy per change of the half's speed [J.s], [..., half].
     """
     p, d = model.p, model.d
@@ -208,7 +235,8 @@ def land_film_force(model, w):
     e_h, V_h = (
         [vec_dot(y * outer.b_y + z * outer.b_z, axis_of) for axis_of in axes] for y, z in ((e_y, e_z), (V_y, V_z))
     )
-    w.land = land_load(e_h, V_h, q2 + 0.0 * e, force, N)
+    w.pressure = LandPressure(np.array(e_h), np.array(V_h), cap, q2, kappa, N)
+    w.land = None if model.modes else land_load(e_h, V_h, q2 + 0.0 * e, force, N)
 
     F = F_y * outer.b_y + F_z * outer.b_z
     M = M_x * outer.a + vec_cross(x_land * axis, F)

@@ -13,6 +13,8 @@
 #define drag_cage FOR_ISA(drag_cage)
 #define drag_ring FOR_ISA(drag_ring)
 #define land_film_force FOR_ISA(land_film_force)
+#define land_film_loads FOR_ISA(land_film_loads)
+#define land_film_arrive FOR_ISA(land_film_arrive)
 #define land_growth_power FOR_ISA(land_growth_power)
 #define ring_acceleration FOR_ISA(ring_acceleration)
 #define rhs FOR_ISA(rhs)

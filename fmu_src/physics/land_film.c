@@ -235,7 +235,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
     const wide I_c = film.I_c, I_s = film.I_s, I_t = film.I_t;
     const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
-    const wide kappa = d->kappa * heated * inv_q2 * inv_q2 * (narrow * narrow * narrow);
+    const wide eta = d->kappa * heated * (narrow * narrow * narrow), kappa = eta * inv_q2 * inv_q2;
     wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
     const wide couette = d->couette * heated * inv_q * narrow;
     const wide force = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
@@ -287,13 +287,54 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
             add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
         w->film[h] = (LandFilm){wide_lane(K_yy, i), wide_lane(K_yz, i), wide_lane(K_zz, i),
                                 wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h};
-        scalar e_h[2], V_h[2];
-        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), e_h);
-        land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), V_h);
-        land_load(d, e_h, V_h, wide_lane(q2, i), wide_lane(force, i), wide_lane(N, i), &w->land[h]);
+        LandPressure *on = &w->pressure[h];
+        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
+        land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
+        on->cap = wide_lane(cap, i), on->q2 = wide_lane(q2, i), on->kappa = wide_lane(eta, i);
+        on->dry = wide_lane(N, i);
+        if (model->modes == NULL)
+            land_load(d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &w->land[h]);
         w->land_elastic += wide_lane(elastic, i);
         w->land_growth[h] = wide_lane(N_0, i) * land_growth_rate(d, spin[i]);
         w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
+    }
+}
+
+#ifndef DUAL
+void land_film_arrive(const Model *model, const double *change, Work *w)
+{
+    if (!model->d->guided) return;
+    for (int h = 0; h < 2; h++) {
+        const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
+        const double *v = change + h, turn = 0.5 * v[Y_CAGE_S - Y_CAGE_V_X];
+        const double u_y = v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x;
+        const double u_z = v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x;
+        const Rotor *half = &w->half[h];
+        LandPressure *on = &w->pressure[h];
+        on->V[0] += half->b_y[1] * u_y + half->b_y[2] * u_z + turn * on->e[1];
+        on->V[1] += half->b_z[1] * u_y + half->b_z[2] * u_z - turn * on->e[0];
+    }
+}
+#endif
+
+void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
+{
+    for (int first = 0; first < 2; first += HALVES) {
+        const LandPressure *p0 = &w->pressure[first], *p1 = &w->pressure[first + HALVES - 1];
+        const wide e_y = wide_pair(p0->e[0], p1->e[0]), e_z = wide_pair(p0->e[1], p1->e[1]);
+        const wide V_y = wide_pair(p0->V[0], p1->V[0]), V_z = wide_pair(p0->V[1], p1->V[1]);
+        const wide cap = wide_pair(p0->cap, p1->cap), q2 = wide_pair(p0->q2, p1->q2);
+        const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+        const wide n_y = V_y * inv_V, n_z = V_z * inv_V, inv_q = 1.0 / wide_sqrt(q2);
+        const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
+        const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
+        const wide along = film.I_c * V_y - film.I_s * V_z, across = film.I_c * V_z + film.I_s * V_y;
+        const wide force =
+            wide_pair(p0->kappa, p1->kappa) * wide_sqrt(along * along + across * across + 1e-30) / (q2 * q2);
+        for (int i = 0; i < HALVES; i++) {
+            const LandPressure *on = &w->pressure[first + i];
+            land_load(model->d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &load[first + i]);
+        }
     }
 }
 
@@ -317,6 +358,7 @@ void land_film_force(const Model *model, Work *w)
     if (!model->d->guided) {  // balls guide the cage: no film, no contact with the outer ring
         memset(w->film, 0, sizeof w->film);
         memset(w->land_growth, 0, sizeof w->land_growth);
+        memset(w->pressure, 0, sizeof w->pressure);
         memset(w->land, 0, sizeof w->land);
         return;
     }

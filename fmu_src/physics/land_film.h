@@ -24,6 +24,13 @@ INLINE scalar land_growth_rate(const Derived *d, scalar omega)
 // Power that the growth of halves whose speed changes puts into the lands' dry contacts.
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot);
 
-// Adds force and moment to both halves (Rotor F, M); sets their film rates, the loads on their rims, the dissipated power
+// Harmonics of the loads on the rims by the pressure in Work.
+void land_film_loads(const Model *model, const Work *w, LandLoad load[2]);
+
+// The squeeze velocities of the pressure follow changes of the halves' velocities, in the order of the state: a step evaluates
+// its films at predicted velocities and corrects these.
+void land_film_arrive(const Model *model, const double *change, Work *w);
+
+// Adds force and moment to both halves (Rotor F, M); sets their film rates, the pressures and loads on their rims, the dissipated power
 // and the elastic energy.
 void land_film_force(const Model *model, Work *w);

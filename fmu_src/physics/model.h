@@ -227,6 +227,13 @@ typedef struct {
     scalar yy, yz, zz, spin;
 } LandFilm;
 
+// ---- what decides the pressure on one rim, along the half's axes; written by land_film.c: eccentricity [m], pure squeeze
+// velocity [m/s], limiter of the eccentricity over the clearance [1/m], gap function q^2, kappa [N.s/m], load of the dry
+// contact [N] ----
+typedef struct {
+    scalar e[2], V[2], cap, q2, kappa, dry;
+} LandPressure;
+
 // ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----
 typedef struct {
     scalar re[LAND_HARMONICS], im[LAND_HARMONICS];
@@ -306,7 +313,8 @@ typedef struct {
     // films
     scalar land_elastic, land_growth[2];
     LandFilm film[2];
-    LandLoad land[2];
+    LandPressure pressure[2];
+    LandLoad land[2];  // of rigid halves
 
     // what one kind of cage has
     TwoHalfWork two_half;

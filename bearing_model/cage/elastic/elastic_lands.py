@@ -22,6 +22,7 @@ from bearing_model.cage.common.joint_law import joint_law
 from bearing_model.cage.common.joint_slip import joint_slip_add
 from bearing_model.cage.two_half.half_path import land_rows
 from bearing_model.numbers.lanes import maximum
+from bearing_model.physics.land_film import land_film_loads
 
 SWEEPS = 2
 
@@ -55,7 +56,7 @@ def elastic_lands(model, w, P, shear):
     shanks.  P: preloads with the centrifugal load.
     """
     j, d = w.elastic.joints, model.d
-    rows = land_rows(d.table.half, model.p.cage.land_x, w.land)
+    rows = land_rows(d.table.half, model.p.cage.land_x, land_film_loads(w))
     trial, load = (np.moveaxis(x, 0, -1) for x in (j.trial, j.load))
     P = P + 0.0 * rows[..., 0]
     load, rivet = (

@@ -18,6 +18,7 @@
 
 #include "cage/common/joint_slip.h"
 #include "cage/elastic/elastic_half.h"
+#include "physics/land_film.h"
 #include "rivet/rivet_rom.h"
 
 enum { LAND_SWEEPS = 2 };
@@ -78,7 +79,9 @@ static void find_changes(const Answers *before, const Answers *now, JointMoves c
 // Rows of the load path.
 static void find_rows(const Model *model, const Work *w, PathRows *rows)
 {
-    const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
+    LandLoad land[2];
+    land_film_loads(model, w, land);
+    const scalar *re[2] = {land[0].re, land[1].re}, *im[2] = {land[0].im, land[1].im};
     memset(rows, 0, sizeof *rows);
     half_path_add_lands(&model->d->land_path, re, im, rows);
 }
