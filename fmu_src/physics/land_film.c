@@ -180,6 +180,7 @@ INLINE void land_load(const Derived *d, const scalar e[2], const scalar V[2], sc
             const wide cosine = (eps + c_psi) * inv, sine = q * s_psi * inv;
             const wide along = cosine * u_0 - sine * u_1, across = cosine * u_1 + sine * u_0;
             const wide closing = wide_max(along * n_0 + across * n_1, wide_set(0.0));
+            if (!wide_any(wide_above(closing, 0.0))) continue;
             add_harmonics(along, across, closing * one * one, re[i], im[i]);
         }
     const scalar raw_re = sum_points(re, 1), raw_im = sum_points(im, 1);
