@@ -141,6 +141,7 @@ def half_data(geometry):
         path=np.zeros((3, Z, 8, 3)),
         spin=spin,
         land=np.zeros((Z // 2 + 1, 3, 2, 8)),
+        growth=np.zeros(2),
         law=law,
         k_closed=K_CLOSED,
         k_open=K_OPEN,

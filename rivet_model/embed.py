@@ -122,7 +122,7 @@ def _half_source(half):
     ]
     text = f"""{{
         .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows{of_path}}}, .spin = {_braces(half.spin)},
-        {spin}.land = land_rows,
+        {spin}.land = land_rows, .growth = {_braces(half.growth)},
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = law_coefficients,
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,

@@ -144,6 +144,16 @@ def land_rows(elastic, alone, rigid_rows):
     return result
 
 
+def growth(elastic, column):
+    """Mean radial displacement [2] of the rim at the land, by 1 and x, under the patterns `column` on every pitch, joints
+    bonded: of a half without a land 0.
+
+    A closed ring of radius R that turns at omega widens by rho R^3 omega^2/E.
+    """
+    moved = elastic.mirrored[2][0][elastic.patterns.land] @ column
+    return (elastic.land.of_wave(0)[:, 0].conj().T @ moved).real if moved.size else np.zeros(2)
+
+
 def land_residual(modes, alone, elastic):
     """Motions (x, about r, about t) of the pads [waves, 3, 2, 3] by G_p = 1 on one half that elastic joints see beside those
     of the modes, so that bonded joints of modes, which see no other joint's residual, carry the loads of the elements.

@@ -315,6 +315,7 @@ def make_half(elastic, alone, progress=lambda done, total: None):
         path=path.reshape(*shape(elastic.g), *path.shape[1:]),
         spin=spin,
         land=half_lands.land_rows(elastic, alone, rigid_rows),
+        growth=half_lands.growth(elastic, centrifugal(elastic)),
         law=law,
         k_closed=k_closed,
         k_open=k_open,

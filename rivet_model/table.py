@@ -97,6 +97,7 @@ def _half_section(half):
         "path": rounded(tidy(half.path), 4).tolist(),
         "spin": rounded(tidy(half.spin)).tolist(),
         "land": rounded(tidy(half.land)).tolist(),
+        "growth": rounded(half.growth).tolist(),
         "stiffness": rounded(tidy(law.stiffness)).tolist(),
         "slip_stiffness": rounded(tidy(law.slip_stiffness)).tolist(),
         "law": _law_section(law),

@@ -81,6 +81,7 @@ class PythonWork:
             D_omega=np.zeros((3, Z)),
             ring=Rotor(),
             half=[Rotor(), Rotor()],
+            frame_omega=0.0,
         )
         object.__setattr__(self, "w", w)
         for body in (self.ring, *self.half):

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from bearing_model.cage.common import joint_law
+from bearing_model.cage.common import joint_law, joint_slip
 from bearing_model.cage.two_half import half_path, joint_open
 from bearing_model.rivet import rivet_rom, rivet_table
 from rivet_model import half, half_loads, half_modes, joint_contact, load_cases
@@ -369,7 +369,7 @@ def test_slip_solves_its_equation():
         rng.uniform(0, 6, n),
     )
     K, k_head, k_hole = 0.45e6, 6.5e6, 15e6
-    slip, H, B = joint_open.joint_slip(V, K, gap, plate, head, k_head, k_hole)
+    slip, H, B = joint_slip.joint_slip(V, K, gap, plate, head, k_head, k_hole)
     carried = np.minimum(V, plate) + np.minimum(k_head * slip, head) + k_hole * np.maximum(slip - gap, 0.0)
     np.testing.assert_allclose(V - K * slip, carried, rtol=1e-10, atol=1e-9)
     for case in (slip == 0.0, (slip > 0.0) & (head > H), (H == head) & (B == 0.0), B > 0.0):
@@ -386,7 +386,7 @@ def test_slip_is_found_with_its_neighbours(chain):
         for _ in range(20):
             bonded = rng.normal(size=(G.Z, 2)) * 10.0
             bonded[rng.integers(G.Z)] *= 3.0
-            S, H, B, slip = joint_open.joints_slip(chain.law, bonded, *args, sweeps=sweeps)
+            S, H, B, slip = joint_slip.joints_slip(chain.law, bonded, *args, sweeps=sweeps)
             rest = bonded - joint_law.relief(chain.law.slip_stiffness, slip) - S - H - B
             assert np.abs(rest).max() < tolerance * np.abs(bonded).max()
             assert np.hypot(*H.T).max() <= 2.0 + 1e-12

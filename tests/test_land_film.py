@@ -9,13 +9,16 @@ from mechanics import pose
 from scipy.integrate import quad, solve_bvp
 
 from bearing_model.generated.variables import PARAMETERS, Lubrication, Switch
+from bearing_model.physics.derived import default_table
 
 TWINS = True
 ETA, R, L, C = 6e-3, 0.02975, 2.5e-3, 1e-4
 X_LAND = 5.5e-3
 M, J_T, X_C = (PARAMETERS[f"cage.{name}"].start for name in ("m", "J_t", "x_c"))
 KAPPA = ETA * R * L**3 / C**3  # 0.0028 N.s/m
-SHARP = {"cage.g_0": 1e-12, "scene.heating": Switch.OFF}  # without the floor of 1 - eps^2, at the oil's temperature
+# without the floor of 1 - eps^2, at the oil's temperature, in a gap that does not depend on the speed
+SHARP = {"cage.g_0": 1e-12, "scene.heating": Switch.OFF, "cage.centrifugal": Switch.OFF}
+GROWS = {"cage.centrifugal": Switch.ON}
 DRY = {"oil.eta": 1e-300, "cage.g_0": 0.02}
 
 
@@ -176,6 +179,35 @@ def test_floor_keeps_the_film_finite(core):
     q = np.sqrt(0.5 * 0.02)
     integral = 3 * 1.2 / q**4 + (np.pi / 2 + np.arctan(1.2 / q)) * (q**2 + 3 * 1.2**2) / q**5
     assert F[0] == pytest.approx(-KAPPA * 0.01 * integral, rel=1e-5)  # q^2 is g_0^2/2/(100^2) above g_0/2
+
+
+# --------------------------------------------------------------------------------------------------------------- growth
+
+
+@pytest.mark.parametrize("lubrication", [Lubrication.FILM, Lubrication.MIXED])
+def test_half_that_grows_has_a_narrower_gap(core, lubrication):
+    """C = C_0 - g omega^2: film, friction and dry contact of a cage whose guide clearance is smaller by 2 g omega^2, g the
+    table's at the land, for the cage's mass; rounding.  The cage's speed counts, not its sign.
+    """
+    by_1, by_x = M / default_table().half.m * default_table().half.growth
+    mixed = {"scene.lubrication": lubrication}
+    for omega in (755.0, -3000.0):
+        narrower = C - (by_1 + X_LAND * by_x) * omega**2
+        for eps in (0.3, 0.99, 1.02):
+            place, v = (eps * narrower, 0.1 * C), (0.02, -0.05)
+            grown = film(core, place, v, omega, **mixed, **GROWS)
+            given = film(core, place, v, omega, **mixed, **{"cage.guide_clearance": 2.0 * narrower})
+            for found, expected in zip(grown[1:], given[1:], strict=True):
+                assert found == pytest.approx(expected, rel=1e-9)
+            assert grown[0].work.land_elastic == pytest.approx(given[0].work.land_elastic, rel=1e-9)
+
+
+def test_growth_leaves_a_gap(core):
+    """A tenth of the clearance stays, however fast the half turns: rounding."""
+    place, v = (0.05 * C, 0.0), (0.01, 0.0)
+    for omega in (1e4, 2e4):
+        grown = film(core, place, v, omega, **GROWS)[1]
+        assert grown == pytest.approx(film(core, place, v, omega, **{"cage.guide_clearance": 0.2 * C})[1], rel=1e-9)
 
 
 # ---------------------------------------------------------------------------------------------------------- dry contact

@@ -305,7 +305,7 @@ def damaged(tmp_path, change):
         (lambda d: d["header"].update(format="other"), "format is 'other'"),
         (
             lambda d: d["header"].update(format="rivet-table-5"),
-            "'rivet-table-7' is needed: make the table again: `riveted-bearing build`",
+            "'rivet-table-8' is needed: make the table again: `riveted-bearing build`",
         ),
         (lambda d: d.pop("joint"), "'joint' is missing"),
         (lambda d: d["half"]["path"].pop(), "damaged"),

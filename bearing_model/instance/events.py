@@ -16,6 +16,7 @@ import numpy as np
 
 from bearing_model.numbers.vec import vec, vec_dot, vec_local, vec_to_global
 from bearing_model.physics.hertz import hertz_pressure
+from bearing_model.physics.land_film import land_clearance
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 
 
@@ -26,7 +27,10 @@ def lands(model, w):
     x_land = (-model.p.cage.land_x, model.p.cage.land_x)
     arms = [half.x + x * half.a - w.outer_x for half, x in zip(w.half, x_land, strict=True)]
     e = [np.hypot(arm[1] - arm[0] * w.outer_gamma, arm[2] + arm[0] * w.outer_beta) for arm in arms]
-    return np.concatenate(np.broadcast_arrays(*e), axis=-1), model.d.C_land if model.d.guided else np.inf
+    e = np.concatenate(np.broadcast_arrays(*e), axis=-1)
+    if not model.d.guided:
+        return e, np.inf
+    return e, land_clearance(model.d, np.concatenate([half.s for half in w.half], axis=-1) + w.frame_omega)
 
 
 def pockets(model, w):

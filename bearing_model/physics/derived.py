@@ -208,6 +208,7 @@ def derive_cage(p, d):
     d.com_x = (-p.cage.x_c, p.cage.x_c)
     d.com_e = p.cage.unbalance / (2.0 * p.cage.m)
     d.C_land = 0.5 * p.cage.guide_clearance
+    d.growth = cage_centrifugal(p, d.table) * (d.table.half.growth @ [1.0, p.cage.land_x])  # of the radius at the land
     d.guided = p.cage.guidance == CageGuidance.OUTER  # by a land
     d.play = d.C_land if d.guided else 0.5 * p.cage.pocket_clearance
     d.kappa = p.oil.eta * R * L**3 / d.C_land**3

@@ -18,6 +18,10 @@ An outer ring that moves (outer_ring.py): e, e_dot and omega are those against i
 its axes.  For a ring that turns this is Reynolds' equation for two turning surfaces: squeeze e_dot - (omega +
 omega_e)/2 e_x x e.
 
+A half grows by its centrifugal load, so that C = C_0 - g omega^2, omega: its speed in space, g: by the half's finite
+elements with bonded joints (rivet_model/half_lands.py).  The growth is static, and the films do not feel its rate.  Where
+the spin changes, growth puts the power 2 g omega omega_dot K_land (e - C)^1.5 into the dry contact.
+
 Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  The force derives from int (V.n)^2/h^3
 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these are the stiff rates of the film.  The
 force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere. At the wall the film stays finite: q^2 is g_0 at the
@@ -31,10 +35,10 @@ the film's force; Sommerfeld's substitution from the narrowest gap,
     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 
 spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the narrowest
-gap. The harmonics G_p load rigid halves only.
-The gap is that of undeformed, round lands, and a film does not load the modes of elastic halves yet.
+gap. The gap is that of round lands: the bending does not change the film.
 """
 
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -47,6 +51,7 @@ from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
 
 EPS_CAP = 1.2
+LEAST_CLEARANCE = 0.1  # part of the clearance at rest below which a half's growth does not narrow it
 LAND_HIGHEST = (3 * Z - 1) // 2  # harmonic of the load on a rim
 LAND_POINTS = 24  # of its sum over the angle
 PSI = 2.0 * np.pi * np.arange(LAND_POINTS) / LAND_POINTS
@@ -67,6 +72,22 @@ def land_film_gap(eps, g_0):
     """q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall."""
     above = 1.0 - eps * eps - 0.5 * g_0
     return 0.5 * g_0 + 0.5 * (above + np.sqrt(above * above + 2.0 * g_0 * g_0))
+
+
+def land_clearance(d, omega):
+    """Radial guide clearance [m] of a half that turns at the speed omega [rad/s] in space."""
+    return maximum(d.C_land - d.growth * (omega * omega), LEAST_CLEARANCE * d.C_land)
+
+
+def land_growth_rate(d, omega):
+    """Change of a half's radius there per change of that speed [m.s]."""
+    small = np.real(d.growth * omega * omega) < (1.0 - LEAST_CLEARANCE) * d.C_land
+    return np.where(small, 2.0 * d.growth * omega, 0.0)
+
+
+def land_growth_power(w):
+    """Power that the growth of halves whose speed changes puts into the lands' dry contacts [W], [..., 1]."""
+    return ball_array_sum(w.land_growth * w.cage_spin_dot)
 
 
 def land_film_heating(s_2):
@@ -103,19 +124,46 @@ def land_load(e, V, q2, force, dry):
     return tuple(-size[..., None] * x - dry[..., None] * y[..., 0, :] for x, y in zip(G, at, strict=True))
 
 
+@dataclass
+class LandPressure:
+    """What decides the pressure on the rims, [..., half]."""
+
+    e: np.ndarray  # eccentricity along the half's axes [2, ..., half] [m]
+    V: np.ndarray  # pure squeeze velocity likewise [m/s]
+    cap: np.ndarray  # limiter of the eccentricity over the clearance [1/m]
+    q2: np.ndarray  # gap function
+    kappa: np.ndarray  # [N.s/m]
+    dry: np.ndarray  # load of the dry contact [N]
+
+
+def land_film_loads(w):
+    """Harmonics of the loads on the rims [N] by the pressure, two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
+    on = w.pressure
+    (e_y, e_z), (V_y, V_z) = on.e, on.V
+    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
+    n_y, n_z = V_y / V, V_z / V
+    a, b = (e_y * n_y + e_z * n_z) * on.cap, (e_z * n_y - e_y * n_z) * on.cap
+    I_c, I_s, _ = land_film_integrals(a, b, on.q2)
+    along, across = I_c * V_y - I_s * V_z, I_c * V_z + I_s * V_y
+    force = on.kappa * np.sqrt(along * along + across * across + 1e-30)
+    return land_load(on.e, on.V, on.q2 + 0.0 * e_y, force, on.dry)
+
+
 def no_land(w):
     """Of a cage that balls guide: no film, no contact with the outer ring."""
     none = 0.0 * w.half[0].s
-    w.land_elastic = w.land_dissipated = none
+    w.land_elastic = w.land_dissipated = w.land_growth = none
     w.film = [SimpleNamespace(yy=none, yz=none, zz=none, spin=none) for _ in range(2)]
-    w.land = None
+    w.land = w.pressure = None
 
 
 def land_film_force(model, w):
     """Adds film, friction and dry contact of both lands to the halves; sets their elastic energy and dissipated power.
 
     film[land]: rates yy, yz, zz of its film, -dF/dv [N.s/m], and spin, -dM/domega [N.m.s], [..., 1] each, for the
-    integrator's Jacobian.  land: harmonics of the loads on the rims, Re and Im G_p [..., half, p].
+    integrator's Jacobian.  pressure: LandPressure.  land: of rigid halves the
+    harmonics of the loads on the rims, Re and Im G_p [..., half, p].  land_growth:
+    what growth adds to the elastic energy per change of the half's speed [J.s], [..., half].
     """
     p, d = model.p, model.d
     if not d.guided:
@@ -137,26 +185,29 @@ def land_film_force(model, w):
     V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
     n_y, n_z = V_y / V, V_z / V
     e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
-    eps = e / d.C_land
-    cap = minimum(1.0, EPS_CAP / eps) / d.C_land
+    spin = wide_pair(h0.s, h1.s) + w.frame_omega  # in space
+    C = land_clearance(d, spin)
+    narrow = d.C_land / C
+    eps = e / C
+    cap = minimum(1.0, EPS_CAP / eps) / C
     a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
     q2 = land_film_gap(eps, p.cage.g_0)
     I_c, I_s, I_t = land_film_integrals(a, b, q2)
     heated = land_film_heating(d.nahme * omega * omega) if d.nahme > 0.0 else 1.0
-    kappa = d.kappa * heated
+    kappa = d.kappa * heated * narrow**3
     F_y, F_z = -kappa * (I_c * V_y - I_s * V_z), -kappa * (I_c * V_z + I_s * V_y)
-    couette = d.couette * heated / np.sqrt(q2)
+    couette = d.couette * heated / np.sqrt(q2) * narrow
     force = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
 
     # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
     # film force too
     u_y, u_z = e_y / e, e_z / e
-    pen, pen_dot = e - d.C_land, v_y * u_y + v_z * u_z
+    pen, pen_dot = e - C, v_y * u_y + v_z * u_z
     N_0 = hertz_load(p.cage.K_land, pen)
     N = hertz_damped(N_0, p.cage.lambda_, pen_dot)
     N_mu = N
     if p.scene.lubrication == Lubrication.MIXED:
-        ln_Lambda = d.ln_land + np.log(q2 / (1.0 + eps))
+        ln_Lambda = d.ln_land + np.log(q2 / (narrow * (1.0 + eps)))
         N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
     R = 0.5 * p.cage.D_o
     slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
@@ -168,6 +219,7 @@ def land_film_force(model, w):
 
     power = F_y * v_y + F_z * v_z + M_x * omega
     w.land_elastic = ball_array_sum(hertz_energy(p.cage.K_land, pen))
+    w.land_growth = N_0 * land_growth_rate(d, spin)
     w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
 
     # -dF/dv in the global frame
@@ -183,6 +235,7 @@ def land_film_force(model, w):
     e_h, V_h = (
         [vec_dot(y * outer.b_y + z * outer.b_z, axis_of) for axis_of in axes] for y, z in ((e_y, e_z), (V_y, V_z))
     )
+    w.pressure = LandPressure(np.array(e_h), np.array(V_h), cap, q2, kappa, N)
     w.land = None if model.modes else land_load(e_h, V_h, q2 + 0.0 * e, force, N)
 
     F = F_y * outer.b_y + F_z * outer.b_z

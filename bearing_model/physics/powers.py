@@ -9,6 +9,7 @@ from bearing_model.cage.cage import cage_losses
 from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot, vec_to_global
 from bearing_model.physics.frame import frame_acceleration, frame_moment
+from bearing_model.physics.land_film import land_growth_power
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.race_contact import race_growth_power
 
@@ -84,6 +85,7 @@ def supply_terms(model, w):
         "translation of the ring": translation,
         "tilting of the ring": shaft_power(w) - translation - spin,
         "growth of the ring": race_growth_power(model, w),
+        "growth of the cage": land_growth_power(w),
         "housing": housing_power(model, w),
         "gravity and frame": frame_power(model, w),
     }

@@ -3,7 +3,7 @@
 import numpy as np
 
 from bearing_model.cage.cage import cage_acceleration, cage_joints, cage_kinematics, cage_pockets
-from bearing_model.generated.variables import RING_X, WORK
+from bearing_model.generated.variables import CAGE_S, RING_X, WORK
 from bearing_model.physics.ball import ball_acceleration, ball_kinematics
 from bearing_model.physics.drag import drag_cage, drag_force, drag_mixture, drag_ring
 from bearing_model.physics.land_film import land_film_force
@@ -42,6 +42,7 @@ def rhs(model, t, y, w=None):
     ball_acceleration(model, w, y_dot)
     cage_acceleration(model, y, w, y_dot)
     ring_acceleration(model, w, y_dot)
+    w.cage_spin_dot = y_dot[..., CAGE_S] + given.frame_omega_dot
     y_dot[..., WORK] = net_power(model, w)
     return y_dot
 

@@ -21,7 +21,7 @@ from bearing_model.cage.elastic.half_modes import PAD, RIVET, HalfModes, Residua
 from bearing_model.cage.two_half import half_path
 
 DEFAULT_TABLE = Path(__file__).resolve().parents[2] / "rivet_model" / "tables" / "6207.json"
-FORMAT = "rivet-table-7"
+FORMAT = "rivet-table-8"
 # numbered from 1: the output rivet.table_kind
 KINDS = {"fe": "finite elements", "fe_coarse": "coarse finite elements", "closed_form": "closed forms"}
 SHAPES = ("machined", "ribbon")
@@ -57,6 +57,7 @@ class HalfData:
     spin: np.ndarray  # [8] per (rad/s)^2 at mass m
     # [waves, harmonic, 1 and x, 8] rows by a radial line load at the land: half_path.land_path_rows
     land: np.ndarray
+    growth: np.ndarray  # [2] of its radius at the land x per (rad/s)^2 at mass m: by 1 [m.s2] and by x [s2]
     law: joint_law.JointLaw
     k_closed: float  # force per separation of the halves' bodies, for each joint: plates closed, plates open [N/m]
     k_open: float
@@ -253,6 +254,7 @@ def _read_half(path, section, Z, ribbon):
         path=section.array("path", (*([3] if ribbon else []), len(chi), Z, 8, 3)),
         spin=spin,
         land=section.array("land", (Z // 2 + 1, 3, 2, 8)),
+        growth=section.array("growth", (2,)),
         law=joint_law.JointLaw(law.number("length"), knots, coefficients, stiffness, slip_stiffness, np.sign(spin[4])),
     )
 

@@ -5,6 +5,7 @@
 #include "numbers/elementary.h"
 #include "numbers/saved_numbers.h"
 #include "physics/hertz.h"
+#include "physics/land_film.h"
 #include "physics/ring_fit.h"
 #include "rivet/rivet_rom.h"
 
@@ -28,7 +29,7 @@ static void lands(const Model *model, const Work *w, Event *event)
         const double along = half->x[0] + x_land * half->a[0] - w->outer_x[0];
         const double e_y = half->x[1] + x_land * half->a[1] - (w->outer_x[1] + along * w->outer_gamma);
         const double e_z = half->x[2] + x_land * half->a[2] - (w->outer_x[2] - along * w->outer_beta);
-        add(event, h, sqrt(e_y * e_y + e_z * e_z), model->d->C_land);
+        add(event, h, sqrt(e_y * e_y + e_z * e_z), land_clearance(model->d, half->s + w->frame_omega));
     }
 }
 

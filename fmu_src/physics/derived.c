@@ -275,6 +275,8 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->com_x[1] = p->cage.x_c;
     d->com_e = p->cage.unbalance / (2.0 * p->cage.m);
     d->C_land = 0.5 * p->cage.guide_clearance;
+    const double *growth = rivet_table.half.growth;
+    d->growth = cage_centrifugal(p) * (growth[0] + p->cage.land_x * growth[1]);
     d->guided = p->cage.guidance == CAGE_GUIDANCE_OUTER;
     d->play = d->guided ? d->C_land : 0.5 * p->cage.pocket_clearance;
     d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);

@@ -25,6 +25,10 @@
 // flow the shear stress then is asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta
 // U^2/k, whatever the gap (Nahme (1940), Ing.-Archiv 11, 191); the film's viscosity is lower by this factor.
 //
+// A half grows by its centrifugal load, so that C = C_0 - g omega^2, omega: its speed in space, g: by the half's
+// finite elements with bonded joints (rivet_model/half_lands.py).  The growth is static, and the films do not feel its rate.
+// Where the spin changes, growth puts the power 2 g omega omega_dot K_land (e - C)^1.5 into the dry contact.
+//
 // The force is regular at e = 0, C0 in V (cavitation) and C1 elsewhere.  At the wall the film stays finite:
 // q^2 is g_0 at the wall and tends to g_0/2 behind it, and eps is capped at 1.2.  Behind the wall the dry
 // contact F = K_land (e - C)^1.5 carries.
@@ -36,8 +40,7 @@
 //     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 //
 // spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the
-// narrowest gap.  Of rigid halves alone: the gap is that of round lands, and
-// the modes of elastic halves do not feel their lands yet.
+// narrowest gap.  The gap is that of round lands: the bending does not change the film.
 #include "physics/land_film.h"
 
 #include "physics/hertz.h"
@@ -177,6 +180,7 @@ INLINE void land_load(const Derived *d, const scalar e[2], const scalar V[2], sc
             const wide cosine = (eps + c_psi) * inv, sine = q * s_psi * inv;
             const wide along = cosine * u_0 - sine * u_1, across = cosine * u_1 + sine * u_0;
             const wide closing = wide_max(along * n_0 + across * n_1, wide_set(0.0));
+            if (!wide_any(wide_above(closing, 0.0))) continue;
             add_harmonics(along, across, closing * one * one, re[i], im[i]);
         }
     const scalar raw_re = sum_points(re, 1), raw_im = sum_points(im, 1);
@@ -223,27 +227,29 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
     const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
     const wide e_2 = e_y * e_y + e_z * e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2), e = e_2 * inv_e;
-    const double inv_C = 1.0 / d->C_land;
-    const wide eps = e * inv_C, cap = wide_min(wide_set(inv_C), EPS_CAP * inv_e);
+    const scalar spin[2] = {h0->s + w->frame_omega, h1->s + w->frame_omega};  // in space
+    const wide C = wide_pair(land_clearance(d, spin[0]), land_clearance(d, spin[1]));
+    const wide inv_C = 1.0 / C, narrow = d->C_land * inv_C;
+    const wide eps = e * inv_C, cap = wide_min(inv_C, EPS_CAP * inv_e);
     const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
     const wide q2 = land_film_gap(eps, p->cage.g_0), inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
     const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
     const wide I_c = film.I_c, I_s = film.I_s, I_t = film.I_t;
     const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
-    const wide kappa = d->kappa * heated * inv_q2 * inv_q2;
+    const wide eta = d->kappa * heated * (narrow * narrow * narrow), kappa = eta * inv_q2 * inv_q2;
     wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
-    const wide couette = d->couette * heated * inv_q;
+    const wide couette = d->couette * heated * inv_q * narrow;
     const wide force = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
 
     // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
     // share of the film force
     const wide u_y = e_y * inv_e, u_z = e_z * inv_e;
-    const wide pen = e - d->C_land, pen_dot = v_y * u_y + v_z * u_z;
+    const wide pen = e - C, pen_dot = v_y * u_y + v_z * u_z;
     const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen);
     const wide N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
     wide N_mu = N;
     if (p->scene.lubrication == LUBRICATION_MIXED) {
-        const wide ln_Lambda = d->ln_land + wide_log(q2 / (1.0 + eps));
+        const wide ln_Lambda = d->ln_land + wide_log(q2 / (narrow * (1.0 + eps)));
         N_mu += traction_asperity_share(ln_Lambda) * wide_sqrt(F_y * F_y + F_z * F_z);
     }
 
@@ -282,15 +288,61 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
             add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
         w->film[h] = (LandFilm){wide_lane(K_yy, i), wide_lane(K_yz, i), wide_lane(K_zz, i),
                                 wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h};
-        if (model->modes == NULL) {
-            scalar e_h[2], V_h[2];
-            land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), e_h);
-            land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), V_h);
-            land_load(d, e_h, V_h, wide_lane(q2, i), wide_lane(force, i), wide_lane(N, i), &w->land[h]);
-        }
+        LandPressure *on = &w->pressure[h];
+        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
+        land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
+        on->cap = wide_lane(cap, i), on->q2 = wide_lane(q2, i), on->kappa = wide_lane(eta, i);
+        on->dry = wide_lane(N, i);
+        if (model->modes == NULL)
+            land_load(d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &w->land[h]);
         w->land_elastic += wide_lane(elastic, i);
+        w->land_growth[h] = wide_lane(N_0, i) * land_growth_rate(d, spin[i]);
         w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
     }
+}
+
+#ifndef DUAL
+void land_film_arrive(const Model *model, const double *change, Work *w)
+{
+    if (!model->d->guided) return;
+    for (int h = 0; h < 2; h++) {
+        const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
+        const double *v = change + h, turn = 0.5 * v[Y_CAGE_S - Y_CAGE_V_X];
+        const double u_y = v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x;
+        const double u_z = v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x;
+        const Rotor *half = &w->half[h];
+        LandPressure *on = &w->pressure[h];
+        on->V[0] += half->b_y[1] * u_y + half->b_y[2] * u_z + turn * on->e[1];
+        on->V[1] += half->b_z[1] * u_y + half->b_z[2] * u_z - turn * on->e[0];
+    }
+}
+#endif
+
+void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
+{
+    for (int first = 0; first < 2; first += HALVES) {
+        const LandPressure *p0 = &w->pressure[first], *p1 = &w->pressure[first + HALVES - 1];
+        const wide e_y = wide_pair(p0->e[0], p1->e[0]), e_z = wide_pair(p0->e[1], p1->e[1]);
+        const wide V_y = wide_pair(p0->V[0], p1->V[0]), V_z = wide_pair(p0->V[1], p1->V[1]);
+        const wide cap = wide_pair(p0->cap, p1->cap), q2 = wide_pair(p0->q2, p1->q2);
+        const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+        const wide n_y = V_y * inv_V, n_z = V_z * inv_V, inv_q = 1.0 / wide_sqrt(q2);
+        const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
+        const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
+        const wide along = film.I_c * V_y - film.I_s * V_z, across = film.I_c * V_z + film.I_s * V_y;
+        const wide force =
+            wide_pair(p0->kappa, p1->kappa) * wide_sqrt(along * along + across * across + 1e-30) / (q2 * q2);
+        for (int i = 0; i < HALVES; i++) {
+            const LandPressure *on = &w->pressure[first + i];
+            land_load(model->d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &load[first + i]);
+        }
+    }
+}
+
+scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot)
+{
+    const double frame = model->ring_load->frame_omega_dot;
+    return w->land_growth[0] * (y_dot[Y_CAGE_S] + frame) + w->land_growth[1] * (y_dot[Y_CAGE_S + 1] + frame);
 }
 
 // Lands of a cage whose outer ring moves.
@@ -306,6 +358,8 @@ void land_film_force(const Model *model, Work *w)
     w->land_elastic = w->cage_dissipated = w->land_dissipated = 0.0;
     if (!model->d->guided) {  // balls guide the cage: no film, no contact with the outer ring
         memset(w->film, 0, sizeof w->film);
+        memset(w->land_growth, 0, sizeof w->land_growth);
+        memset(w->pressure, 0, sizeof w->pressure);
         memset(w->land, 0, sizeof w->land);
         return;
     }

@@ -146,7 +146,8 @@ typedef struct {
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]
     double com_x[2], com_e;  // centre of mass from the geometric centre: axial, toward pocket 1 [m]
-    double C_land;           // radial guide clearance [m]
+    double C_land;           // radial guide clearance at rest [m]
+    double growth;           // of a half's radius at the land / square of its speed in space [m.s2]
     bool guided;             // by lands on the outer ring, not by the balls
     double play;             // radial clearance of the guidance: C_land, or that of the pockets [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
@@ -244,6 +245,13 @@ typedef struct {
     scalar yy, yz, zz, spin;
 } LandFilm;
 
+// ---- what decides the pressure on one rim, along the half's axes; written by land_film.c: eccentricity [m], pure squeeze
+// velocity [m/s], limiter of the eccentricity over the clearance [1/m], gap function q^2, kappa [N.s/m], load of the dry
+// contact [N] ----
+typedef struct {
+    scalar e[2], V[2], cap, q2, kappa, dry;
+} LandPressure;
+
 // ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----
 typedef struct {
     scalar re[LAND_HARMONICS], im[LAND_HARMONICS];
@@ -320,10 +328,12 @@ typedef struct {
     // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
     scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
 
-    // lands (land_film_force): elastic energy [J], films
-    scalar land_elastic;
+    // lands (land_film_force): elastic energy [J]; of each what its growth adds to it per change of the half's speed [J.s];
+    // films
+    scalar land_elastic, land_growth[2];
     LandFilm film[2];
-    LandLoad land[2];
+    LandPressure pressure[2];
+    LandLoad land[2];  // of rigid halves
 
     // what one kind of cage has
     TwoHalfWork two_half;

@@ -33,13 +33,14 @@ static __attribute__((noinline)) scalar motion_power(const Model *model, const W
     return power;
 }
 
-// Net power into balls and cage: by the rings' motions and the frame, less what is dissipated.
-static scalar net_power(const Model *model, const Work *w)
+// Net power into balls and cage: by the rings' motions, the frame and growth, less what is dissipated.
+static scalar net_power(const Model *model, const Work *w, const scalar *y_dot)
 {
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
     power -= ball_array_sum(w->joint_dissipated);
     power -= cage_losses(w);
+    power += land_growth_power(model, w, y_dot);
     const RingLoad *load = model->ring_load;
     if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)
         power += race_growth_power(model, w);
@@ -68,7 +69,7 @@ static void evaluate(const Model *model, const scalar *y, scalar *y_dot, Work *w
     ball_acceleration(model, w, y_dot);
     cage_acceleration(model, y, w, y_dot);
     ring_acceleration(model, w, y_dot);
-    y_dot[Y_WORK] = net_power(model, w);
+    y_dot[Y_WORK] = net_power(model, w, y_dot);
 }
 
 void rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w)

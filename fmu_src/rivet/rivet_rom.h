@@ -116,6 +116,7 @@ typedef struct {
     double
         yield_force;  // of a ribbon: force of a ball on its pocket under which it begins to yield [N]; else 0
     const double *land;  // [LAND_WAVES][LAND_EACH][1 and x][ROWS] by a load on the rim (half_path.h)
+    double growth[2];    // of its radius at the land x per (rad/s)^2, at this mass: by 1 [m.s2] and by x [s2]
     JointLaw law;
 } CageHalfData;
 

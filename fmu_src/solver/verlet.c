@@ -19,6 +19,7 @@
 
 #include "physics/ball_turn.h"
 #include "physics/housing.h"
+#include "physics/land_film.h"
 #include "physics/rhs.h"
 #include "physics/ring_load.h"
 #include "solver/implicit.h"
@@ -220,6 +221,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     const double gamma = 0.5 * h, *f = from->f;
     CageStep cage;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES], *y = to->y;
+    double evaluated[CAGE_END - CAGE];  // velocities of the cage at which the forces are evaluated
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     advance_positions(model, h, from, y, &cage, w);
@@ -227,6 +229,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
     cage_predict(model, w, &cage, &from->cage, y);
+    memcpy(evaluated, &y[CAGE], sizeof evaluated);
     to->housing = from->housing, to->turn = from->turn;
     if (model->housing) housing_predict(h, &from->housing, &to->housing);
     if (model->turn) ball_turn_predict(h, &to->turn);
@@ -264,6 +267,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_velocities(model, w, h, from, delta, to, error);
     remember_friction(h, from, to, error);
     to->h = h;
+    for (int i = CAGE; i < CAGE_END; i++) evaluated[i - CAGE] = y[i] - evaluated[i - CAGE];
+    land_film_arrive(model, evaluated, w);
     cage_remember(model, &cage, h, from->h, f, from->jerk, y, to->f, to->jerk, error);
     const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;
     return ops->wrms_norm(error, weight);

@@ -22,7 +22,7 @@ static compliance that the modes leave between the pads of one joint,
 with the joint's law over K (joint_law.py, LawOfModes): its pads move by delta, L = K (e - delta).  So each joint follows
 from its own pads; the motion by the loads of other joints, beside the modes, is left out.
 In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do
-not hold each other about x.
+not hold each other about x.  The films of the lands load the rivets statically (elastic_lands.py).
 
 The centrifugal load widens a half: its moment of inertia is J_p + 2 sum c_i q_i, and an expanding half slows down.
 Left out: Coriolis forces and the softening of modes by spin, of the order 2 omega_c/omega_i and (omega_c/omega_i)^2.
@@ -42,6 +42,7 @@ from bearing_model.cage.common.cage_joint import (
 from bearing_model.cage.common.joint_law import law_answer, law_places, law_sum
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.elastic.elastic_half import IN, ROOT, circle
+from bearing_model.cage.elastic.elastic_lands import elastic_lands
 from bearing_model.cage.elastic.half_modes import OUT
 from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
@@ -192,5 +193,7 @@ def cage_elastic_acceleration(model, y, w, y_dot):
 
 def cage_elastic_rivets(model, w):
     """JointLoads of all joints and their rivets."""
-    j = w.elastic.joints
-    return cage_joint_loads(model, j.load, j.rivet, cage_joint_carried(model, w))
+    j, shear = w.elastic.joints, cage_joint_carried(model, w)
+    if w.pressure:
+        j = elastic_lands(model, w, cage_elastic_preload(model, cage_elastic_speed_2(w)), shear)
+    return cage_joint_loads(model, j.load, j.rivet, shear)

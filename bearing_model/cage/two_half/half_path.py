@@ -68,6 +68,11 @@ def land_path_rows(half, x, side, load):
     return rows * (PATH_SIDE if side < 0 else 1.0)
 
 
+def land_rows(half, x, land):
+    """Rows [..., Z, 8] of all joints by the films of both lands: loads (Re, Im G_p [..., half, p]) on the rims."""
+    return sum(land_path_rows(half, x, 2 * h - 1, tuple(part[..., h, :] for part in land)) for h in range(2))
+
+
 def path_slopes(chi, matrix):
     """Slopes of the C1 cubic through the matrix [nodes, Z, 8, 3] over the angle chi: those of the parabolas through
     three neighbours.

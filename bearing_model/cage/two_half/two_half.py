@@ -39,9 +39,10 @@ from bearing_model.cage.common.cage_joint import (
     cage_joint_loads,
 )
 from bearing_model.cage.common.films import HALF, N_HALVES
+from bearing_model.cage.common.joint_slip import joint_slip_add
 from bearing_model.cage.common.spin_preload import spin_bending
-from bearing_model.cage.two_half.half_path import half_path_rows, land_path_rows
-from bearing_model.cage.two_half.joint_open import joints_open, joints_slip
+from bearing_model.cage.two_half.half_path import half_path_rows, land_rows
+from bearing_model.cage.two_half.joint_open import joints_open
 from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_GAMMA,
@@ -89,9 +90,8 @@ def bonded_rows(model, w, omega_2):
     """
     half = model.d.table.half
     rows = sum(half_path_rows(half, 2 * h - 1, on.push, on.F, on.radius) for h, on in enumerate(w.pocket))
-    for h in range(2) if w.land else ():
-        load = tuple(part[..., h, :] for part in w.land)
-        rows = rows + land_path_rows(half, model.p.cage.land_x, 2 * h - 1, load)
+    if w.land:
+        rows = rows + land_rows(half, model.p.cage.land_x, w.land)
     return rows + omega_2[..., None] * model.d.centrifugal
 
 
@@ -134,15 +134,8 @@ def two_half_joints(model, y, w):
 
 def two_half_loads(model, w):
     """JointLoads of all joints and their rivets."""
-    d, t, mu, shear = model.d, w.two_half, model.p.joint.mu, cage_joint_carried(model, w)
-    plates, heads = (
-        np.maximum(mu * load - np.hypot(*carried), 0.0) for load, carried in ((t.N_plate, w.S), (t.rivet[0], w.H))
-    )
-    gap = np.maximum(d.hole_gap - np.hypot(w.u[1], w.u[2]), 0.0)
-    V = np.moveaxis(t.bonded_V, 0, -1)
-    more = joints_slip(d.table.half.law, V, gap, plates, heads, d.k_head, d.k_hole)[:3]
-    for name, loads in zip(("plates", "heads", "shank"), more, strict=True):
-        setattr(shear, name, getattr(shear, name) + np.moveaxis(loads, -1, 0))
+    t, shear = w.two_half, cage_joint_carried(model, w)
+    joint_slip_add(model, w, w.u[1:], t.rivet[0], t.N_plate, t.bonded_V, shear)
     return cage_joint_loads(model, t.load, t.rivet, shear)
 
 

@@ -128,3 +128,29 @@ INLINE void law_answer(const JointLaw *law, const LawPlaces *at, int k, scalar M
     move[2] = s * S.x[2], rivet[2] = s * S.x[6];
     *energy = s * s * S.x[LAW_ENERGY];
 }
+
+// Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
+typedef scalar JointMoves[3][2 * Z + LANES];
+
+// L_0 of all joints by the moves of their neighbours.
+INLINE void law_trials(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide trial[PACKETS][3])
+{
+    for (int p = 0; p < PACKETS; p++)
+        for (int i = 0; i < 3; i++) trial[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
+    for (int n = 0; n < law->neighbours; n++)
+        for (int m = 0; m < 3; m++) {
+            const scalar *move = &moves[m][Z - law->neighbour[n]];
+            for (int i = 0; i < 3; i++) {
+                const wide K = wide_set(-law->K[n][i][m]);
+                for (int p = 0; p < PACKETS; p++)
+                    trial[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), trial[p][i]);
+            }
+        }
+}
+
+// The move of a joint that carries nothing: K_0 move = L_0.
+ONCE void law_free(const double K[3][3], const scalar load[3], scalar move[3])
+{
+    for (int i = 0; i < 3; i++) move[i] = load[i];
+    solve_3(K[0], move);
+}

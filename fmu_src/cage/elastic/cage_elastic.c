@@ -20,6 +20,7 @@
 // follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
 // 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
 // contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
+// The films of the lands load the rivets statically (elastic_lands.c).
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum c_i
 // q_i.  Coriolis forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and
@@ -29,6 +30,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
+#include "cage/elastic/elastic_lands.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
 
@@ -317,5 +319,14 @@ void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)
     const ElasticJoints *joints = &w->elastic.joints;
     JointShear shear;
     cage_joint_carried(model, w, &shear);
-    cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
+    if (!model->d->guided) {
+        cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
+        return;
+    }
+    ball_array P;
+    LandedJoints landed;
+    const LandedJoints *found = &landed;
+    cage_elastic_preload(model, cage_elastic_speed_2(w), P);
+    elastic_lands(model, w, P, &landed, &shear);
+    cage_joint_loads(model, found->load, found->rivet, &shear, load);
 }

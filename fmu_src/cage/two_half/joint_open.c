@@ -1,11 +1,10 @@
-// Joints that open and slip: see joint_open.h for the equations.
+// Joints that open: see joint_open.h for the equations.
 #include "cage/two_half/joint_open.h"
 
-enum { SWEEPS = 6, SLIP_SWEEPS = 3 };
+enum { SWEEPS = 6 };
 
 static const double NEAR = 0.05, CHANGE = 0.01;
 
-// ---- opening --------------------------------------------------------------------------------------------------------
 // |N| + (|M_r| + |M_t|)/l.
 INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
 {
@@ -30,32 +29,6 @@ ONCE void find_uniform(const JointLaw *law, scalar c, scalar P, scalar at[UNIFOR
     for (int n = 0; n < UNIFORM_WIDTH; n++)
         at[n] = weight[0] * row[0][n] + weight[1] * row[1][n] + weight[2] * row[2][n] + weight[3] * row[3][n];
     for (int n = 0; n < UNIFORM_SLOPES; n++) at[n] *= s;
-}
-
-// Moves of all joints, once more behind the last one, so that those of neighbours lie side by side.
-typedef scalar JointMoves[3][2 * Z + LANES];
-
-// L_0 of all joints by the moves of their neighbours.
-INLINE void find_trial(const JointLaw *law, ball_array bonded[3], JointMoves moves, wide trial[PACKETS][3])
-{
-    for (int p = 0; p < PACKETS; p++)
-        for (int i = 0; i < 3; i++) trial[p][i] = wide_load(&bonded[i][p * LANE_WIDTH]);
-    for (int n = 0; n < law->neighbours; n++)
-        for (int m = 0; m < 3; m++) {
-            const scalar *move = &moves[m][Z - law->neighbour[n]];
-            for (int i = 0; i < 3; i++) {
-                const wide K = wide_set(-law->K[n][i][m]);
-                for (int p = 0; p < PACKETS; p++)
-                    trial[p][i] = wide_fma(K, wide_load(move + p * LANE_WIDTH), trial[p][i]);
-            }
-        }
-}
-
-// The move of a joint that carries nothing: K_0 move = L_0.
-ONCE void joint_free(const double K[3][3], const scalar load[3], scalar move[3])
-{
-    for (int i = 0; i < 3; i++) move[i] = load[i];
-    solve_3(K[0], move);
 }
 
 // What is sought: moves of all joints, L_0 that the joints have answered to, loads of the rivets.
@@ -167,7 +140,7 @@ static void ask_law(const JointLaw *law, const ball_array P, const constants int
             law_answer(law, &at, k, o->trial[1][k], move, carried, &energy);
         } else {
             const scalar load[3] = {o->trial[0][k], o->trial[1][k], o->trial[2][k]};
-            joint_free(law->K_0, load, move);
+            law_free(law->K_0, load, move);
         }
         for (int i = 0; i < 3; i++) {
             o->move[i][k] = o->move[i][Z + k] = move[i];
@@ -189,7 +162,7 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, &wanted);
     for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
         if (sweep > 0) {
-            find_trial(law, bonded, o.move, L);
+            law_trials(law, bonded, o.move, L);
             answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
         }
         ask_law(law, P, intact, &wanted, &o);
@@ -201,94 +174,5 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
             for (int m = 0; m < 3; m++) left = wide_fma(K[m], wide_load(&o.move[m][Z + k]), left);
             wide_store(&load[i][k], left);
         }
-    }
-}
-
-// ---- slip -----------------------------------------------------------------------------------------------------------
-// Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness
-// of the halves around a joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`,
-// then the halves slip freely to `gap`, then the hole bears (k_hole):
-//     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).
-INLINE wide joint_slip(wide V, wide K, wide gap, wide plate, wide head, double k_head, wide k_hole,
-                       wide *heads, wide *hole)
-{
-    // Each of the two branches of the heads is the larger slip where it holds; of two fractions with positive
-    // denominators the larger one is chosen before the division.
-    const wide zero = wide_set(0.0), beyond = V - plate, past = beyond - head, borne = k_hole * gap;
-    const bits slides = wide_above(past * (K + k_head) - beyond * K, 0.0);
-    const wide free = wide_select(slides, past, beyond) / wide_select(slides, K, K + k_head);
-    const bits bears = wide_above(free - gap, 0.0);
-    wide slip = wide_max(free, zero);
-    if (wide_any(bears)) {
-        const wide held = K + (k_head + k_hole), loose = K + k_hole;
-        const bits pushes = wide_above((past + borne) * held - (beyond + borne) * loose, 0.0);
-        const wide borne_slip =
-            (wide_select(pushes, past, beyond) + borne) / wide_select(pushes, loose, held);
-        slip = wide_select(bears, wide_max(borne_slip, zero), slip);
-    }
-    *heads = wide_min(k_head * slip, head);
-    *hole = k_hole * wide_max(slip - gap, zero);
-    return slip;
-}
-
-static void add_vector(ball_array sum[2], int k, wide r, wide t)
-{
-    wide_store(&sum[0][k], wide_load(&sum[0][k]) + r);
-    wide_store(&sum[1][k], wide_load(&sum[1][k]) + t);
-}
-
-void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
-                 ball_array plates[2], ball_array heads[2], ball_array shank[2])
-{
-    bool slips = false;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        slips |= wide_any(wide_above(
-            wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
-    if (!slips) {
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-            add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
-        return;
-    }
-    const double (*K)[2] = law->K_slip[0];
-    scalar slip[2][2 * Z + LANES] = {{0.0}};  // once more behind the last one
-    for (int sweep = 0; sweep < SLIP_SWEEPS; sweep++) {
-        ball_array next[2];
-        wide trial[PACKETS][2];
-        for (int p = 0; p < PACKETS; p++) {
-            trial[p][0] = wide_load(&V_r[p * LANE_WIDTH]);
-            trial[p][1] = wide_load(&V_t[p * LANE_WIDTH]);
-        }
-        for (int d = 1; sweep > 0 && d < Z; d++)
-            for (int m = 0; m < 2; m++)
-                for (int i = 0; i < 2; i++) {
-                    const wide K_d = wide_set(law->K_slip[d][i][m]);
-                    for (int p = 0; p < PACKETS; p++)
-                        trial[p][i] =
-                            wide_fma(-K_d, wide_load(&slip[m][Z - d + p * LANE_WIDTH]), trial[p][i]);
-                }
-        for (int p = 0; p < PACKETS; p++) {
-            const int k = p * LANE_WIDTH;
-            const wide r = trial[p][0], t = trial[p][1];
-            const wide V_rt = wide_hypot(r, t), inv_V = wide_ratio(wide_set(1.0), V_rt), e_r = r * inv_V,
-                       e_t = t * inv_V;
-            const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
-            const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
-            wide head, hole;
-            const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
-                       rest = wide_load(&limits->heads[k]), k_hole = wide_load(&limits->k_hole[k]);
-            const wide moved =
-                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, k_hole, &head, &hole);
-            const wide s_r = moved * e_r, s_t = moved * e_t;
-            wide_store(&next[0][k], s_r);
-            wide_store(&next[1][k], s_t);
-            if (sweep < SLIP_SWEEPS - 1) continue;
-            const wide left_r = r - (K[0][0] * s_r + K[0][1] * s_t),
-                       left_t = t - (K[1][0] * s_r + K[1][1] * s_t), rivet = head + hole;
-            add_vector(plates, k, left_r - rivet * e_r, left_t - rivet * e_t);
-            add_vector(heads, k, head * e_r, head * e_t);
-            add_vector(shank, k, hole * e_r, hole * e_t);
-        }
-        for (int i = 0; i < 2; i++)
-            for (int k = 0; k < Z; k++) slip[i][k] = slip[i][Z + k] = next[i][k];
     }
 }

@@ -1,4 +1,4 @@
-// Joint loads after opening and slip, from the bonded loads: joints between rigid halves.
+// Joint loads after opening, from the bonded loads: joints between rigid halves.
 //
 // The equations of all joints are solved by sweeps (Jacobi's iteration).
 //   Start    the state in which all joints carry the same load, the centrifugal one.  In it L_0 and the moves depend
@@ -10,9 +10,6 @@
 // Most joints are near the centrifugal state at most instants, so that this takes a few evaluations of the law
 // instead of several for each joint.  The results are within 2.5 % of the converged ones (tests/test_rivets.py),
 // and jump by less where a joint enters or leaves a sweep.
-//
-// In the plane a joint slips, by s along V: of the bonded V the part that friction and hole do not take is
-// relieved through the slip stiffness (joint_slip).
 #pragma once
 
 #include "cage/common/joint_law.h"
@@ -23,14 +20,3 @@
 // M_t under the centrifugal load alone, and the preload with it.
 void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
                  scalar spin_M, scalar spin_P, ball_array load[3], ball_array rivet[3]);
-
-// What joints have for the transverse loads: friction of plates and heads [N], play [m]; stiffness of heads
-// and hole [N/m].
-typedef struct {
-    ball_array plates, heads, gap, k_hole;
-    double k_head;
-} SlipLimits;
-
-// Adds what plates, heads and shanks carry (r, t) of the bonded loads V_r, V_t [N].
-void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
-                 ball_array plates[2], ball_array heads[2], ball_array shank[2]);

@@ -26,6 +26,7 @@
 #include "cage/two_half/two_half.h"
 
 #include "cage/common/cage_joint.h"
+#include "cage/common/joint_slip.h"
 #include "cage/common/spin_preload.h"
 #include "cage/two_half/joint_open.h"
 #include "numbers/elimination.h"
@@ -134,34 +135,20 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
         wide_store(&w->joint_dissipated[k], wide_load(&w->joint_dissipated[k]) + wide_load(&damped[k]));
 }
 
-// Friction and play that the rigid share leaves for more.
-static void find_limits(const Model *model, const Work *w, SlipLimits *left)
+// Adds what the load path puts on plates, heads and shanks.
+ONCE void add_slip(const Model *model, const Work *w, JointShear *shear)
 {
-    const Derived *d = model->d;
-    const double mu = model->p->joint.mu;
-    const wide zero = wide_set(0.0);
-    left->k_head = d->k_head;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide u = wide_hypot(wide_load(&w->u_y[k]), wide_load(&w->u_z[k]));
-        const wide S = wide_hypot(wide_load(&w->S_y[k]), wide_load(&w->S_z[k]));
-        const wide H = wide_hypot(wide_load(&w->H_y[k]), wide_load(&w->H_z[k]));
-        wide_store(&left->plates[k], wide_max(mu * wide_load(&w->two_half.N_plate[k]) - S, zero));
-        wide_store(&left->heads[k], wide_max(mu * wide_load(&w->two_half.rivet[0][k]) - H, zero));
-        wide_store(&left->gap[k], wide_max(wide_load(&d->hole_gap[k]) - u, zero));
-        wide_store(&left->k_hole[k], wide_load(&d->k_hole[k]));
-    }
+    const TwoHalfWork *t = &w->two_half;
+    const SlipState at = {w->u_y, w->u_z, t->rivet[0], t->N_plate};
+    joint_slip_add(model, w, &at, t->bonded_V[0], t->bonded_V[1], shear);
 }
 
 void two_half_loads(const Model *model, const Work *w, JointLoads *load)
 {
-    const TwoHalfWork *t = &w->two_half;
     JointShear shear;
     cage_joint_carried(model, w, &shear);
-    SlipLimits left;
-    find_limits(model, w, &left);
-    joints_slip(&rivet_table.half.law, t->bonded_V[0], t->bonded_V[1], &left, shear.plates, shear.heads,
-                shear.shank);
-    cage_joint_loads(model, t->load, t->rivet, &shear, load);
+    add_slip(model, w, &shear);
+    cage_joint_loads(model, w->two_half.load, w->two_half.rivet, &shear, load);
 }
 
 // ---- a step -------------------------------------------------------------------------------------------------

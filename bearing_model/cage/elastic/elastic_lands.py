@@ -1,0 +1,71 @@
+"""The films of the lands on the rivets of elastic halves: static loads, which neither modes nor friction feel.
+
+The films press on the rims and so pry at the joints: the load path (half_path.py) gives the loads Delta L, Delta V of
+bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the modes
+leave; a static load meets the whole half around the joint, K_0 (joint_law.py),
+
+    L_0 = L + K_0 delta,     delta = K^-1 (L_K - L)
+    L_0' = L_0 + Delta L - sum over other joints of K_(k-j) (delta' - delta)_j,     (delta', T', m')_k = law_0(L_0', P + Delta P)_k
+
+and the rivet's loads change by law_0(L_0', P + Delta P) - law_0(L_0, P), which is 0 without a film; two sweeps leave 1.3 % of the
+change.  In the plane friction and play that the motion leaves over carry Delta V, as between rigid halves (joint_slip.py).
+
+One-way forces of a film on the modes have no damping by it and are unsound (docs/notes/lands_that_bend.md).
+Smoothness: that of the law, C1.
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from bearing_model.cage.common.joint_law import joint_law
+from bearing_model.cage.common.joint_slip import joint_slip_add
+from bearing_model.cage.two_half.half_path import land_rows
+from bearing_model.numbers.lanes import maximum
+from bearing_model.physics.land_film import land_film_loads
+
+SWEEPS = 2
+
+
+def answers(law, intact, L_0, P):
+    """Moves of the pads and loads of the rivets [..., Z, 3] by L_0; a broken joint carries nothing."""
+    move, rivet = joint_law(law, L_0, P)
+    free = np.linalg.solve(law.stiffness[0], np.swapaxes(L_0, -1, -2)).swapaxes(-1, -2)
+    return np.where(intact, move, free), np.where(intact, rivet, 0.0)
+
+
+def static_changes(model, trial, load, bonded, P, more_P):
+    """Changes of the joints' loads and of their rivets' [..., Z, 3] by loads `bonded` and preloads `more_P` of bonded joints,
+    from the trial loads L_K and loads L by the modes.
+    """
+    law, intact = model.d.table.half.law, np.asarray(model.d.intact)[:, None] > 0.0
+    K_0 = law.stiffness[0]
+    start = load + (trial - load) @ np.linalg.inv(model.modes.law.stiffness).T @ K_0.T
+    before = answers(law, intact, start, P)
+    L_0 = start + bonded
+    for sweep in range(SWEEPS):
+        move, rivet = answers(law, intact, L_0, maximum(P + more_P, 0.0))
+        change = move - before[0]
+        if sweep < SWEEPS - 1:
+            L_0 = start + bonded - (change.reshape(*change.shape[:-2], -1) @ law.among.T).reshape(change.shape)
+    return L_0 - start - change @ K_0.T, rivet - before[1]
+
+
+def elastic_lands(model, w, P, shear):
+    """Loads of the joints and of their rivets [3, ..., Z] with the films; adds the shear loads that they put on plates, heads and
+    shanks.  P: preloads with the centrifugal load.
+    """
+    j, d = w.elastic.joints, model.d
+    rows = land_rows(d.table.half, model.p.cage.land_x, land_film_loads(w))
+    trial, load = (np.moveaxis(x, 0, -1) for x in (j.trial, j.load))
+    P = P + 0.0 * rows[..., 0]
+    load, rivet = (
+        np.moveaxis(change, -1, 0)
+        for change in static_changes(model, trial, load, rows[..., [0, 3, 4]], P, rows[..., 5])
+    )
+    load = j.load + load
+    rivet = j.rivet + rivet + d.intact * np.moveaxis(rows[..., 5:] * [0.0, 1.0, 1.0], -1, 0)
+    rivet[0] = maximum(rivet[0], 0.0)
+    N_plate = maximum(rivet[0] - load[0], 0.0)
+    joint_slip_add(model, w, j.u, rivet[0], N_plate, np.moveaxis(rows[..., 1:3], -1, 0), shear)
+    return SimpleNamespace(load=load, rivet=rivet)

@@ -1,0 +1,134 @@
+// The films of the lands on the rivets of elastic halves: static loads, which neither modes nor friction feel.
+//
+// The films press on the rims and so pry at the joints: the load path (half_path.h) gives the loads Delta L, Delta V of
+// bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the
+// modes leave; a static load meets the whole half around the joint, K_0 (joint_law.h),
+//
+//     L_0 = L + K_0 delta,     delta = K^-1 (L_K - L)
+//     L_0' = L_0 + Delta L - sum over other joints of K_(k-j) (delta' - delta)_j,
+//     (delta', T', m')_k = law_0(L_0', P + Delta P)_k
+//
+// and the rivet's loads change by law_0(L_0', P + Delta P) - law_0(L_0, P), which is 0 without a film; two sweeps leave
+// 1.3 % of the change.  In the plane friction and play that the motion leaves over carry Delta V, as between rigid halves
+// (joint_slip.h).
+//
+// One-way forces of a film on the modes have no damping by it and are unsound (docs/notes/lands_that_bend.md).
+// Smoothness: that of the law, C1.
+#include "cage/elastic/elastic_lands.h"
+
+#include "cage/common/joint_slip.h"
+#include "cage/elastic/elastic_half.h"
+#include "physics/land_film.h"
+#include "rivet/rivet_rom.h"
+
+enum { LAND_SWEEPS = 2 };
+
+// Moves of the pads and loads of the rivets.
+typedef struct {
+    ball_array move[3], rivet[3];
+} Answers;
+
+// Those by L_0; a broken joint carries nothing.
+static void answer(const Derived *d, ball_array L_0[3], const ball_array P, Answers *to)
+{
+    const JointLaw *law = &rivet_table.half.law;
+    LawPlaces at;
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide L[3] = {wide_load(&L_0[0][k]), wide_load(&L_0[1][k]), wide_load(&L_0[2][k])};
+        law_places(law, L, wide_load(&P[k]), k, &at);
+    }
+    for (int k = 0; k < LANES; k++) {
+        scalar move[3] = {0.0, 0.0, 0.0}, rivet[3] = {0.0, 0.0, 0.0}, energy;
+        const scalar load[3] = {L_0[0][k], L_0[1][k], L_0[2][k]};
+        if (k < Z && d->intact[k] > 0.0)
+            law_answer(law, &at, k, load[1], move, rivet, &energy);
+        else if (k < Z)
+            law_free(law->K_0, load, move);
+        for (int i = 0; i < 3; i++) to->move[i][k] = move[i], to->rivet[i][k] = rivet[i];
+    }
+}
+
+// L_0 of the joints by the modes.
+static void find_start(const ElasticHalf *half, const ElasticJoints *joints, ball_array L_0[3])
+{
+    const JointLaw *law = &rivet_table.half.law;
+    double part[3][3];  // K_0 K^-1
+    for (int i = 0; i < 3; i++)
+        for (int n = 0; n < 3; n++) {
+            part[i][n] = 0.0;
+            for (int m = 0; m < 3; m++) part[i][n] += law->K_0[i][m] * half->R[m][n];
+        }
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide moved[3];
+        for (int i = 0; i < 3; i++)
+            moved[i] = wide_load(&joints->trial[i][k]) - wide_load(&joints->load[i][k]);
+        for (int i = 0; i < 3; i++)
+            wide_store(&L_0[i][k], wide_load(&joints->load[i][k]) + part[i][0] * moved[0] +
+                                       part[i][1] * moved[1] + part[i][2] * moved[2]);
+    }
+}
+
+// Changes of the moves, once more behind the last joint.
+static void find_changes(const Answers *before, const Answers *now, JointMoves change)
+{
+    for (int i = 0; i < 3; i++)
+        for (int turn = 0; turn < 2; turn++)
+            for (int k = 0; k < Z; k++) change[i][turn * Z + k] = now->move[i][k] - before->move[i][k];
+}
+
+// Rows of the load path.
+static void find_rows(const Model *model, const Work *w, PathRows *rows)
+{
+    LandLoad land[2];
+    land_film_loads(model, w, land);
+    const scalar *re[2] = {land[0].re, land[1].re}, *im[2] = {land[0].im, land[1].im};
+    memset(rows, 0, sizeof *rows);
+    half_path_add_lands(&model->d->land_path, re, im, rows);
+}
+
+void elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
+                   JointShear *shear)
+{
+    const Derived *d = model->d;
+    const JointLaw *law = &rivet_table.half.law;
+    const ElasticJoints *by_modes = &w->elastic.joints;
+    const int kind[3] = {ROW_N, ROW_M_R, ROW_M_T};
+    const wide zero = wide_set(0.0);
+    PathRows rows;
+    ball_array start[3], bonded[3], L_0[3], more_P, N_plate;
+    JointMoves change = {{0.0}};
+    Answers before, now;
+    find_rows(model, w, &rows);
+    find_start(model->modes, by_modes, start);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        wide_store(&more_P[k], wide_max(wide_load(&P[k]) + wide_load(&rows.row[ROW_DP][k]), zero));
+        for (int i = 0; i < 3; i++)
+            wide_store(&bonded[i][k], wide_load(&start[i][k]) + wide_load(&rows.row[kind[i]][k]));
+    }
+    answer(d, start, P, &before);
+    for (int sweep = 0; sweep < LAND_SWEEPS; sweep++) {
+        wide trial[PACKETS][3];
+        law_trials(law, bonded, change, trial);
+        for (int p = 0; p < PACKETS; p++)
+            for (int i = 0; i < 3; i++) wide_store(&L_0[i][p * LANE_WIDTH], trial[p][i]);
+        answer(d, L_0, more_P, &now);
+        find_changes(&before, &now, change);
+    }
+
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        for (int i = 0; i < 3; i++) {
+            wide load = wide_load(&L_0[i][k]) - wide_load(&start[i][k]);
+            for (int n = 0; n < 3; n++)
+                load -= law->K_0[i][n] * (wide_load(&now.move[n][k]) - wide_load(&before.move[n][k]));
+            wide rivet = wide_load(&now.rivet[i][k]) - wide_load(&before.rivet[i][k]);
+            if (i > 0) rivet += wide_load(&d->intact[k]) * wide_load(&rows.row[ROW_DP + i][k]);
+            rivet += wide_load(&by_modes->rivet[i][k]);
+            wide_store(&joints->load[i][k], wide_load(&by_modes->load[i][k]) + load);
+            wide_store(&joints->rivet[i][k], i == 0 ? wide_max(rivet, zero) : rivet);
+        }
+        const wide T = wide_load(&joints->rivet[0][k]);
+        wide_store(&N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
+    }
+    const SlipState at = {by_modes->u_y, by_modes->u_z, joints->rivet[0], N_plate};
+    joint_slip_add(model, w, &at, rows.row[ROW_V_R], rows.row[ROW_V_T], shear);
+}
