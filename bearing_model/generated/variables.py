@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{aef22b21-e157-25b3-bed5-5e96f57c6843}"
+MODEL_GUID = "{48e7a66a-0b63-e2d5-be92-63ff8dc2f021}"
 Z = 9
 
 

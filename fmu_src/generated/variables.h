@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{aef22b21-e157-25b3-bed5-5e96f57c6843}"  // digest of the table
+#define MODEL_GUID "{48e7a66a-0b63-e2d5-be92-63ff8dc2f021}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
