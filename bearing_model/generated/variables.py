@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{8e6a4aca-584b-8f5c-92b4-c4edba1ec6f7}"
+MODEL_GUID = "{4d0b463a-664f-6b2c-3c6f-6237bab4dd3d}"
 Z = 9
 
 

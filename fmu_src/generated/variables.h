@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{8e6a4aca-584b-8f5c-92b4-c4edba1ec6f7}"  // digest of the table
+#define MODEL_GUID "{4d0b463a-664f-6b2c-3c6f-6237bab4dd3d}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
