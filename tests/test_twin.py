@@ -667,7 +667,9 @@ def test_ledger(record_property):
     for name, value in terms.items():
         assert value.shape == results.t.shape and value[0] == 0.0
         # no wall is reached in a millisecond, the speed jumps
-        assert np.max(np.abs(value)) > 1e-9 or name in ("land, elastic", "growth of the ring", "growth of the cage"), name
+        assert np.max(np.abs(value)) > 1e-9 or name in ("land, elastic", "growth of the ring", "growth of the cage"), (
+            name
+        )
     for name, value in ledger.lost.items():
         assert np.all(np.diff(value) >= 0.0), name
     energy = sum(value[-1] for value in ledger.stored.values())
