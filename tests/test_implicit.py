@@ -214,6 +214,7 @@ def test_a_whirling_land_is_not_held_back(core):
     instance, loss = Instance(core, {"cage.unbalance": 1e-4}), 0.0
     for k in range(100):
         loss += 1e-4 * instance.step((k + 1) * 1e-4).output("bearing.power_loss")
-    assert instance.output("cage.eccentricity") > 0.95
+    growth = 4.6e-12 * 755.0**2 / 1e-4  # of the cage, in clearances at rest
+    assert instance.output("cage.eccentricity") > 0.95 * (1.0 - growth)
     # observed 8e-4, without predictions that know the film 3e-4
     assert abs(instance.output("bearing.energy_residual")) < 2e-3 * loss

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{4d0b463a-664f-6b2c-3c6f-6237bab4dd3d}"
+MODEL_GUID = "{9a8af568-a53e-eaa3-aa51-c91981e652d0}"
 Z = 9
 
 
@@ -248,7 +248,7 @@ PARAMETERS = {
         Variable("cage.pocket_radius", 1134, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Radius of the sphere of a ribbon half's pocket; 0 stands for (bearing.D + cage.pocket_clearance)/2, another value must agree with it", "0: from the pocket clearance", False, "it is part of the geometry"),
         Variable("cage.pocket_fillet", 1135, "Real", "m", "mm", 0.0, 0.0, 0.1, 1, None, "Radius of the convex fillet between the sphere and the land of a ribbon half, on the balls' side", "machined cages have none", False, "it is part of the geometry"),
         Variable("cage.pocket_edge", 1136, "Real", "m", "mm", 0.0, 0.0, 0.01, 1, None, "Radius of the edges of a ribbon half's pocket, at the cage's outer and inner diameter; 0 stands for cage.sheet/10", "0: assumed, a tenth of the sheet (tumbled edges)", False, "it is part of the geometry"),
-        Variable("cage.centrifugal", 1122, "Switch", "1", None, 2, None, None, 1, None, "Centrifugal load of the cage halves at the rivets", "physics; off: for comparison with figures that leave it out", False, None),
+        Variable("cage.centrifugal", 1122, "Switch", "1", None, 2, None, None, 1, None, "Centrifugal load of the cage halves: at the rivets, and their growth at the guiding land", "physics; off: for comparison with figures that leave it out", False, None),
         Variable("pocket[j].dtheta", 8420, "Real", "rad", "deg", 0.0, -0.05, 0.05, Z, None, "Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation", "perfect cage", False, "it is part of the geometry"),
         Variable("pocket[j].dD", 8460, "Real", "m", "um", 0.0, -0.001, 0.001, Z, None, "Excess of the pocket's diameter", "perfect cage", False, "it is part of the geometry"),
         Variable("cage.modal_damping", 1123, "Real", "1", None, 0.01, 0.0, 0.2, 1, None, "Damping ratio of each vibration mode of the halves, scene.cage = elastic", "assumed: riveted and machined brass parts lose 0.3 to 3 % (structural damping)", False, None),
@@ -491,7 +491,7 @@ OUTPUTS = {
         Variable("cage.slip_ratio", 2703, "Real", "1", None, None, None, None, 1, "cage", "1 - cage speed / epicyclic speed (0 at standstill)", None, False, None),
         Variable("cage.y", 2704, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Y (mean of the halves)", None, False, None),
         Variable("cage.z", 2705, "Real", "m", "um", None, None, None, 1, "cage", "Displacement of the cage's centre along Z (mean of the halves)", None, False, None),
-        Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre against the outer ring / radial guide clearance", None, False, None),
+        Variable("cage.eccentricity", 2706, "Real", "1", None, None, None, None, 1, "cage", "Displacement of the cage's centre against the outer ring / radial guide clearance at rest (of a cage guided by balls: pocket clearance)", None, False, None),
         Variable("cage.F_pocket_max", 2707, "Real", "N", None, None, None, None, 1, "ball", "Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*", None, False, None),
         Variable("cage.F_pocket_peak", 2708, "Real", "N", None, None, None, None, 1, "peak", "Largest pocket contact load since the last communication point", None, False, None),
         Variable("rivet[k].sigma_head", 3000, "Real", "Pa", "MPa", None, None, None, Z, "stress", "Largest principal stress in the head fillet; at an instant of a chaotic motion: compare stat.*", None, False, None),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{4d0b463a-664f-6b2c-3c6f-6237bab4dd3d}"  // digest of the table
+#define MODEL_GUID "{9a8af568-a53e-eaa3-aa51-c91981e652d0}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -162,7 +162,7 @@ typedef struct {
         double pocket_radius;  // [m] Radius of the sphere of a ribbon half's pocket; 0 stands for (bearing.D + cage.pocket_clearance)/2, another value must agree with it
         double pocket_fillet;  // [m] Radius of the convex fillet between the sphere and the land of a ribbon half, on the balls' side
         double pocket_edge;  // [m] Radius of the edges of a ribbon half's pocket, at the cage's outer and inner diameter; 0 stands for cage.sheet/10
-        int centrifugal;  // Switch: Centrifugal load of the cage halves at the rivets
+        int centrifugal;  // Switch: Centrifugal load of the cage halves: at the rivets, and their growth at the guiding land
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
         double modal_damping_high;  // [1] Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency
     } cage;
@@ -472,7 +472,7 @@ typedef struct {
         scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
         scalar y;  // [m] Displacement of the cage's centre along Y (mean of the halves)
         scalar z;  // [m] Displacement of the cage's centre along Z (mean of the halves)
-        scalar eccentricity;  // [1] Displacement of the cage's centre against the outer ring / radial guide clearance
+        scalar eccentricity;  // [1] Displacement of the cage's centre against the outer ring / radial guide clearance at rest (of a cage guided by balls: pocket clearance)
         scalar F_pocket_max;  // [N] Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*
         scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;

@@ -159,9 +159,9 @@ class Bench:
             else float(value)
         )
 
-    def __call__(self, names, points, responses, seeds=None):
+    def __call__(self, names, points, responses, seeds=None, to_the_stop=False):
         """Responses of the points [n, d] with each seed, [n, seeds, m]; seeds: start.seed of the runs, None for those
-        of the study.
+        of the study; to_the_stop: also of runs that the FMU ended, up to there, else NaN.
         """
         seeds = list(range(self.first, self.first + self.seeds)) if seeds is None else list(seeds)
         keys = []
@@ -186,7 +186,8 @@ class Bench:
                 point = self.point_text(names, rows, i) or self.label
                 raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")
         values = np.column_stack([response(self.path, rows, name)[chosen] for name in responses])
-        values[rows["status"][chosen] == "stopped"] = np.nan
+        if not to_the_stop:
+            values[rows["status"][chosen] == "stopped"] = np.nan
         return values.reshape(len(points), len(seeds), len(responses))
 
     def point_text(self, names, rows, i):

@@ -157,7 +157,8 @@ def run_single(path, document, model, folder, client, found, progress=None):
         bench = Bench(path, common | {"parameters": section | own}, model, folder, client, progress)
         rivets = len(cascade.states[0].rates)
         names = [f"rivet[{k}].{what}" for k in range(1, rivets + 1) for what in ("break_time", "broken")]
-        values = bench([], [[]], names)[0].reshape(bench.seeds, rivets, 2)
+        # a run ends where all rivets are broken
+        values = bench([], [[]], names, to_the_stop=True)[0].reshape(bench.seeds, rivets, 2)
         lives[cascade.name] = [breaks_of(times, settle, factor)[:breaks] for times in values]
     return lives
 
