@@ -302,6 +302,25 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
 }
 
 #ifndef DUAL
+// A film's force, in the frame of its half, and what a change of V adds to it by the film's rates.
+static void land_film_step(const LandPressure *on, const double change[2], double F[2], double more[2])
+{
+    const double inv_V = 1.0 / scalar_sqrt(on->V[0] * on->V[0] + on->V[1] * on->V[1] + 1e-30);
+    const double n_y = on->V[0] * inv_V, n_z = on->V[1] * inv_V;
+    const double a = (on->e[0] * n_y + on->e[1] * n_z) * on->cap,
+                 b = (on->e[1] * n_y - on->e[0] * n_z) * on->cap;
+    const wide q2 = wide_set(on->q2);
+    const FilmIntegrals film = land_film_integrals(wide_set(a), wide_set(b), q2, 1.0 / wide_sqrt(q2));
+    const double I_c = wide_lane(film.I_c, 0), I_s = wide_lane(film.I_s, 0), I_t = wide_lane(film.I_t, 0);
+    const double kappa = on->kappa / (on->q2 * on->q2);
+    const double along = n_y * change[0] + n_z * change[1], across = n_y * change[1] - n_z * change[0];
+    const double K_n = I_c * along + I_s * across, K_t = I_s * along + I_t * across;
+    F[0] = -kappa * (I_c * on->V[0] - I_s * on->V[1]), F[1] = -kappa * (I_c * on->V[1] + I_s * on->V[0]);
+    more[0] = -kappa * (K_n * n_y - K_t * n_z), more[1] = -kappa * (K_n * n_z + K_t * n_y);
+}
+
+// The velocities become those of the step's end.  The law is steep there: the size of the film's force becomes that of the
+// step, whose solve has the force at the velocities of the evaluation and its rates.
 void land_film_arrive(const Model *model, const double *change, Work *w)
 {
     if (!model->d->guided) return;
@@ -312,8 +331,16 @@ void land_film_arrive(const Model *model, const double *change, Work *w)
         const double u_z = v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x;
         const Rotor *half = &w->half[h];
         LandPressure *on = &w->pressure[h];
-        on->V[0] += half->b_y[1] * u_y + half->b_y[2] * u_z + turn * on->e[1];
-        on->V[1] += half->b_z[1] * u_y + half->b_z[2] * u_z - turn * on->e[0];
+        const double by[2] = {half->b_y[1] * u_y + half->b_y[2] * u_z + turn * on->e[1],
+                              half->b_z[1] * u_y + half->b_z[2] * u_z - turn * on->e[0]};
+        const double none[2] = {0.0, 0.0};
+        double F[2], more[2], there[2], nothing[2];
+        land_film_step(on, by, F, more);
+        on->V[0] += by[0], on->V[1] += by[1];
+        land_film_step(on, none, there, nothing);
+        const double size = there[0] * there[0] + there[1] * there[1];
+        const double share = (F[0] + more[0]) * there[0] + (F[1] + more[1]) * there[1];
+        if (size > 0.0) on->kappa *= fmax(share / size, 0.0);
     }
 }
 #endif
