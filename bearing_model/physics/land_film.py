@@ -68,6 +68,39 @@ def land_film_integrals(a, b, q2):
     return I_c, I_s, I_t
 
 
+@dataclass
+class JournalFilm:
+    """A film where it is: direction n of V, kappa [N.s/m], integrals over the closing half."""
+
+    n_y: np.ndarray
+    n_z: np.ndarray
+    kappa: np.ndarray
+    over: tuple
+
+    def force(self, V_y, V_z):
+        """Along both axes [N]."""
+        I_c, I_s, _ = self.over
+        return -self.kappa * (I_c * V_y - I_s * V_z), -self.kappa * (I_c * V_z + I_s * V_y)
+
+    def rates(self):
+        """-dF/dV: yy, yz, zz [N.s/m]."""
+        (I_c, I_s, I_t), n_y, n_z = self.over, self.n_y, self.n_z
+        return {
+            "yy": self.kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
+            "yz": self.kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
+            "zz": self.kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
+        }
+
+
+def journal_film(e, V, cap, q2, kappa):
+    """JournalFilm at the eccentricity e with the squeeze velocity V, (y, z) each; cap: limiter of e over the clearance [1/m]."""
+    (e_y, e_z), (V_y, V_z) = e, V
+    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
+    n_y, n_z = V_y / V, V_z / V
+    a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
+    return JournalFilm(n_y, n_z, kappa, land_film_integrals(a, b, q2))
+
+
 def land_film_gap(eps, g_0):
     """q^2: 1 - eps^2 inside, g_0 at the wall, and g_0/2 far behind the wall."""
     above = 1.0 - eps * eps - 0.5 * g_0
@@ -139,14 +172,9 @@ class LandPressure:
 def land_film_loads(w):
     """Harmonics of the loads on the rims [N] by the pressure, two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
     on = w.pressure
-    (e_y, e_z), (V_y, V_z) = on.e, on.V
-    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
-    n_y, n_z = V_y / V, V_z / V
-    a, b = (e_y * n_y + e_z * n_z) * on.cap, (e_z * n_y - e_y * n_z) * on.cap
-    I_c, I_s, _ = land_film_integrals(a, b, on.q2)
-    along, across = I_c * V_y - I_s * V_z, I_c * V_z + I_s * V_y
-    force = on.kappa * np.sqrt(along * along + across * across + 1e-30)
-    return land_load(on.e, on.V, on.q2 + 0.0 * e_y, force, on.dry)
+    F_y, F_z = journal_film(on.e, on.V, on.cap, on.q2, on.kappa).force(*on.V)
+    force = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
+    return land_load(on.e, on.V, on.q2 + 0.0 * force, force, on.dry)
 
 
 def no_land(w):
@@ -182,20 +210,17 @@ def land_film_force(model, w):
 
     # film
     V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
-    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
-    n_y, n_z = V_y / V, V_z / V
     e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
     spin = wide_pair(h0.s, h1.s) + w.frame_omega  # in space
     C = land_clearance(d, spin)
     narrow = d.C_land / C
     eps = e / C
     cap = minimum(1.0, EPS_CAP / eps) / C
-    a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
     q2 = land_film_gap(eps, p.cage.g_0)
-    I_c, I_s, I_t = land_film_integrals(a, b, q2)
     heated = land_film_heating(d.nahme * omega * omega) if d.nahme > 0.0 else 1.0
     kappa = d.kappa * heated * narrow**3
-    F_y, F_z = -kappa * (I_c * V_y - I_s * V_z), -kappa * (I_c * V_z + I_s * V_y)
+    film = journal_film((e_y, e_z), (V_y, V_z), cap, q2, kappa)
+    F_y, F_z = film.force(V_y, V_z)
     couette = d.couette * heated / np.sqrt(q2) * narrow
     force = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
 
@@ -222,13 +247,7 @@ def land_film_force(model, w):
     w.land_growth = N_0 * land_growth_rate(d, spin)
     w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
 
-    # -dF/dv in the global frame
-    rates = {
-        "yy": kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
-        "yz": kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
-        "zz": kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
-        "spin": couette + g * R * R,
-    }
+    rates = film.rates() | {"spin": couette + g * R * R}
     w.film = [SimpleNamespace(**{name: rate[..., h : h + 1] for name, rate in rates.items()}) for h in range(2)]
 
     axes = wide_pair(h0.b_y, h1.b_y), wide_pair(h0.b_z, h1.b_z)

@@ -70,6 +70,49 @@ INLINE FilmIntegrals land_film_integrals(wide a, wide b, wide q2, wide inv_q)
                            a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b)};
 }
 
+// A film where it is: direction n of V, kappa/q^4, integrals over the closing half.
+typedef struct {
+    wide n_y, n_z, kappa;
+    FilmIntegrals over;
+} JournalFilm;
+
+// cap: limiter of the eccentricity over the clearance; eta: kappa of the head of this file.
+INLINE JournalFilm journal_film(wide e_y, wide e_z, wide V_y, wide V_z, wide cap, wide q2, wide eta)
+{
+    const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
+    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
+    const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
+    const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
+    return (JournalFilm){n_y, n_z, eta * inv_q2 * inv_q2, land_film_integrals(a, b, q2, inv_q)};
+}
+
+typedef struct {
+    wide y, z;
+} JournalForce;
+
+INLINE JournalForce journal_force(const JournalFilm *film, wide V_y, wide V_z)
+{
+    const FilmIntegrals *over = &film->over;
+    return (JournalForce){-film->kappa * (over->I_c * V_y - over->I_s * V_z),
+                          -film->kappa * (over->I_c * V_z + over->I_s * V_y)};
+}
+
+// -dF/dV.
+typedef struct {
+    wide yy, yz, zz;
+} JournalRates;
+
+INLINE JournalRates journal_rates(const JournalFilm *film)
+{
+    const wide I_c = film->over.I_c, I_s = film->over.I_s, I_t = film->over.I_t, n_y = film->n_y,
+               n_z = film->n_z;
+    return (JournalRates){
+        film->kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
+        film->kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
+        film->kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
+    };
+}
+
 // Viscosity of the heated film / eta; s_2: Na/8.
 INLINE wide land_film_heating(wide s_2)
 {
@@ -224,21 +267,19 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
 
     // film: direction n of V, eccentricity (a, b) along and across V, gap function q^2
     const wide V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
-    const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
-    const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
     const wide e_2 = e_y * e_y + e_z * e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2), e = e_2 * inv_e;
     const scalar spin[2] = {h0->s + w->frame_omega, h1->s + w->frame_omega};  // in space
     const wide C = wide_pair(land_clearance(d, spin[0]), land_clearance(d, spin[1]));
     const wide inv_C = 1.0 / C, narrow = d->C_land * inv_C;
     const wide eps = e * inv_C, cap = wide_min(inv_C, EPS_CAP * inv_e);
-    const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
-    const wide q2 = land_film_gap(eps, p->cage.g_0), inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
-    const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
-    const wide I_c = film.I_c, I_s = film.I_s, I_t = film.I_t;
+    const wide q2 = land_film_gap(eps, p->cage.g_0);
     const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
-    const wide eta = d->kappa * heated * (narrow * narrow * narrow), kappa = eta * inv_q2 * inv_q2;
-    wide F_y = -kappa * (I_c * V_y - I_s * V_z), F_z = -kappa * (I_c * V_z + I_s * V_y);
-    const wide couette = d->couette * heated * inv_q * narrow;
+    const wide eta = d->kappa * heated * (narrow * narrow * narrow);
+    const JournalFilm film = journal_film(e_y, e_z, V_y, V_z, cap, q2, eta);
+    const JournalForce by_film = journal_force(&film, V_y, V_z);
+    const JournalRates rates = journal_rates(&film);
+    wide F_y = by_film.y, F_z = by_film.z;
+    const wide couette = d->couette * heated * (1.0 / wide_sqrt(q2)) * narrow;
     const wide force = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
 
     // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
@@ -266,11 +307,6 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const wide power = F_y * v_y + F_z * v_z + M_x * omega;
     const wide elastic = hertz_energy(wide_set(p->cage.K_land), pen), elastic_rate = N_0 * pen_dot;
 
-    // -dF/dv in the global frame
-    const wide K_yy = kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z);
-    const wide K_zz = kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y);
-    const wide K_yz = kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z));
-
     // wrench on each half about its geometric centre
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
@@ -286,7 +322,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
             half->M[2] += arm[0] * F[1];
         } else
             add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
-        w->film[h] = (LandFilm){wide_lane(K_yy, i), wide_lane(K_yz, i), wide_lane(K_zz, i),
+        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i),
                                 wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h};
         LandPressure *on = &w->pressure[h];
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
@@ -301,46 +337,52 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     }
 }
 
-#ifndef DUAL
-// A film's force, in the frame of its half, and what a change of V adds to it by the film's rates.
-static void land_film_step(const LandPressure *on, const double change[2], double F[2], double more[2])
+// The film by the pressures of HALVES halves side by side.
+INLINE JournalFilm pressure_film(const LandPressure *p0, const LandPressure *p1, JournalForce *F)
 {
-    const double inv_V = 1.0 / scalar_sqrt(on->V[0] * on->V[0] + on->V[1] * on->V[1] + 1e-30);
-    const double n_y = on->V[0] * inv_V, n_z = on->V[1] * inv_V;
-    const double a = (on->e[0] * n_y + on->e[1] * n_z) * on->cap,
-                 b = (on->e[1] * n_y - on->e[0] * n_z) * on->cap;
-    const wide q2 = wide_set(on->q2);
-    const FilmIntegrals film = land_film_integrals(wide_set(a), wide_set(b), q2, 1.0 / wide_sqrt(q2));
-    const double I_c = wide_lane(film.I_c, 0), I_s = wide_lane(film.I_s, 0), I_t = wide_lane(film.I_t, 0);
-    const double kappa = on->kappa / (on->q2 * on->q2);
-    const double along = n_y * change[0] + n_z * change[1], across = n_y * change[1] - n_z * change[0];
-    const double K_n = I_c * along + I_s * across, K_t = I_s * along + I_t * across;
-    F[0] = -kappa * (I_c * on->V[0] - I_s * on->V[1]), F[1] = -kappa * (I_c * on->V[1] + I_s * on->V[0]);
-    more[0] = -kappa * (K_n * n_y - K_t * n_z), more[1] = -kappa * (K_n * n_z + K_t * n_y);
+    const wide V_y = wide_pair(p0->V[0], p1->V[0]), V_z = wide_pair(p0->V[1], p1->V[1]);
+    const JournalFilm film =
+        journal_film(wide_pair(p0->e[0], p1->e[0]), wide_pair(p0->e[1], p1->e[1]), V_y, V_z,
+                     wide_pair(p0->cap, p1->cap), wide_pair(p0->q2, p1->q2), wide_pair(p0->kappa, p1->kappa));
+    *F = journal_force(&film, V_y, V_z);
+    return film;
+}
+
+#ifndef DUAL
+// Change of a half's squeeze velocity, along its axes.
+INLINE void squeeze_change(const Model *model, const Work *w, const double *change, int h, double by[2])
+{
+    const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
+    const double *v = change + h, turn = 0.5 * v[Y_CAGE_S - Y_CAGE_V_X];
+    const double u_y = v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x;
+    const double u_z = v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x;
+    const Rotor *half = &w->half[h];
+    const double *e = w->pressure[h].e;
+    by[0] = half->b_y[1] * u_y + half->b_y[2] * u_z + turn * e[1];
+    by[1] = half->b_z[1] * u_y + half->b_z[2] * u_z - turn * e[0];
 }
 
 // The velocities become those of the step's end.  The law is steep there: the size of the film's force becomes that of the
 // step, whose solve has the force at the velocities of the evaluation and its rates.
 void land_film_arrive(const Model *model, const double *change, Work *w)
 {
-    if (!model->d->guided) return;
-    for (int h = 0; h < 2; h++) {
-        const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
-        const double *v = change + h, turn = 0.5 * v[Y_CAGE_S - Y_CAGE_V_X];
-        const double u_y = v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x;
-        const double u_z = v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x;
-        const Rotor *half = &w->half[h];
-        LandPressure *on = &w->pressure[h];
-        const double by[2] = {half->b_y[1] * u_y + half->b_y[2] * u_z + turn * on->e[1],
-                              half->b_z[1] * u_y + half->b_z[2] * u_z - turn * on->e[0]};
-        const double none[2] = {0.0, 0.0};
-        double F[2], more[2], there[2], nothing[2];
-        land_film_step(on, by, F, more);
-        on->V[0] += by[0], on->V[1] += by[1];
-        land_film_step(on, none, there, nothing);
-        const double size = there[0] * there[0] + there[1] * there[1];
-        const double share = (F[0] + more[0]) * there[0] + (F[1] + more[1]) * there[1];
-        if (size > 0.0) on->kappa *= fmax(share / size, 0.0);
+    if (!model->d->guided || model->modes == NULL) return;
+    for (int first = 0; first < 2; first += HALVES) {
+        LandPressure *on[2] = {&w->pressure[first], &w->pressure[first + HALVES - 1]};
+        JournalForce solved, law;
+        double by[2][2] = {{0.0}};
+        for (int i = 0; i < HALVES; i++) squeeze_change(model, w, change, first + i, by[i]);
+        const JournalFilm film = pressure_film(on[0], on[1], &solved);
+        const JournalRates rates = journal_rates(&film);
+        const wide by_y = wide_pair(by[0][0], by[HALVES - 1][0]),
+                   by_z = wide_pair(by[0][1], by[HALVES - 1][1]);
+        solved.y -= rates.yy * by_y + rates.yz * by_z;
+        solved.z -= rates.yz * by_y + rates.zz * by_z;
+        for (int i = 0; i < HALVES; i++) on[i]->V[0] += by[i][0], on[i]->V[1] += by[i][1];
+        pressure_film(on[0], on[1], &law);
+        const wide size = law.y * law.y + law.z * law.z, along = solved.y * law.y + solved.z * law.z;
+        for (int i = 0; i < HALVES; i++)
+            if (wide_lane(size, i) > 0.0) on[i]->kappa *= fmax(wide_lane(along, i) / wide_lane(size, i), 0.0);
     }
 }
 #endif
@@ -348,17 +390,9 @@ void land_film_arrive(const Model *model, const double *change, Work *w)
 void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
 {
     for (int first = 0; first < 2; first += HALVES) {
-        const LandPressure *p0 = &w->pressure[first], *p1 = &w->pressure[first + HALVES - 1];
-        const wide e_y = wide_pair(p0->e[0], p1->e[0]), e_z = wide_pair(p0->e[1], p1->e[1]);
-        const wide V_y = wide_pair(p0->V[0], p1->V[0]), V_z = wide_pair(p0->V[1], p1->V[1]);
-        const wide cap = wide_pair(p0->cap, p1->cap), q2 = wide_pair(p0->q2, p1->q2);
-        const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
-        const wide n_y = V_y * inv_V, n_z = V_z * inv_V, inv_q = 1.0 / wide_sqrt(q2);
-        const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
-        const FilmIntegrals film = land_film_integrals(a, b, q2, inv_q);
-        const wide along = film.I_c * V_y - film.I_s * V_z, across = film.I_c * V_z + film.I_s * V_y;
-        const wide force =
-            wide_pair(p0->kappa, p1->kappa) * wide_sqrt(along * along + across * across + 1e-30) / (q2 * q2);
+        JournalForce F;
+        pressure_film(&w->pressure[first], &w->pressure[first + HALVES - 1], &F);
+        const wide force = wide_sqrt(F.y * F.y + F.z * F.z + 1e-30);
         for (int i = 0; i < HALVES; i++) {
             const LandPressure *on = &w->pressure[first + i];
             land_load(model->d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &load[first + i]);
