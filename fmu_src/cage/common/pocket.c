@@ -68,24 +68,16 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
     const wide R = wide_load(&d->R[j]);
 
     // normal
-    const vec a = gap->a, e_t = gap->e_t, arm_p = gap->p;
+    const vec a = gap->a, e_t = gap->e_t;
+    const PocketAxes axes = {a, gap->b, e_t, gap->p};
     const wide n_x = gap->n_x, n_t = gap->n_t;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
-    // velocity of the ball's centre against the half there
-    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
-    const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
-    const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
-    vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, arm_p));
-    if (wall) {
-        const vec along =
-            vec_axpy(wide_load(&wall->u_dot[0][j]), a, vec_scale(wide_load(&wall->u_dot[2][j]), e_t));
-        v = vec_sub(v, vec_axpy(wide_load(&wall->u_dot[1][j]), gap->b, along));
-    }
+    const PocketMotion motion = pocket_motion(w, half, j, &axes, wall ? wall->u_dot : NULL);
+    const vec v = motion.v;
     const wide delta_dot = vec_dot(n, v);
 
     // share of the half, contact load, and the energy's gradient across n
@@ -108,7 +100,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
     const vec arm = vec_scale(R, n);
-    const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
+    const vec slip = vec_across(vec_add(v, vec_cross(motion.spin, arm)), n);
     const wide slip_2 = vec_dot(slip, slip), U_2 = 0.25 * slip_2 + p->oil.U_0 * p->oil.U_0;
     const wide inv_U = 1.0 / wide_sqrt(U_2);
     wide ln_U, ln_Q;
@@ -121,7 +113,6 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     // same as in a packet that is left out.
     const vec F = vec_where(pressed, vec_add(F_n, vec_add(F_s, F_c))),
               M = vec_where(pressed, vec_cross(arm, F_s));
-    const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(arm_p, F_half), M);
 
     if (wall) {
         const vec drawn = vec_add(F_s, F_c);
@@ -144,34 +135,16 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     }
 
     wide_store(&pocket->Q[j], d->squeeze.filled ? Q + film.F : Q);
-    const wide zero = wide_set(0.0);
-    wide_store(&pocket->F_x[j], wide_select(pressed, vec_dot(F_half, a), zero));
-    wide_store(&pocket->F_r[j], wide_select(pressed, vec_dot(F_half, gap->b), zero));
-    wide_store(&pocket->F_t[j], wide_select(pressed, vec_dot(F_half, e_t), zero));
     wide_store(&pocket->push_x[j], wide_fma(F_across, n_t, Q * n_x));
     wide_store(&pocket->push_t[j], wide_fma(-F_across, n_x, Q * n_t));
     if (d->squeeze.filled) {
         wide_store(&pocket->push_x[j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&pocket->push_x[j])));
         wide_store(&pocket->push_t[j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&pocket->push_t[j])));
     }
-    scalar *const global[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
-                               pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    vec_to_global(F_half, cos_theta, sin_theta, &global[0][j], &global[1][j], &global[2][j]);
-    vec_to_global(M_half, cos_theta, sin_theta, &global[3][j], &global[4][j], &global[5][j]);
-    for (int i = 0; i < 6; i++)
-        wide_store(&global[i][j], wide_select(pressed, wide_load(&global[i][j]), wide_set(0.0)));
-
-    // on the balls: forces, stiff rates of friction in the tangent plane, dissipated power
-    const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
-    add_vec(F, &w->F_x[j], &w->F_r[j], &w->F_t[j]);
-    add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
-    add_vec(vec_scale(g / d->m, tangent), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
-    add_vec(vec_scale(g * (R * R / d->J), tangent), &w->D_omega_x[j], &w->D_omega_r[j], &w->D_omega_t[j]);
+    pocket_on_half(w, j, &axes, pressed, F, M, pocket);
     wide lost = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
     if (d->squeeze.filled) lost += film.F * vec_dot(film.m, v);
-    const wide dissipated = wide_select(pressed, lost, wide_set(-0.0));
-    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + dissipated);
-    wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
+    pocket_on_balls(model, w, j, pressed, n, F, M, g, lost);
 }
 
 // All pockets of one half.  Most pockets are not touched, so that their forces are not computed.

@@ -55,26 +55,19 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-    const wide R = wide_load(&d->R[j]), zero = wide_set(0.0), n_x = (h == 0 ? -1.0 : 1.0) * at->n_x;
+    const PocketAxes axes = {gap->a, gap->b, gap->e_t, gap->p};
+    const wide R = wide_load(&d->R[j]), n_x = (h == 0 ? -1.0 : 1.0) * at->n_x;
     const vec n = vec_axpy(at->n_t, gap->e_t, vec_axpy(at->n_r, gap->b, vec_scale(n_x, gap->a)));
 
-    // velocity of the ball's centre against the half there
-    const vec omega_b = vec_load(&w->omega_x[j], &w->omega_r[j], &w->omega_t[j]);
-    const vec v_b = vec_load(&w->v_x[j], &w->v_r[j], &w->v_t[j]);
-    const vec Omega = vec_local(half->Omega, cos_theta, sin_theta);
-    vec v = vec_sub(vec_sub(v_b, vec_local(half->v, cos_theta, sin_theta)), vec_cross(Omega, gap->p));
-    if (walls) {
-        const vec along = vec_axpy(wide_load(&walls->u_dot[0][j]), gap->a,
-                                   vec_scale(wide_load(&walls->u_dot[2][j]), gap->e_t));
-        v = vec_sub(v, vec_axpy(wide_load(&walls->u_dot[1][j]), gap->b, along));
-    }
+    const PocketMotion motion = pocket_motion(w, half, j, &axes, walls ? walls->u_dot : NULL);
+    const vec v = motion.v;
     const wide delta_dot = vec_dot(n, v);
-    const wide Q = wide_select(pressed, hertz_damped(at->Q, wide_set(p->cage.lambda), delta_dot), zero);
+    const wide Q =
+        wide_select(pressed, hertz_damped(at->Q, wide_set(p->cage.lambda), delta_dot), wide_set(0.0));
 
     // friction at the contact point
     const vec arm = vec_scale(R, n);
-    const vec slip = vec_across(vec_add(v, vec_cross(vec_sub(omega_b, Omega), arm)), n);
+    const vec slip = vec_across(vec_add(v, vec_cross(motion.spin, arm)), n);
     const wide slip_2 = vec_dot(slip, slip);
     wide ln_U_2, ln_Q;
     wide_log2(0.25 * slip_2 + p->oil.U_0 * p->oil.U_0, Q + Q_FLOOR, &ln_U_2, &ln_Q);
@@ -99,35 +92,15 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     }
     F = vec_where(pressed, F);
     const vec M = vec_where(pressed, vec_cross(arm, F_s));
-    const vec F_half = vec_scale(wide_set(-1.0), F), M_half = vec_sub(vec_cross(gap->p, F_half), M);
 
     wide_store(&pocket->Q[j], Q);
-    wide_store(&pocket->F_x[j], wide_select(pressed, vec_dot(F_half, gap->a), zero));
-    wide_store(&pocket->F_r[j], wide_select(pressed, vec_dot(F_half, gap->b), zero));
-    wide_store(&pocket->F_t[j], wide_select(pressed, vec_dot(F_half, gap->e_t), zero));
     // place of the contact on the wall
     const wide place_r = gap->r + R * at->n_r + d->spheres.r, place_t = gap->t + R * at->n_t;
     wide_store(&pocket->push_x[j], (h == 0 ? -1.0 : 1.0) * (gap->x + R * at->n_x));
     wide_store(&pocket->push_t[j], place_t);
     wide_store(&pocket->radius[j], wide_sqrt(place_r * place_r + place_t * place_t));
-    scalar *const global[6] = {pocket->half_F_x, pocket->half_F_y, pocket->half_F_z,
-                               pocket->half_M_x, pocket->half_M_y, pocket->half_M_z};
-    vec_to_global(F_half, cos_theta, sin_theta, &global[0][j], &global[1][j], &global[2][j]);
-    vec_to_global(M_half, cos_theta, sin_theta, &global[3][j], &global[4][j], &global[5][j]);
-    for (int i = 0; i < 6; i++)
-        wide_store(&global[i][j], wide_select(pressed, wide_load(&global[i][j]), zero));
-
-    // on the balls: forces, stiff rates of friction in the tangent plane, dissipated power
-    const vec tangent = {1.0 - n.x * n.x, 1.0 - n.r * n.r, 1.0 - n.t * n.t};
-    add_vec(F, &w->F_x[j], &w->F_r[j], &w->F_t[j]);
-    add_vec(M, &w->M_x[j], &w->M_r[j], &w->M_t[j]);
-    add_vec(vec_where(pressed, vec_scale(g / d->m, tangent)), &w->D_x[j], &w->D_r[j], &w->D_t[j]);
-    add_vec(vec_where(pressed, vec_scale(g * (R * R / d->J), tangent)), &w->D_omega_x[j], &w->D_omega_r[j],
-            &w->D_omega_t[j]);
-    const wide lost = (Q - at->Q) * delta_dot - vec_dot(F_s, slip);
-    const wide dissipated = wide_select(pressed, lost, wide_set(-0.0));
-    wide_store(&w->dissipated[j], wide_load(&w->dissipated[j]) + dissipated);
-    wide_store(&w->pocket_dissipated[j], wide_load(&w->pocket_dissipated[j]) + dissipated);
+    pocket_on_half(w, j, &axes, pressed, F, M, pocket);
+    pocket_on_balls(model, w, j, pressed, n, F, M, g, (Q - at->Q) * delta_dot - vec_dot(F_s, slip));
 }
 
 // Most pockets are not touched, so that their forces are not computed.
