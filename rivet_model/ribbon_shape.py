@@ -69,19 +69,23 @@ def land_angle(g, r):
     return angle_at(g, np.sqrt(fillet_circle(g) ** 2 - (r - 0.5 * g.d_m) ** 2), r)
 
 
+def farthest_edge(g):
+    """Distance of the ring's farther edge from the pitch circle [m]."""
+    return 0.5 * max(abs(g.cage_outer_diameter - g.d_m), abs(g.d_m - g.cage_inner_diameter))
+
+
 def land_half_length(g):
     """Least distance of the land's edge from the rivet's radial plane [m]; negative if there is no land."""
-    rho, half_width = fillet_circle(g), 0.25 * (g.cage_outer_diameter - g.cage_inner_diameter)
-    if not rho > half_width:
-        return -half_width
+    if not fillet_circle(g) > farthest_edge(g):
+        return -farthest_edge(g)
     r = np.linspace(0.5 * g.cage_inner_diameter, 0.5 * g.cage_outer_diameter, 33)
     return float(np.min(r * np.sin(math.pi / g.Z - land_angle(g, r))))
 
 
 def exists(g):
     """Whether seam, sphere and land are there over the whole width of the ring."""
-    widest = 0.5 * max(g.cage_outer_diameter - g.d_m, g.d_m - g.cage_inner_diameter)
-    return sphere_radius(g) * math.cos(seam(g)) > widest and land_half_length(g) > 0.0
+    is_ring = g.cage_outer_diameter > g.cage_inner_diameter
+    return is_ring and sphere_radius(g) * math.cos(seam(g)) > farthest_edge(g) and land_half_length(g) > 0.0
 
 
 POCKET = ("pocket_clearance", "cage_half_width", "flange_thickness", "ball_diameter")
@@ -98,7 +102,7 @@ LIMITS = (
     ),
     Limit(
         ("cage_outer_diameter", "d_m", "cage_inner_diameter", "ball_diameter", "pocket_clearance"),
-        lambda g: 0.9 * sphere_radius(g) - max(g.cage_outer_diameter - g.d_m, g.d_m - g.cage_inner_diameter) / 2.0,
+        lambda g: 0.9 * sphere_radius(g) - farthest_edge(g),
         "a ring narrower than the pocket's sphere",
     ),
     Limit(
