@@ -163,6 +163,21 @@ def test_density(coarse):
     )
 
 
+def test_a_wall_gives_way_beside_the_half_space():
+    """A wall whose compliance between two places is that of a half-space (Boussinesq) and a part that rises linearly with the angle:
+    the part alone is left at each node, of the ends that of the nearest pair of places.
+    """
+    wall, chi, p = half.wall(G, half.COARSE), half_loads.CHI, half_shape.pocket_radius(G)
+    at = p * np.stack([np.sin(chi), np.cos(chi)], axis=1)
+    apart = np.linalg.norm(at[:, None] - at, axis=-1) + np.eye(len(chi))
+    normal = wall.normal(chi, np.full(len(chi), 0.5 * G.d_m))
+    smooth = 1e-9 * (2.0 + 0.5 * (chi[:, None] + chi))  # m/N
+    between = smooth + (1.0 - G.nu_flange**2) / (np.pi * G.E_flange * apart)
+    C = np.einsum("ij,ia,jb->iajb", between, normal, normal)
+    found = half_modes.wall_compliance(SimpleNamespace(g=G, wall=wall), C)
+    np.testing.assert_allclose(found[1:-2], np.diag(smooth)[1:-2], rtol=1e-9)  # between 6 and 72 degrees
+
+
 @pytest.mark.slow
 def test_finer_elements():
     """Five frequencies of wave 0 on coarse, standard and 1.5 times finer elements: too high, and the less so the finer.
