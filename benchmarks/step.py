@@ -21,17 +21,23 @@ CAGES = CageModel.ELASTIC, CageModel.TWO_HALF  # the default first
 PARTS = {  # source file -> part
     "race_contact": "race contacts",
     "pocket": "pockets",
+    "pocket_spheres": "pockets",
+    "pocket_squeeze": "pockets",
     "land_film": "land films",
     "cage_joint": "joints",
     "two_half": "joints",
+    "cage": "cage bodies, sums",
     "halves": "cage bodies, sums",
     "films": "cage bodies, sums",
     "cage_elastic": "elastic halves: modes, pads, law of the joints",
     "cage_substeps": "elastic halves: substeps",
     "elastic_wall": "elastic halves: walls of the pockets",
+    "elastic_lands": "elastic halves: films on the rivets",
     "ball": "balls: kinematics, accelerations",
     "drag": "drag",
     "ring": "ring",
+    "ring_load": "ring",
+    "ring_fit": "ring",
     "rhs": "cage bodies, sums",
     "implicit": "implicit solve",
     "verlet": "Verlet step itself",
@@ -39,6 +45,8 @@ PARTS = {  # source file -> part
     "half_path": "rivet loads",
     "joint_law": "rivet loads",
     "joint_open": "rivet loads",
+    "joint_slip": "rivet loads",
+    "cage_read": "rivet loads",
     "rivet_rom": "rivet table",
     "bearing": "peaks and statistics",
     "outputs_recorded": "peaks and statistics",
@@ -58,7 +66,7 @@ def sources(library):
     are found in the objects.
     """
     defined = {}
-    for path in BUILD.glob("CMakeFiles/*.dir/*/*.c.o"):
+    for path in BUILD.glob("CMakeFiles/*.dir/fmu_src/**/*.c.o"):
         defined |= {
             line.split()[2]: path.name.removesuffix(".c.o")
             for line in lines("nm", "--defined-only", path)

@@ -27,7 +27,8 @@ static long trace(Action *action, void *context, unsigned long *address, long ma
         struct user_regs_struct registers;
         if (ptrace(PTRACE_GETREGS, child, NULL, &registers) != 0) break;
 #if defined(__x86_64__)
-        address[count++] = registers.rip;
+        // A string instruction stops the child at each of its repetitions.
+        if (count == 0 || address[count - 1] != registers.rip) address[count++] = registers.rip;
 #endif
         if (ptrace(PTRACE_SINGLESTEP, child, NULL, NULL) != 0) break;
         waitpid(child, &status, 0);
