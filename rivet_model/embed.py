@@ -16,6 +16,7 @@ from bearing_model.rivet import rivet_splines, rivet_table
 from . import splines
 
 BINS = 256  # RIVET_BINS in fmu_src/rivet/rivet_rom.h
+PSI_CELLS = 10  # of fmu_src/cage/common/joint_law.h
 
 
 def _array(name, values, kind="double"):
@@ -58,8 +59,11 @@ def uniform_cells(name, knots):
 
 
 def law_cells(law):
-    """Cells on the axes of the law."""
-    return [uniform_cells(name, law.knots[name]) for name in joint_law.AXES]
+    """Cells on the axes tau and q of the law; ValueError if those of psi are not PSI_CELLS."""
+    *cells, psi = (uniform_cells(name, law.knots[name]) for name in joint_law.AXES)
+    if psi != PSI_CELLS:
+        raise ValueError(f"joint's law: {psi} cells of axis psi: {PSI_CELLS} are allowed (joint_law.h)")
+    return cells
 
 
 def uniform_coefficients(law):

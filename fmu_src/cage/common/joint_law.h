@@ -27,6 +27,8 @@
 
 enum { AXIS_TAU, AXIS_Q, AXIS_PSI, LAW_AXES };
 
+enum { PSI_CELLS = 10 };  // of every law (embed.py): a known distance between the rows of q
+
 enum { LAW_ENERGY = 3, LAW_WIDTH = 8 };  // u, phi_r, phi_t, energy (elastic_half.h; else 0), T, m_r, m_t, -
 
 // Joints that are all alike: L_0 and what pad and rivet do, per newton of s = P + c; then how one of them answers
@@ -46,7 +48,7 @@ enum {
 
 typedef struct {
     double length;        // l [m]
-    int cells[LAW_AXES];  // equal cells over 0...1, -1...1, -1...1
+    int cells[AXIS_PSI];  // equal cells over 0...1, -1...1; PSI_CELLS over -1...1 of psi
     const double
         *coefficients;      // [tau][q][psi][LAW_WIDTH] of uniform splines, cells + 2 on each axis, per newton
     double K_0[3][3];       // N/m, N/rad, N.m/rad
@@ -63,7 +65,7 @@ typedef struct {
 // The numbers S of the law in the cell `place`, the weights of its splines given.
 INLINE void law_sum(const JointLaw *law, int place, scalar w[LAW_AXES][3], octet *S)
 {
-    const int row = LAW_WIDTH * (law->cells[AXIS_PSI] + 2), sheet = row * (law->cells[AXIS_Q] + 2);
+    const int row = LAW_WIDTH * (PSI_CELLS + 2), sheet = row * (law->cells[AXIS_Q] + 2);
     const double *from = law->coefficients + LAW_WIDTH * place;
     octet sum = {{0}};
     for (int a = 0; a < 3; a++) {
@@ -104,10 +106,10 @@ INLINE void law_places(const JointLaw *law, const wide L[3], wide P, int k, LawP
     const wide M = wide_hypot(M_r, M_t) * inv_length, W = wide_hypot(N, M), s = P + W;
     const wide tau = wide_ratio(W, s) * cells[AXIS_TAU];
     const wide q = (wide_ratio(N, wide_abs(N) + M) + 1.0) * (0.5 * cells[AXIS_Q]);
-    const wide psi = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * cells[AXIS_PSI]);
+    const wide psi = (wide_ratio(M_t, wide_abs(M_t) + M_r) + 1.0) * (0.5 * PSI_CELLS);
     wide cell = law_weights(cells[AXIS_TAU], tau, k, at->weight[AXIS_TAU]);
     cell = cell * (cells[AXIS_Q] + 2.0) + law_weights(cells[AXIS_Q], q, k, at->weight[AXIS_Q]);
-    cell = cell * (cells[AXIS_PSI] + 2.0) + law_weights(cells[AXIS_PSI], psi, k, at->weight[AXIS_PSI]);
+    cell = cell * (PSI_CELLS + 2.0) + law_weights(PSI_CELLS, psi, k, at->weight[AXIS_PSI]);
     wide_store(&at->cell[k], cell);
     wide_store(&at->size[k], s);
 }
