@@ -66,6 +66,12 @@ def law_cells(law):
     return cells
 
 
+def law_sheets(law, name):
+    """C text of the pointers to the law's first three sheets of tau."""
+    sheet = (law_cells(law)[1] + 2) * (PSI_CELLS + 2)
+    return "{" + ", ".join(f"{name} + {i * sheet} * LAW_WIDTH" for i in range(3)) + "}"
+
+
 def uniform_coefficients(law):
     """Coefficients of the law [tau, q, psi, LAW_WIDTH] for uniform splines without clamped ends, on equal cells: the
     same function.
@@ -127,7 +133,7 @@ def _half_source(half):
     text = f"""{{
         .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows{of_path}}}, .spin = {_braces(half.spin)},
         {spin}.land = land_rows, .growth = {_braces(half.growth)},
-        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = law_coefficients,
+        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .sheet = {law_sheets(law, "law_coefficients")},
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},
                 .neighbours = {len(felt)}, .neighbour = law_neighbour, .K = law_K, .K_slip = law_K_slip,
                 .uniform_count = {len(law.uniform.x)}, .uniform = law_uniform}}}}"""
@@ -162,7 +168,7 @@ def _modes_source(t):
     text = f"""{{
         .entries = {len(entries)}, .modes = {modes.count.sum()}, .entry = mode_entry, .pocket = mode_pocket,
         .pad = {_braces(modes.residual.pad[0])}, .wall = residual_wall,
-        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .coefficients = behind_coefficients,
+        .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .sheet = {law_sheets(law, "behind_coefficients")},
                  .K_0 = {_braces(law.stiffness)}}}}}"""
     return arrays, text
 

@@ -49,8 +49,8 @@ enum {
 typedef struct {
     double length;        // l [m]
     int cells[AXIS_PSI];  // equal cells over 0...1, -1...1; PSI_CELLS over -1...1 of psi
-    const double
-        *coefficients;      // [tau][q][psi][LAW_WIDTH] of uniform splines, cells + 2 on each axis, per newton
+    // coefficients [tau][q][psi][LAW_WIDTH] of uniform splines, cells + 2 on each axis, per newton, from the first three tau on
+    const double *sheet[3];
     double K_0[3][3];       // N/m, N/rad, N.m/rad
     double K_others[3][3];  // sum of the blocks below
     int neighbours;
@@ -65,15 +65,16 @@ typedef struct {
 // The numbers S of the law in the cell `place`, the weights of its splines given.
 INLINE void law_sum(const JointLaw *law, int place, scalar w[LAW_AXES][3], octet *S)
 {
-    const int row = LAW_WIDTH * (PSI_CELLS + 2), sheet = row * (law->cells[AXIS_Q] + 2);
-    const double *from = law->coefficients + LAW_WIDTH * place;
+    enum { ROW = LAW_WIDTH * (PSI_CELLS + 2) };
+
     octet sum = {{0}};
     for (int a = 0; a < 3; a++) {
+        const double *from = law->sheet[a] + LAW_WIDTH * place;
         octet by_q = {{0}};
         for (int b = 0; b < 3; b++) {
             octet by_psi = {{0}};
             for (int c = 0; c < 3; c++)
-                octet_add_from(w[AXIS_PSI][c], from + a * sheet + b * row + c * LAW_WIDTH, &by_psi);
+                octet_add_from(w[AXIS_PSI][c], from + b * ROW + c * LAW_WIDTH, &by_psi);
             octet_add(w[AXIS_Q][b], &by_psi, &by_q);
         }
         octet_add(w[AXIS_TAU][a], &by_q, &sum);
