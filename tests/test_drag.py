@@ -157,6 +157,21 @@ def test_ring(core):
     assert m.work.ring_drag_dissipated == pytest.approx(M * 1909.879, rel=1e-11)
 
 
+@pytest.mark.parametrize("speed", [0.0, 1e-6, -1.0])
+def test_ring_that_stops_before_the_cage(core, speed):
+    """Rings at rest against each other in a mixture that the cage still carries: Hirs' friction by the speed of the mixture
+    against the wall, that of rolling, within the quarter power of its floor, 0.5^-0.25 = 1.19, and of the share of the speed at
+    the inner ring, 0.6^-0.25 = 1.14.
+    """
+    m = mixture(core, speed)
+    m.kernel("drag_ring")(m.pointer, m.work)
+    r, h = 0.02119375, 0.6 * 0.0111125
+    assert 0.6 * 757.0 < m.work.stream < 757.0
+    f = 0.066 * (m.work.stream * r * h / NU) ** -0.25
+    M = 0.5 * RHO_MIX * f * ((m.work.stream - speed) * r) ** 2 * 2.0 * np.pi * r * 13.5e-3 * r
+    assert 0.75 < m.work.ring.M[0] / M < 1.2
+
+
 def test_balls(core):
     """(1/2) 0.45 * 35 kg/m3 * 96.985 mm2 * (20 m/s)^2 = 0.30550 N against the motion; power F v."""
     m = mixture(core, **ALONE)

@@ -24,6 +24,9 @@ A beside the lands, and their friction f = 0.066 Re^-0.25, Re = |omega_wall - om
 the shoulders (turbulent bulk flow; Hirs (1973), J. Lubr. Technol. 95, 137).  With isolated balls the mixture stands.
 Neglected: the cage's bore, which holds the mixture too.
 
+A cage that still turns when the rings stop works the mixture too.  The omega of walls and fresh oil is therefore half of
+the speed at which this cage would roll, at the least: the friction factor is infinite at none.
+
 All speeds are against the outer ring (outer_ring.py): oil and air at its walls turn with it.
 """
 
@@ -55,15 +58,17 @@ def drag_mixture(model, w):
     mixture.
     """
     p, d, outer = model.p, model.d, model.ring_load.outer_omega
-    speed = absolute(np.asarray(model.ring_load.omega - outer)) + TINY_SPEED
+    cage = 0.5 * (w.half[0].Omega[0] + w.half[1].Omega[0]) - outer
+    rings = absolute(np.asarray(model.ring_load.omega - outer))
+    speed = maximum(rings, absolute(0.5 * d.sigma * cage)) + TINY_SPEED
     w.filling, w.stream, w.wall = 1.0, outer, 0.0
     if p.oil.flow > 0.0:
-        X = np.where(np.real(speed) > d.flooded_omega, d.flooded_omega / speed, 1.0)
+        X = np.where(np.real(rings) > d.flooded_omega, d.flooded_omega / (rings + TINY_SPEED), 1.0)
         w.filling = d.air + (1.0 - d.air) * X
     if p.scene.drag == Drag.ROW:
         w.wall = 1.0 / np.sqrt(np.sqrt(speed))
         x = carried_share(d, w.wall, d.fresh / (w.filling * speed))
-        w.stream = outer + x * (0.5 * (w.half[0].Omega[0] + w.half[1].Omega[0]) - outer)
+        w.stream = outer + x * cage
 
 
 def drag_force(model, w):

@@ -27,6 +27,9 @@
 // over the height h between the shoulders (turbulent bulk flow; Hirs (1973), J. Lubr. Technol. 95, 137).  With
 // isolated balls the mixture stands.  Neglected: the cage's bore, which holds the mixture too.
 //
+// A cage that still turns when the rings stop works the mixture too.  The omega of walls and fresh oil is therefore half of
+// the speed at which this cage would roll, at the least: the friction factor is infinite at none.
+//
 // All speeds are against the outer ring (outer_ring.h): oil and air at its walls turn with it.
 #include "physics/drag.h"
 
@@ -59,17 +62,19 @@ void drag_mixture(const Model *model, Work *w)
     const Parameters *p = model->p;
     const Derived *d = model->d;
     const scalar outer = model->ring_load->outer_omega;
-    const scalar speed = positive(model->ring_load->omega - outer) + TINY_SPEED;
+    const scalar cage = 0.5 * (w->half[0].Omega[0] + w->half[1].Omega[0]) - outer;
+    const scalar rings = positive(model->ring_load->omega - outer);
+    const scalar speed = scalar_max(rings, positive(0.5 * d->sigma * cage)) + TINY_SPEED;
     w->filling = 1.0;
     w->stream = w->wall = 0.0;
     if (p->oil.flow > 0.0) {
-        const scalar X = scalar_value(speed) > d->flooded_omega ? d->flooded_omega / speed : 1.0;
+        const scalar X = scalar_value(rings) > d->flooded_omega ? d->flooded_omega / rings : 1.0;
         w->filling = d->air + (1.0 - d->air) * X;
     }
     if (p->scene.drag == DRAG_ROW) {
         w->wall = 1.0 / scalar_sqrt(scalar_sqrt(speed));
         const scalar x = carried_share(d, w->wall, d->fresh / (w->filling * speed));
-        w->stream = x * (0.5 * (w->half[0].Omega[0] + w->half[1].Omega[0]) - outer);
+        w->stream = x * cage;
     }
     w->stream += outer;
 }
