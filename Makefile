@@ -17,9 +17,6 @@ ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 
 CONFIGURE = $(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DFMU=$(CURDIR)/$(FMU)
 
-# Versions with the hashes of their files, no address of where they came from.
-LOCK    = --generate-hashes --strip-extras --no-header --no-annotate --no-emit-index-url --no-emit-trusted-host --no-emit-find-links --extra cross --build-deps-for wheel
-
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
@@ -74,8 +71,8 @@ dist: $(VENV)/installed  ## in dist/: a wheel for every platform with the ready 
 	$(PYTHON) -m build --no-isolation --wheel -Ccmake.define.READY_FMU=$(CURDIR)/build/dist/RivetedBearing.fmu >build/dist/wheel.log || { cat build/dist/wheel.log; exit 1; }
 	$(PYTHON) -m wheel tags --remove --python-tag py3 --abi-tag none --platform-tag any dist/*.whl
 	cp build/dist/RivetedBearing.fmu dist/
-	@echo "make dist, 5 of 5: hashes of all packages, from the index: a minute"
-	$(PYTHON) -m piptools compile --quiet $(LOCK) --output-file dist/requirements.txt pyproject.toml
+	@echo "make dist, 5 of 5: versions and hashes of all packages, from the index"
+	echo "scikit-build-core>=0.11" | $(BIN)/uv --quiet pip compile --generate-hashes --no-header --no-annotate --extra cross --output-file dist/requirements.txt pyproject.toml -
 	cd dist && sha256sum * >SHA256SUMS
 	@ls -l dist
 
@@ -88,9 +85,9 @@ lock: $(VENV)/installed  ## newest versions and hashes of the packages that `mak
 	echo "scikit-build-core>=0.11" | $(UV) --extra full --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml -
 	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
 
-lint: $(VENV)/installed  ## formatters and linters, changing nothing
-	$(BIN)/ruff check .
-	$(BIN)/ruff format --check .
+lint: $(VENV)/installed  ## formatters and linters on the files that git knows, changing nothing
+	git ls-files -z '*.py' '*.ipynb' | xargs -0 $(BIN)/ruff check --force-exclude
+	git ls-files -z '*.py' '*.ipynb' | xargs -0 $(BIN)/ruff format --check --force-exclude
 	$(BIN)/clang-format --dry-run --Werror $(C_FILES)
 
 generate: $(VENV)/installed  ## the files that follow from fmus/variables.toml

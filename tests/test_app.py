@@ -659,3 +659,10 @@ def test_an_fmu_is_unpacked_once_and_removed_with_its_model():
     del model
     gc.collect()
     assert not folder.exists()
+
+
+@pytest.mark.parametrize(("name", "units"), [("report", ("[kN]", "[ms]")), ("dataset", ("[dataset]",))])
+def test_help_keeps_its_brackets(tmp_path, name, units):
+    """They are not read as markup of the terminal."""
+    said = command(name, "--help", folder=tmp_path).stdout
+    assert all(unit in said for unit in units)

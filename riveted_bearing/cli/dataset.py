@@ -15,7 +15,7 @@ def dataset(
     study: Annotated[
         Path,
         typer.Argument(
-            help="dataset file (TOML): a sweep file with [dataset]; see docs/surfaces.md", metavar="STUDY.toml"
+            help="dataset file (TOML): a sweep file with \\[dataset]; see docs/surfaces.md", metavar="STUDY.toml"
         ),
     ],
     fmu: FMU = None,

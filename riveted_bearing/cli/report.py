@@ -21,13 +21,13 @@ def report(
     overlay: Annotated[
         Path | None,
         typer.Option(
-            help='measured series (CSV, names like "housing.F_y [kN]"): the page shows them beside the run\'s'
+            help='measured series (CSV, names like "housing.F_y \\[kN]"): the page shows them beside the run\'s'
         ),
     ] = None,
     column: Annotated[
         list[str] | None,
         typer.Option(
-            help='column of the CSV for a channel, e.g. housing.F_y="Fy [kN]" or time="t [ms]"; repeatable',
+            help='column of the CSV for a channel, e.g. housing.F_y="Fy \\[kN]" or time="t \\[ms]"; repeatable',
             metavar="CHANNEL=COLUMN",
         ),
     ] = None,
