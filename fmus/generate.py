@@ -356,7 +356,10 @@ def shown(value, v, table):
 
 def allowed(v, table):
     """Allowed values, for readers."""
-    return ", ".join(v.choices) if v.choices else " … ".join(shown(value, v, table) for value in v.limits)
+    if v.choices:
+        return ", ".join(f"{name} ({number})" for name, number in v.choices.items())
+    limits = " … ".join(shown(value, v, table) for value in v.limits)
+    return f"{limits}, an Integer" if v.type == "Integer" else limits
 
 
 def feeds(v):

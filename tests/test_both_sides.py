@@ -356,6 +356,21 @@ def test_what_has_no_effect_is_logged_once(core):
 
 
 @pytest.mark.c_only
+@pytest.mark.parametrize(
+    ("mode", "inputs", "said"),
+    [
+        (TiltMode.PRESCRIBED, {"shaft.M_y": 2.0, "shaft.M_z": 1.0}, "prescribed: no effect have shaft.M_y, shaft.M_z"),
+        (TiltMode.FREE, {"shaft.tilt_z": 1e-3}, "free: no effect have shaft.tilt_z"),
+        (TiltMode.SUPPORTED, {"shaft.tilt_z": 1e-3, "shaft.M_y": 2.0}, None),
+    ],
+)
+def test_tilts_and_moments_without_effect_are_named(core, mode, inputs, said):
+    instance = Instance(core, TWO_HALF | {"ring.tilt_mode": mode}, inputs).step(1e-4)
+    found = [text for text in instance.messages if "no effect" in text]
+    assert found == [] if said is None else len(found) == 1 and f"ring.tilt_mode is {said}" in found[0]
+
+
+@pytest.mark.c_only
 def test_limits_of_motions(core):
     """A motion that would leave its range within the step is refused, as NaN is; the range is in the message."""
     for inputs, name in (

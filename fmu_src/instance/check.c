@@ -550,6 +550,8 @@ static const InputName OF_PRESCRIBED[] = {
 static const InputName OF_FREE[] = {INPUT(shaft, F_x), INPUT(shaft, F_y), INPUT(shaft, F_z),
                                     INPUT(shaft, M_y), INPUT(shaft, M_z), INPUT(impact, F_r),
                                     INPUT(impact, F_a)};
+static const InputName MOMENTS[] = {INPUT(shaft, M_y), INPUT(shaft, M_z)};
+static const InputName TILTS[] = {INPUT(shaft, tilt_y), INPUT(shaft, tilt_z)};
 static const char *const PARAMETERS_OF_FREE[] = {
     "pulse.F_r",      "pulse.F_a",   "pulse.t_start", "pulse.duration", "pulse.interval",
     "pulse.count",    "ring.m",      "ring.J_p",      "ring.J_t",       "ring.c",
@@ -561,18 +563,41 @@ static void add_name(const char *name, char *list, size_t size)
     snprintf(list + length, size - length, "%s%s", length > 0 ? ", " : "", name);
 }
 
+// Adds the inputs whose value is not that of the start.
+static void add_changed(const Bearing *b, const InputName *input, size_t count, char *list, size_t size)
+{
+    const char *now = (const char *)&b->s.u[0], *start = (const char *)&b->start;
+    for (size_t i = 0; i < count; i++)
+        if (*(const double *)(now + input[i].offset) != *(const double *)(start + input[i].offset))
+            add_name(input[i].name, list, size);
+}
+
+static void report_names(Bearing *b, const char *what, const char *is, const char *list)
+{
+    if (!*list) return;
+    b->reported = true;
+    bearing_log(b, LOG_WARNING, "%s is %s: no effect have %s", what, is, list);
+}
+
+// Moments on a ring whose tilt is prescribed, tilts of one that tilts freely.
+static void report_tilts(Bearing *b)
+{
+    char list[512] = "";
+    const int mode = b->s.p.ring.tilt_mode;
+    if (mode == TILT_MODE_PRESCRIBED) add_changed(b, MOMENTS, 2, list, sizeof list);
+    if (mode == TILT_MODE_FREE) add_changed(b, TILTS, 2, list, sizeof list);
+    report_names(b, "ring.tilt_mode", mode == TILT_MODE_FREE ? "free" : "prescribed", list);
+}
+
 void report_without_effect(Bearing *b)
 {
     if (b->reported) return;
     const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
-    const InputName *input = prescribed ? OF_FREE : OF_PRESCRIBED;
-    const size_t count =
-        prescribed ? sizeof OF_FREE / sizeof *OF_FREE : sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED;
-    const char *now = (const char *)&b->s.u[0], *start = (const char *)&b->start;
     char list[512] = "";
-    for (size_t i = 0; i < count; i++)
-        if (*(const double *)(now + input[i].offset) != *(const double *)(start + input[i].offset))
-            add_name(input[i].name, list, sizeof list);
+    if (prescribed)
+        add_changed(b, OF_FREE, sizeof OF_FREE / sizeof *OF_FREE, list, sizeof list);
+    else
+        add_changed(b, OF_PRESCRIBED, sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED, list, sizeof list);
 
     // parameters cannot change after the start
     for (size_t i = 0;
@@ -580,10 +605,8 @@ void report_without_effect(Bearing *b)
         const Variable *v = variable_named(PARAMETERS_OF_FREE[i]);
         if (variable_value(v, 0, &b->s.p) != v->start) add_name(v->name, list, sizeof list);
     }
-    if (!*list) return;
-    b->reported = true;
-    bearing_log(b, LOG_WARNING, "ring.motion is %s: no effect have %s", prescribed ? "prescribed" : "free",
-                list);
+    report_names(b, "ring.motion", prescribed ? "prescribed" : "free", list);
+    if (!prescribed) report_tilts(b);
 }
 
 // Logs that the parts stay at their start temperatures where the oil alone has been given another one.
