@@ -485,6 +485,18 @@ void integrator_tolerance(Integrator *in, double tolerance)
     stepping_weights(in->model->d, tolerance, in->weight);
 }
 
+// None of these solvers has steps of a fixed length.
+void integrator_fix_step(Integrator *in)
+{
+    (void)in;
+}
+
+double fixed_steps(double step, double length)
+{
+    (void)step, (void)length;
+    return 1.0;
+}
+
 // ---- stepping ---------------------------------------------------------------------------------------------
 void integrator_evaluate(Integrator *in)
 {

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{9a8af568-a53e-eaa3-aa51-c91981e652d0}"
+MODEL_GUID = "{88a157a6-8264-6acf-59b6-c778237d2ec1}"
 Z = 9
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{9a8af568-a53e-eaa3-aa51-c91981e652d0}"  // digest of the table
+#define MODEL_GUID "{88a157a6-8264-6acf-59b6-c778237d2ec1}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
