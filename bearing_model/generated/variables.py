@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{88a157a6-8264-6acf-59b6-c778237d2ec1}"
+MODEL_GUID = "{4c18fcc5-5a88-9407-e2e7-712af8469c35}"
 Z = 9
 
 

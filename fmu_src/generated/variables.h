@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{88a157a6-8264-6acf-59b6-c778237d2ec1}"  // digest of the table
+#define MODEL_GUID "{4c18fcc5-5a88-9407-e2e7-712af8469c35}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
