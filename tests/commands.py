@@ -12,7 +12,7 @@ def command(*arguments, folder):
         cwd=folder,
         capture_output=True,
         text=True,
-        timeout=300,
+        timeout=1800,
         check=False,
     )
 

@@ -106,9 +106,20 @@ static bool kernels_named(const char *name, Kernels *kernels)
 }
 #endif
 
+// A web page has no environment: to ask for it there ends the program.
+static const char *environment(const char *name)
+{
+#if defined(__wasi__)
+    (void)name;
+    return NULL;
+#else
+    return getenv(name);
+#endif
+}
+
 Kernels kernels_wanted(const char **refused)
 {
-    const char *name = getenv("RIVETED_BEARING_ISA");
+    const char *name = environment("RIVETED_BEARING_ISA");
     Kernels kernels = kernels_select();
     *refused = name && *name && !kernels_named(name, &kernels) ? name : NULL;
     return *refused ? kernels_select() : kernels;
