@@ -310,6 +310,44 @@ def test_classes_of_a_record_have_the_mean_damage_of_their_samples(tmp_path, mod
     assert "Compare with twice the bins" in " ".join(notes(wild, NO_RUNS))
 
 
+STRIKE = {"t": [0.001, 0.0015, 0.002], "value": [0, 4000, 0]}
+
+
+def with_strike(model, strike=STRIKE, **more):
+    """A Mission with an event; start.settle is 2 ms and t_end 10 ms."""
+    event = {"name": "strike", "count": 1, "inputs": {"impact.F_r": strike}} | more
+    return mission_of(model, [(1, {})], event=[event])
+
+
+@pytest.mark.parametrize(
+    ("strike", "more", "words"),
+    [
+        (STRIKE, {}, r"event strike: inputs.impact.F_r changes from 0.001 s to 0.002 s, .* start.settle = 0.002 s .*after_settle"),
+        ({"t": [0, 0.001, 0.0011, 0.0012, 0.009], "value": [0, 0, 9, 0, 0]}, {}, "from 0.001 s to 0.0012 s"),
+        ({"t": [0.02, 0.03], "value": [0, 9]}, {}, "to t_end = 0.01 s: set a longer t_end"),
+        (STRIKE, {"after_settle": "yes"}, "after_settle = 'yes': allowed: true, false"),
+    ],
+)  # fmt: skip
+def test_an_event_that_counts_for_nothing_is_refused(model, strike, more, words):
+    with pytest.raises(UserError, match=words):
+        with_strike(model, strike, **more)
+
+
+def test_an_event_that_counts_in_part_is_told(model):
+    """Begun before start.settle, or a load that stays after it; none of them for one that lies behind it."""
+    for strike in ({"t": [0.001, 0.003], "value": [0, 9]}, {"t": [0.001, 0.0015], "value": [0, 9]}):
+        (text,) = with_strike(model, strike).warnings
+        assert "event strike: inputs.impact.F_r changes from 0.001 s" in text and "a part of the event" in text
+    assert not with_strike(model, {"t": [0.003, 0.004, 0.005], "value": [0, 9, 0]}).warnings
+
+
+def test_times_of_an_event_count_from_the_end_of_settling(model):
+    mission = with_strike(model, after_settle=True)
+    history = mission.parts[1].scene.inputs["impact.F_r"]
+    np.testing.assert_allclose(history.t, [0.003, 0.0035, 0.004], rtol=1e-12)
+    assert mission.cases[1].scene.inputs["impact.F_r"] is history and not mission.warnings
+
+
 def test_tables_and_records_become_points(tmp_path, model):
     (tmp_path / "duty.csv").write_text("h,n\n10,8000\n20,12000\n")
     (tmp_path / "flight.csv").write_text("t,kN\n0,1\n3600,2\n7200,2\n")

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text
+from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text, print_warnings
 
 MOST_DIFFERENCES = 12  # on the terminal
 
@@ -46,6 +46,7 @@ def compare_designs(
 
     with design_runs(mission.stem, folder, scheduler, workers) as (client, progress):
         found = compare_designs(mission, chosen, folder, client, progress, say)
+    print_warnings(found.warnings)
     print_comparison(found, hours_text)
     for label, path in (("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis, print_warnings
 
 
 @command
@@ -47,6 +47,7 @@ def life(
 
     model = Model(fmu)
     plan = load_mission(mission, model)
+    print_warnings(plan.warnings)
     tolerances = read_tolerances(plan, model)
     if oil_range:
         plan_ends(plan, model)  # refusals come before the runs

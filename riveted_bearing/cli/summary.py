@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from ..errors import UserError
 from ..results import FORMATS, make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, number_or_text
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, number_or_text, print_warnings
 
 
 @command
@@ -84,6 +84,7 @@ def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
 
     model = Model(fmu)
     plan = load_mission(path, model)
+    print_warnings(plan.warnings)
     folder = Path("results") / plan.name
     make_folder(folder)
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):

@@ -84,7 +84,7 @@ class Outcome:
 @dataclass(frozen=True)
 class Comparison:
     """Outcomes in the order of the designs; counts: runs of each case; differences: (name, [text of each design]);
-    basis: lines that all designs share.
+    basis: lines that all designs share; warnings: sentences on events and matrices.
     """
 
     name: str
@@ -94,6 +94,7 @@ class Comparison:
     outcomes: tuple
     differences: tuple
     basis: dict
+    warnings: tuple = ()
 
 
 def read_designs(words, number_or_text):
@@ -201,6 +202,7 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
             *differences(designs, common_parameters(path, designs[0].model)),
         ),
         {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1},
+        tuple(f"{design.name}: {text}" for design, m in zip(designs, missions) for text in m.warnings),
     )
 
 

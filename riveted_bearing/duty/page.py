@@ -18,9 +18,9 @@ OPEN = 11.0  # times life: an end of the interval beyond it, or below life over 
 WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
-def write_page(life, path, notes):
-    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out.  Returns the
-    path.
+def write_page(life, path, notes, warnings=()):
+    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out; warnings:
+    beside those of the mission.  Returns the path.
     """
     return save_page(
         path,
@@ -29,6 +29,7 @@ def write_page(life, path, notes):
         cards=list(cards(life)),
         rows=list(part_rows(life)),
         notes=notes,
+        warnings=[*life.mission.warnings, *warnings],
         charts={
             name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label)
             for name, (draw, size, label) in CHARTS.items()
