@@ -20,7 +20,7 @@ from riveted_bearing.duty.confidence import estimate, until_sure
 from riveted_bearing.duty.history import binned
 from riveted_bearing.duty.miner import Duty, lives, simple_duty
 from riveted_bearing.duty.mission import LIFE, plan_mission
-from riveted_bearing.duty.notes import notes
+from riveted_bearing.duty.notes import matrix_warnings, notes
 from riveted_bearing.duty.page import write_page, write_picture
 from riveted_bearing.fmu import Model
 
@@ -561,6 +561,16 @@ def test_a_bad_mission_ends_with_one_line_and_exit_code_2(tmp_path, text, fragme
     assert code == 2 and not out and err.count("\n") == 1
     for fragment in fragments:
         assert fragment in err
+
+
+def test_matrices_that_miss_damage_are_told_with_a_step_that_finds_it(model):
+    """Below 95 % of the FMU's count, and of a mission with its own S-N curve alone."""
+    own, plain = mission_of(model, [(1, {})], sn={"N_D": 4e6}), mission_of(model, [(1, {})])
+    found = {share: SimpleNamespace(mission=own, counted=lambda share=share: share) for share in (0.739, 0.96)}
+    (text,) = matrix_warnings(found[0.739])
+    assert 'simulation.step = "0.1 ms" find 73.9 %' in text and 'take simulation.step = "0.01 ms"' in text
+    assert not matrix_warnings(found[0.96])
+    assert not matrix_warnings(SimpleNamespace(mission=plain, counted=lambda: 0.5))
 
 
 # changes of parameters ------------------------------------------------------------------------------------------------

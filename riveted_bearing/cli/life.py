@@ -38,7 +38,7 @@ def life(
     """
     from ..duty.assess import Runs, assess, write_record
     from ..duty.mission import load_mission
-    from ..duty.notes import notes
+    from ..duty.notes import matrix_warnings, notes
     from ..duty.oil_range import oil_range as both_ends
     from ..duty.oil_range import plan_ends, remarks, rows, write_oil_range
     from ..duty.page import percent, write_page, write_picture
@@ -74,10 +74,12 @@ def life(
             else None
         )
     texts = [*(remarks(ends) if ends else ()), *notes(found, runs, of_bearings)]
+    warnings = matrix_warnings(runs)
+    print_warnings(warnings)
     print_life(found, texts, rows(ends) if ends else ())
     files = [
         ("results", write_record(found, folder)),
-        ("page", write_page(found, folder / "life.html", texts)),
+        ("page", write_page(found, folder / "life.html", texts, warnings)),
         ("picture", write_picture(found, folder / "life.png")),
     ]
     if ends:

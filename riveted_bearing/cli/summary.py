@@ -79,6 +79,7 @@ def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
     """The Sheet of a mission, and the folder of its runs, of which a second call does only missing ones."""
     from ..duty.assess import RECORD, Runs, assess, write_record
     from ..duty.mission import load_mission
+    from ..duty.notes import matrix_warnings
     from ..duty.sheet import mission_sheet, of_mission
     from ..fmu import Model
 
@@ -91,5 +92,6 @@ def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
         runs = Runs(plan, model, folder, client, progress)
         found = assess(plan, runs)
         evidence = of_mission(found, runs, model, lambda done, total: progress(done, 0, total))
+    print_warnings(matrix_warnings(runs))
     write_record(found, folder)
     return mission_sheet(found, evidence, hours, decides, [model.path, path, folder / RECORD]), folder

@@ -29,6 +29,7 @@ from ..units import hours_text
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission, tables
+from .notes import matrix_warnings
 
 RESPONSES = {  # column of a run: in words
     "stat.sigma_head_p999": "head stress, p99.9",
@@ -202,7 +203,11 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
             *differences(designs, common_parameters(path, designs[0].model)),
         ),
         {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1},
-        tuple(f"{design.name}: {text}" for design, m in zip(designs, missions) for text in m.warnings),
+        tuple(
+            f"{design.name}: {text}"
+            for design, runs in zip(designs, all_runs, strict=True)
+            for text in (*runs.mission.warnings, *matrix_warnings(runs))
+        ),
     )
 
 
