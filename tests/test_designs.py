@@ -53,8 +53,8 @@ def drawn(rng, n, common, ratio=2.5, spread=0.6):
 
 def interval(samples, confidence=0.9):
     duty = simple_duty([0.6, 0.4])
-    found = [estimate(duty, one, confidence, 1) for one in samples]
-    return ratio_interval([duty, duty], samples, found, confidence, 1)
+    found = [estimate(duty, one, confidence) for one in samples]
+    return ratio_interval(samples, found, confidence)
 
 
 @pytest.mark.parametrize("common", [0.0, 0.8])

@@ -2,8 +2,8 @@
 intervals, and what differs between them.
 
 A design is an FMU, or an FMU with parameters of its own.  All designs have the same number of runs of each case, and
-run s of each has the same start.seed (common random numbers).  The interval of a ratio of lives is the bootstrap of
-confidence.py, in which a draw has the same runs of both designs.  Bearing motion is chaotic: where the designs differ
+run s of each has the same start.seed (common random numbers).  The interval of a ratio of lives is that of
+confidence.py for the differences of the runs of equal seeds.  Bearing motion is chaotic: where the designs differ
 at all, common seeds may correlate little; the correlation stands beside the result.
 """
 
@@ -171,16 +171,14 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
         all_runs.append(runs)
     settings = missions[0].settings
     samples = [[places(damage, settings["rivets"]) for damage in runs(counts)] for runs in all_runs]
-    found = [estimate(m.duty, s, settings["confidence"], settings["seed"]) for m, s in zip(missions, samples)]
+    found = [estimate(m.duty, s, settings["confidence"]) for m, s in zip(missions, samples)]
     rows = [responses_of(runs, counts) for runs in all_runs]
     outcomes = [
         Outcome(
             design,
             found[k],
             place_text(found[k].place, settings["rivets"]),
-            life_ratio([missions[0].duty, missions[k].duty], [samples[0], samples[k]], [found[0], found[k]], settings)
-            if k
-            else None,
+            life_ratio([samples[0], samples[k]], [found[0], found[k]], settings["confidence"]) if k else None,
             {
                 part: {
                     name: (values.mean(), ratio_of(rows[0][part][name], values, settings["confidence"]) if k else None)
@@ -229,11 +227,11 @@ def place_text(place, rivets):
     return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
 
 
-def life_ratio(duties, samples, found, settings):
+def life_ratio(samples, found, confidence):
     """Ratio of the lives of two Estimates, the second over the first."""
     if not all(math.isfinite(one.life) for one in found):
         return Ratio(math.nan, 0.0, math.inf, math.nan)
-    low, high, r = ratio_interval(duties, samples, found, settings["confidence"], settings["seed"])
+    low, high, r = ratio_interval(samples, found, confidence)
     return Ratio(found[1].life / found[0].life, math.exp(low), math.exp(high), r)
 
 

@@ -41,7 +41,7 @@ confidence = 0.9                     # of the interval
 half_width = 0.25                    # of life: simulate until the interval is at most life/1.25 ... 1.25 life wide
 min_seeds = 6
 max_seeds = 32
-seed = 1                             # first start.seed, common to all points, and seed of the bootstrap
+seed = 1                             # first start.seed, common to all points
 skip = 0.01                          # share of the damage that rare points may have and yet be left out by a bound; 0: none left out
 rivets = "each"                      # or "alike": every rivet takes every place in turn, so that rates are means over the rivets
 [sn]                                 # see sn.py; default: the FMU's law and its own count

@@ -4,6 +4,7 @@ import math
 
 import matplotlib
 import numpy as np
+from scipy.stats import t as student
 
 from .. import charts
 from ..pages import save_page
@@ -15,6 +16,7 @@ from ..units import LONGEST, hours_text
 
 MOST_BARS = 14
 OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
+BEYOND = 1.6  # half-widths of ln life that the picture shows on each side
 WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
@@ -137,30 +139,32 @@ def rate_at_place(life, i):
 
 
 def life_chart(fig, life):
-    """Bootstrap distribution of life, the interval shaded."""
+    """How likely each life is by the scatter of the runs, the interval shaded."""
     ax, found = fig.subplots(), life.estimate
     if not math.isfinite(found.life):
         ax.text(0.5, 0.5, "no damage", ha="center", transform=ax.transAxes)
         return
-    draws = np.log10(found.draws)
-    low, high = min(draws.min(), math.log10(life.low)), max(draws.max(), math.log10(found.high))
-    margin = 0.05 * (high - low) or 0.1
-    ax.axvspan(
-        life.low,
-        found.high,
-        color="#f3f4f6",
-        zorder=0,
-        label=f"{100 * life.mission.settings['confidence']:g} % interval",
-    )
-    ax.hist(found.draws, bins=np.logspace(low - margin, high + margin, 41), color=MIDDLE, alpha=0.8, label="bootstrap")
+    beyond = max(BEYOND * found.half_width, math.log(found.life / life.low)) or 0.1
+    hours, likely = life_density(found, beyond)
+    label = f"{100 * life.mission.settings['confidence']:g} % interval"
+    ax.axvspan(life.low, found.high, color="#f3f4f6", zorder=0, label=label)
+    ax.fill_between(hours, likely, color=MIDDLE, alpha=0.8, lw=0, label="Student's law")
     ax.axvline(found.life, color=HEAD, lw=1.8, label="life")
     ax.set_xscale("log")
-    ax.set(xlabel="life [h]", ylabel="draws", xlim=(10 ** (low - margin), 10 ** (high + margin)))
+    ax.set(xlabel="life [h]", ylabel="density of ln life", xlim=(hours[0], hours[-1]), ylim=(0.0, None))
+    low, high = np.log10(hours[[0, -1]])
     if high - low < 1.0:
-        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)])
+        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)[1:-1]])
         ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
         ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def life_density(found, beyond):
+    """Lives [h] up to the factor exp(beyond) from an Estimate's, and the density of ln life by which its interval is made."""
+    x = np.linspace(-beyond, beyond, 401)
+    likely = student.pdf(x / found.spread, found.freedom) / found.spread if found.spread > 0.0 else np.zeros_like(x)
+    return found.life * np.exp(x), likely
 
 
 def share_chart(fig, life):
