@@ -12,10 +12,12 @@ import pytest
 from commands import command
 
 from riveted_bearing import UserError
+from riveted_bearing.cli.compare_designs import print_comparison
 from riveted_bearing.duty import designs
 from riveted_bearing.duty.confidence import estimate, ratio_interval
 from riveted_bearing.duty.miner import simple_duty
 from riveted_bearing.fmu import Model
+from riveted_bearing.units import hours_text
 
 MISSION = """
 scene = "demo"
@@ -128,6 +130,24 @@ def test_a_parameter_of_a_point_is_not_overwritten_in_silence(fmu, tmp_path):
         designs.plan(path, design)
     with pytest.raises(UserError, match=r'unknown parameter "joint.prelaod"; did you mean "joint.preload"'):
         designs.plan(path, SimpleNamespace(name="b", model=design.model, settings={"joint.prelaod": 1.0}))
+
+
+def test_an_open_interval_is_told_as_life_tells_it(capsys):
+    """A life of 1e8 h whose lower end is 715 h: no bounds in the table, and the advice of `life` for this design alone."""
+    ends = ((1e8, 715.0, 1.4e13), (100.0, 80.0, 125.0))
+    outcomes = [
+        designs.Outcome(
+            SimpleNamespace(name=name), SimpleNamespace(life=life, low=low, high=high), "rivet 1, head", ratio, {}
+        )
+        for name, (life, low, high), ratio in zip("ab", ends, (None, designs.Ratio(1e-6, 1e-11, 0.1, 0.0)), strict=True)
+    ]
+    runs = SimpleNamespace(mission=SimpleNamespace(warnings=(), document={}))
+    (text,) = designs.warnings_of([runs, runs], outcomes)
+    assert text.startswith("a: the interval of life is open at its lower and its upper end: more seeds (max_seeds)")
+    print_comparison(SimpleNamespace(confidence=0.9, outcomes=outcomes, differences=()), hours_text)
+    out = capsys.readouterr().out
+    assert "open at both ends" in out and "715" not in out and "80 h – 125 h" in out and "1e-06 (open)" in out
+    assert designs.shown_ends(outcomes[0]) == (1e8 / 11.0, 1.1e9) and designs.shown_ends(outcomes[1]) == (80.0, 125.0)
 
 
 def test_two_designs_of_one_fmu(fmu, tmp_path, browser):

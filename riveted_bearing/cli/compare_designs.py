@@ -54,7 +54,8 @@ def compare_designs(
 
 def print_comparison(found, hours_text):
     """Lives, ratios and what differs."""
-    from ..duty.designs import ratio_text, verdict
+    from ..duty.designs import ends_of, ratio_text, verdict
+    from ..duty.page import interval_text
 
     table = Table(
         "design",
@@ -67,11 +68,10 @@ def print_comparison(found, hours_text):
         pad_edge=False,
     )
     for outcome in found.outcomes:
-        e = outcome.estimate
         table.add_row(
             escape(outcome.design.name),
-            hours_text(e.life),
-            f"{hours_text(e.low)} – {hours_text(e.high)}",
+            hours_text(outcome.estimate.life),
+            interval_text(*ends_of(outcome)),
             outcome.place,
             ratio_text(outcome.life),
             verdict(outcome),

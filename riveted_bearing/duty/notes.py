@@ -9,7 +9,7 @@ import numpy as np
 from ..units import hours_text
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
-from .page import open_ends, percent, width_text
+from .page import ends_of, open_ends, percent, width_text
 
 ENOUGH = 0.95  # of the damage that the FMU counts: with less in the matrices the life is too long
 WIDE, MATTERS = 1.3, 0.05  # factor of a class, and share in the damage from which it is named
@@ -65,7 +65,7 @@ def notes(life, runs, scatter=None):
     mission, found = life.mission, life.estimate
     settings = mission.settings
     reached = f"{percent(found.half_width)}, wanted {100 * settings['half_width']:g} %"
-    if open_ends(life):
+    if open_ends(*ends_of(life)):
         sentences = [f"The interval of life is {width_text(life)}; max_seeds = {settings['max_seeds']} was reached."]
     elif found.half_width > math.log1p(settings["half_width"]):
         sentences = [

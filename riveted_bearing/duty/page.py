@@ -48,7 +48,7 @@ def cards(life):
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
     yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
-    yield f"{100 * settings['confidence']:g} % interval", interval_text(life), width_text(life)
+    yield f"{100 * settings['confidence']:g} % interval", interval_text(*ends_of(life)), width_text(life)
     yield "Mission", *mission_text(life)
     yield (
         "Runs",
@@ -67,33 +67,40 @@ def mission_text(life):
     return "shares of time", "of any length"
 
 
-def open_ends(life):
+def ends_of(life):
+    """Life, lower and upper end of a Life's interval [h]."""
+    return life.estimate.life, life.low, life.estimate.high
+
+
+def open_ends(life, low, high):
     """Which ends of the interval are so far from life that they say nothing: "lower", "upper"."""
-    found = life.estimate
-    if not math.isfinite(found.life):
+    if not math.isfinite(life):
         return []
-    return [
-        end for end, far in (("lower", found.life > OPEN * life.low), ("upper", found.high > OPEN * found.life)) if far
-    ]
+    return [end for end, far in (("lower", life > OPEN * low), ("upper", high > OPEN * life)) if far]
 
 
-def interval_text(life):
+def interval_text(life, low, high):
     """The interval, without the ends that are open."""
-    low, high, ends = hours_text(life.low), hours_text(life.estimate.high), open_ends(life)
+    low_text, high_text, ends = hours_text(low), hours_text(high), open_ends(life, low, high)
     if len(ends) == 2:
         return "open at both ends"
     if ends == ["lower"]:
-        return "open" if life.estimate.high > LONGEST else f"below {high}"
+        return "open" if high > LONGEST else f"below {high_text}"
     if ends:
-        return low if life.low > LONGEST else f"above {low}"
-    return low if low == high else f"{low} – {high}"
+        return low_text if low > LONGEST else f"above {low_text}"
+    return low_text if low_text == high_text else f"{low_text} – {high_text}"
+
+
+def open_text(ends):
+    """Which ends of an interval are open and what closes them."""
+    return f"open at its {' and its '.join(ends)} end: more seeds (max_seeds) or a longer t_end close it"
 
 
 def width_text(life):
     """How wide the interval is, or which of its ends are open and what closes them."""
-    if not (ends := open_ends(life)):
-        return f"half-width {percent(life.estimate.half_width)} of life"
-    return f"open at its {' and its '.join(ends)} end: more seeds (max_seeds) or a longer t_end close it"
+    if ends := open_ends(*ends_of(life)):
+        return open_text(ends)
+    return f"half-width {percent(life.estimate.half_width)} of life"
 
 
 def passes_text(life, hours):
@@ -144,7 +151,7 @@ def life_chart(fig, life):
     if not math.isfinite(found.life):
         ax.text(0.5, 0.5, "no damage", ha="center", transform=ax.transAxes)
         return
-    beyond = max(BEYOND * found.half_width, math.log(found.life / life.low)) or 0.1
+    beyond = min(max(BEYOND * found.half_width, math.log(found.life / life.low)), BEYOND * math.log(OPEN)) or 0.1
     hours, likely = life_density(found, beyond)
     label = f"{100 * life.mission.settings['confidence']:g} % interval"
     ax.axvspan(life.low, found.high, color="#f3f4f6", zorder=0, label=label)
