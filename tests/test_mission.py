@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -16,7 +17,9 @@ import pytest
 from scipy.stats import t as student
 
 from riveted_bearing import UserError
-from riveted_bearing.duty.assess import Runs, assess, record
+from riveted_bearing.cli.life import write_life
+from riveted_bearing.cli.summary import folder_of
+from riveted_bearing.duty.assess import Runs, assess, check_folder, is_current, record, write_record
 from riveted_bearing.duty.confidence import estimate, until_sure
 from riveted_bearing.duty.history import binned
 from riveted_bearing.duty.miner import Duty, lives, simple_duty
@@ -231,7 +234,7 @@ def test_a_mission_of_one_point_lives_as_this_point(model):
     }
     assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
     assert (
-        set(found) == {"basis", "life_h", "low_h", "high_h", "confidence", "points", "rivets"}
+        set(found) == {"fmu", "fmu_sha256", "basis", "life_h", "low_h", "high_h", "confidence", "points", "rivets"}
         and found["confidence"] == 0.9
     )
     assert found["low_h"] < found["life_h"] < found["high_h"]
@@ -633,6 +636,46 @@ def test_matrices_that_miss_damage_are_told_with_a_step_that_finds_it(model):
     assert 'simulation.step = "0.1 ms" find 73.9 %' in text and 'take simulation.step = "0.01 ms"' in text
     assert not matrix_warnings(found[0.96])
     assert not matrix_warnings(SimpleNamespace(mission=plain, counted=lambda: 0.5))
+
+
+def assessed(model, **document):
+    """A Life by a bearing whose runs are known."""
+    return assess(
+        mission_of(model, [(1, {})], **document), surrogate(np.full((1, Z, 2), 1e-4), 0.3, np.random.default_rng(2))
+    )
+
+
+def test_the_folder_of_another_fmu_is_refused(model, tmp_path):
+    """FIRST.fmu's life is there.  The same FMU may come again, built again too; the page of `summary` may lie elsewhere."""
+    life = assessed(model)
+    first = replace(life.mission, fmu="/a/FIRST.fmu", fmu_sha256="1")
+    other = replace(life.mission, fmu="/a/OTHER.fmu", fmu_sha256="2")
+    check_folder(tmp_path, other, "")
+    write_record(replace(life, mission=first), tmp_path)
+    for mission in (first, replace(first, fmu_sha256="3"), replace(first, fmu="/b/COPY.fmu")):
+        check_folder(tmp_path, mission, "")
+    with pytest.raises(UserError, match=r"another FMU, /a/FIRST.fmu, not of /a/OTHER.fmu: --out$"):
+        check_folder(tmp_path, other, "--out")
+
+
+def test_summary_takes_the_folder_of_its_page_where_another_fmu_has_been(model, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    life = assessed(model)
+    usual, page = Path("results") / "trial", Path("other") / "page.html"
+    usual.mkdir(parents=True)
+    assert folder_of(life.mission, None) == folder_of(life.mission, page) == usual
+    write_record(replace(life, mission=replace(life.mission, fmu="/a/FIRST.fmu", fmu_sha256="1")), usual)
+    with pytest.raises(UserError, match="FIRST.fmu.*--out FOLDER/summary.html"):
+        folder_of(life.mission, None)
+    assert folder_of(life.mission, page) == Path("other")
+
+
+def test_all_files_of_a_folder_are_of_one_life(model, tmp_path):
+    """A record of another life is known as such, and life.json, life.html and life.png are written together."""
+    life, longer = assessed(model), assessed(model, life={"confidence": 0.8})
+    names = [path.name for _, path in write_life(life, tmp_path, [], [])]
+    assert names == ["life.json", "life.html", "life.png"]
+    assert is_current(life, tmp_path) and not is_current(longer, tmp_path)
 
 
 # changes of parameters ------------------------------------------------------------------------------------------------

@@ -318,6 +318,8 @@ def record(life):
     k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)
     rivets = np.einsum("i,ikp->kp", mission.duty.weights, life.rates)
     return {
+        "fmu": mission.fmu,
+        "fmu_sha256": mission.fmu_sha256,
         "basis": dict(mission.basis),
         "life_h": finite(found.life),
         "low_h": finite(life.low),
@@ -339,6 +341,32 @@ def record(life):
 def finite(hours):
     """A number of hours, None for infinity."""
     return float(hours) if math.isfinite(hours) else None
+
+
+def check_folder(folder, mission, remedy):
+    """UserError if a folder has the life of another FMU, whose pages and runs would be replaced in part."""
+    if is_of_another(folder, mission):
+        other = read_record(folder)["fmu"]
+        raise UserError(f"{folder}: has the life of another FMU, {other}, not of {mission.fmu}: {remedy}")
+
+
+def is_of_another(folder, mission):
+    """Whether life.json of a folder is of the FMU of another file; one that was built again at its place is no other one."""
+    known = read_record(folder)
+    return "fmu" in known and known["fmu"] != mission.fmu and known["fmu_sha256"] != mission.fmu_sha256
+
+
+def is_current(life, folder):
+    """Whether life.json of a folder is this Life's."""
+    return read_record(folder) == json.loads(json.dumps(record(life)))
+
+
+def read_record(folder):
+    """The content of a folder's life.json, empty if there is none."""
+    try:
+        return json.loads((folder / RECORD).read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):
+        return {}
 
 
 def write_record(life, folder):

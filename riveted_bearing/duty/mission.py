@@ -135,7 +135,7 @@ class Case:
 @dataclass(frozen=True)
 class Mission:
     """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
-    whether its points have shares of a time that is not given.
+    whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file.
     """
 
     name: str
@@ -149,6 +149,8 @@ class Mission:
     settings: dict
     basis: tuple
     shares: bool = False
+    fmu: str = ""
+    fmu_sha256: str = ""
 
     @property
     def warnings(self):
@@ -193,6 +195,8 @@ def plan_mission(name, document, model, path):
         settings,
         rows,
         any("share" in block for block in tables(path, document, "point")),
+        str(model.path.resolve()),
+        model.digest,
     )
 
 
