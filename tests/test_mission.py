@@ -633,7 +633,8 @@ def test_matrices_that_miss_damage_are_told_with_a_step_that_finds_it(model):
     own, plain = mission_of(model, [(1, {})], sn={"N_D": 4e6}), mission_of(model, [(1, {})])
     found = {share: SimpleNamespace(mission=own, counted=lambda share=share: share) for share in (0.739, 0.96)}
     (text,) = matrix_warnings(found[0.739])
-    assert 'simulation.step = "0.1 ms" find 73.9 %' in text and 'take simulation.step = "0.01 ms"' in text
+    assert 'simulation.step = "0.1 ms" find 73.9 %' in text and text.endswith('take "0.01 ms"')
+    assert len(text) <= 150  # stands whole on the sheet of `summary`
     assert not matrix_warnings(found[0.96])
     assert not matrix_warnings(SimpleNamespace(mission=plain, counted=lambda: 0.5))
 

@@ -99,7 +99,7 @@ def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
     print_warnings(warnings)
     if not is_current(found, folder):  # the pages of `life` too, so that all files are of one life
         write_life(found, folder, notes(found, runs), warnings)
-    return mission_sheet(found, evidence, hours, decides, [model.path, path, folder / RECORD]), folder
+    return mission_sheet(found, evidence, hours, decides, [model.path, path, folder / RECORD], warnings), folder
 
 
 def folder_of(plan, out):

@@ -38,7 +38,7 @@ def matrix_warnings(runs):
     step = max(case.scene.step for case in runs.mission.cases)
     return [
         f"the rainflow matrices at simulation.step = {step_text(step)} find {100 * found:.3g} % of the damage that the FMU "
-        f"counts, so that the life by [sn] is too long: take simulation.step = {step_text(0.1 * step)}"
+        f"counts: life by [sn] is too long; take {step_text(0.1 * step)}"
     ]
 
 

@@ -554,8 +554,8 @@ def part_lines(life):
     return lines
 
 
-def mission_sheet(life, evidence, target=None, decides=None, files=()):
-    """The Sheet of a mission."""
+def mission_sheet(life, evidence, target=None, decides=None, files=(), remarks=()):
+    """The Sheet of a mission; remarks: sentences beside the mission's own warnings."""
     mission = life.mission
     hours, passes = mission_text(life)
     return make_sheet(
@@ -566,7 +566,7 @@ def mission_sheet(life, evidence, target=None, decides=None, files=()):
         target,
         decides,
         part_lines(life),
-        (),
+        (*mission.warnings, *remarks),
         files,
     )
 
