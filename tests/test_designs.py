@@ -59,15 +59,16 @@ def interval(samples, confidence=0.9):
     return ratio_interval(samples, found, confidence)
 
 
-@pytest.mark.parametrize("common", [0.0, 0.8])
-def test_the_interval_contains_the_true_ratio(common):
-    """Expected of a 90 % interval from 8 runs: 82 to 96 % of 150 studies (the binomial scatter of 150 is 2.5 %)."""
-    rng, hits, widths = np.random.default_rng(7), 0, []
-    for _ in range(150):
-        low, high, _ = interval(drawn(rng, 8, common))
+@pytest.mark.parametrize(("common", "spread", "n"), [(0.0, 0.6, 8), (0.8, 0.6, 8), (0.8, 1.5, 12), (0.95, 1.5, 24)])
+def test_the_interval_contains_the_true_ratio(common, spread, n):
+    """Of a 90 % interval 87 to 99 % of 400 studies (the binomial scatter of 400 is 1.5 %), more of heavy tails; a bootstrap
+    of the runs had 63 % of the third ones.
+    """
+    rng, hits = np.random.default_rng(7), 0
+    for _ in range(400):
+        low, high, _ = interval(drawn(rng, n, common, spread=spread))
         hits += low <= math.log(2.5) <= high
-        widths.append(high - low)
-    assert 0.82 <= hits / 150 <= 0.96, hits / 150
+    assert 0.87 <= hits / 400 <= 0.99, hits / 400
 
 
 def test_common_seeds_narrow_the_interval():
