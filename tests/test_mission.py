@@ -628,6 +628,16 @@ def test_a_bad_mission_ends_with_one_line_and_exit_code_2(tmp_path, text, fragme
         assert fragment in err
 
 
+def test_what_matrices_find_counts_by_the_damage_in_the_mission(model, monkeypatch):
+    """Two points of equal hours: 100 % of hardly any damage in one, 70 % of nearly all of it in the other."""
+    runs = Runs(mission_of(model, [(1, {}), (1, {"shaft.F_y": 9000.0})]), model, Path(), None)
+    for c, (found, own) in enumerate(((1e-12, 1e-12), (0.7e-6, 1e-6))):
+        runs.matrices[runs.keys[c, 0]] = (found, None, own)
+        runs.per[runs.keys[c, 0]] = 3600.0
+    monkeypatch.setattr("riveted_bearing.duty.assess.damages_counted", lambda found, laws, own: (found, own))
+    assert runs.counted() == pytest.approx(0.7, rel=1e-5)
+
+
 def test_matrices_that_miss_damage_are_told_with_a_step_that_finds_it(model):
     """Below 95 % of the FMU's count, and of a mission with its own S-N curve alone."""
     own, plain = mission_of(model, [(1, {})], sn={"N_D": 4e6}), mission_of(model, [(1, {})])
