@@ -21,7 +21,7 @@ from riveted_bearing.cli import program
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
-from riveted_bearing.duty.page import cards, interval_text, passes_text, percent, width_text, write_page
+from riveted_bearing.duty.page import cards, ends_of, interval_text, passes_text, percent, width_text, write_page
 from riveted_bearing.duty.sn import Strength, assumed, in_words
 from riveted_bearing.fmu import Model
 from riveted_bearing.life import FatigueLaw
@@ -301,7 +301,7 @@ def test_intervals(low, high, interval, width):
     """Life 100 h; an end eleven times away, a half-width of ten times life, tells nothing."""
     estimate = SimpleNamespace(life=100.0, low=low, high=high, half_width=0.5 * math.log(high / low))
     life = SimpleNamespace(estimate=estimate, low=low)
-    assert interval_text(life) == interval and width_text(life).startswith(width)
+    assert interval_text(*ends_of(life)) == interval and width_text(life).startswith(width)
     assert percent(0.5 * math.log(1.7e4 / 0.6)) == "> 1,000 %"
 
 

@@ -12,10 +12,12 @@ import pytest
 from commands import command
 
 from riveted_bearing import UserError
+from riveted_bearing.cli.compare_designs import print_comparison
 from riveted_bearing.duty import designs
 from riveted_bearing.duty.confidence import estimate, ratio_interval
 from riveted_bearing.duty.miner import simple_duty
 from riveted_bearing.fmu import Model
+from riveted_bearing.units import hours_text
 
 MISSION = """
 scene = "demo"
@@ -53,19 +55,20 @@ def drawn(rng, n, common, ratio=2.5, spread=0.6):
 
 def interval(samples, confidence=0.9):
     duty = simple_duty([0.6, 0.4])
-    found = [estimate(duty, one, confidence, 1) for one in samples]
-    return ratio_interval([duty, duty], samples, found, confidence, 1)
+    found = [estimate(duty, one, confidence) for one in samples]
+    return ratio_interval(samples, found, confidence)
 
 
-@pytest.mark.parametrize("common", [0.0, 0.8])
-def test_the_interval_contains_the_true_ratio(common):
-    """Expected of a 90 % interval from 8 runs: 82 to 96 % of 150 studies (the binomial scatter of 150 is 2.5 %)."""
-    rng, hits, widths = np.random.default_rng(7), 0, []
-    for _ in range(150):
-        low, high, _ = interval(drawn(rng, 8, common))
+@pytest.mark.parametrize(("common", "spread", "n"), [(0.0, 0.6, 8), (0.8, 0.6, 8), (0.8, 1.5, 12), (0.95, 1.5, 24)])
+def test_the_interval_contains_the_true_ratio(common, spread, n):
+    """Of a 90 % interval 87 to 99 % of 400 studies (the binomial scatter of 400 is 1.5 %), more of heavy tails; a bootstrap
+    of the runs had 63 % of the third ones.
+    """
+    rng, hits = np.random.default_rng(7), 0
+    for _ in range(400):
+        low, high, _ = interval(drawn(rng, n, common, spread=spread))
         hits += low <= math.log(2.5) <= high
-        widths.append(high - low)
-    assert 0.82 <= hits / 150 <= 0.96, hits / 150
+    assert 0.87 <= hits / 400 <= 0.99, hits / 400
 
 
 def test_common_seeds_narrow_the_interval():
@@ -128,6 +131,24 @@ def test_a_parameter_of_a_point_is_not_overwritten_in_silence(fmu, tmp_path):
         designs.plan(path, design)
     with pytest.raises(UserError, match=r'unknown parameter "joint.prelaod"; did you mean "joint.preload"'):
         designs.plan(path, SimpleNamespace(name="b", model=design.model, settings={"joint.prelaod": 1.0}))
+
+
+def test_an_open_interval_is_told_as_life_tells_it(capsys):
+    """A life of 1e8 h whose lower end is 715 h: no bounds in the table, and the advice of `life` for this design alone."""
+    ends = ((1e8, 715.0, 1.4e13), (100.0, 80.0, 125.0))
+    outcomes = [
+        designs.Outcome(
+            SimpleNamespace(name=name), SimpleNamespace(life=life, low=low, high=high), "rivet 1, head", ratio, {}
+        )
+        for name, (life, low, high), ratio in zip("ab", ends, (None, designs.Ratio(1e-6, 1e-11, 0.1, 0.0)), strict=True)
+    ]
+    runs = SimpleNamespace(mission=SimpleNamespace(warnings=(), document={}))
+    (text,) = designs.warnings_of([runs, runs], outcomes)
+    assert text.startswith("a: the interval of life is open at its lower and its upper end: more seeds (max_seeds)")
+    print_comparison(SimpleNamespace(confidence=0.9, outcomes=outcomes, differences=()), hours_text)
+    out = capsys.readouterr().out
+    assert "open at both ends" in out and "715" not in out and "80 h – 125 h" in out and "1e-06 (open)" in out
+    assert designs.shown_ends(outcomes[0]) == (1e8 / 11.0, 1.1e9) and designs.shown_ends(outcomes[1]) == (80.0, 125.0)
 
 
 def test_two_designs_of_one_fmu(fmu, tmp_path, browser):

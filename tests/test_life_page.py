@@ -52,6 +52,15 @@ def test_files_can_be_read(folder):
     assert {line.split()[2] for line in COMMANDS} == {name for name in FILES if name.endswith(".toml")}
 
 
+def test_the_strike_of_the_page_counts_with_any_fmu(folder, monkeypatch):
+    """A bearing that settles in 1 s, beyond the usual t_end: the strike lies 10 ms behind it."""
+    default = Model.default
+    monkeypatch.setattr(Model, "default", lambda self, v: 1.0 if v.name == "start.settle" else default(self, v))
+    mission = load_mission(Path("spindle.toml"), Model())
+    strike = mission.parts[-1].scene
+    assert strike.inputs["impact.F_r"].t[0] == pytest.approx(1.01) and strike.t_end == 2.0 and not mission.warnings
+
+
 @pytest.mark.parametrize("line", COMMANDS)
 def test_commands_parse(line):
     _, name, *arguments = shlex.split(line)

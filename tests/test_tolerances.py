@@ -250,9 +250,12 @@ def test_a_curve_comes_from_a_file(tmp_path):
         ({"file": "no.csv"}, ["no.csv", "no such file"]),
         ({"file": "bad.csv"}, ['column "cycles"']),
         ({"slope": 3}, ['"slope"']),
+        ({"sigma_D": 250}, ["sigma_D = 250", "1 MPa", '"250 MPa" has its unit']),
+        ({"file": "plain.csv"}, ["plain.csv", "amplitude = 120 Pa", "1 MPa", 'unit = "MPa"']),
     ],
 )
 def test_what_a_curve_cannot_say_is_refused(tmp_path, section, fragments):
+    (tmp_path / "plain.csv").write_text("amplitude,cycles\n120,1e7\n400,1e4\n")
     (tmp_path / "bad.csv").write_text("amplitude,N\n1,2\n")
     with pytest.raises(UserError) as refused:
         read_strength(tmp_path / "m.toml", section, LAW)

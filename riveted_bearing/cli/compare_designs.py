@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text
+from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text, print_warnings
 
 MOST_DIFFERENCES = 12  # on the terminal
 
@@ -46,6 +46,7 @@ def compare_designs(
 
     with design_runs(mission.stem, folder, scheduler, workers) as (client, progress):
         found = compare_designs(mission, chosen, folder, client, progress, say)
+    print_warnings(found.warnings)
     print_comparison(found, hours_text)
     for label, path in (("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
@@ -53,7 +54,8 @@ def compare_designs(
 
 def print_comparison(found, hours_text):
     """Lives, ratios and what differs."""
-    from ..duty.designs import ratio_text, verdict
+    from ..duty.designs import ends_of, ratio_text, verdict
+    from ..duty.page import interval_text
 
     table = Table(
         "design",
@@ -66,11 +68,10 @@ def print_comparison(found, hours_text):
         pad_edge=False,
     )
     for outcome in found.outcomes:
-        e = outcome.estimate
         table.add_row(
             escape(outcome.design.name),
-            hours_text(e.life),
-            f"{hours_text(e.low)} – {hours_text(e.high)}",
+            hours_text(outcome.estimate.life),
+            interval_text(*ends_of(outcome)),
             outcome.place,
             ratio_text(outcome.life),
             verdict(outcome),

@@ -8,7 +8,9 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..results import make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis, print_warnings
+
+SHEET = "summary.html"  # of the command `summary`, in the same folder
 
 
 @command
@@ -36,21 +38,23 @@ def life(
     """Life of the rivets under a mission, with confidence: runs as many seeds as that needs; a second call does only
     missing runs.
     """
-    from ..duty.assess import Runs, assess, write_record
+    from ..duty.assess import Runs, assess, check_folder, is_current
     from ..duty.mission import load_mission
-    from ..duty.notes import notes
+    from ..duty.notes import matrix_warnings, notes
     from ..duty.oil_range import oil_range as both_ends
     from ..duty.oil_range import plan_ends, remarks, rows, write_oil_range
-    from ..duty.page import percent, write_page, write_picture
+    from ..duty.page import percent
     from ..duty.tolerances import RECORD, read_tolerances, scatter, write_scatter
     from ..fmu import Model
 
     model = Model(fmu)
     plan = load_mission(mission, model)
+    print_warnings(plan.warnings)
     tolerances = read_tolerances(plan, model)
     if oil_range:
         plan_ends(plan, model)  # refusals come before the runs
     folder = out or Path("results") / plan.name
+    check_folder(folder, plan, "choose another folder by --out")
     make_folder(folder)
     reached = []
 
@@ -73,12 +77,11 @@ def life(
             else None
         )
     texts = [*(remarks(ends) if ends else ()), *notes(found, runs, of_bearings)]
+    warnings = matrix_warnings(runs)
+    print_warnings(warnings)
     print_life(found, texts, rows(ends) if ends else ())
-    files = [
-        ("results", write_record(found, folder)),
-        ("page", write_page(found, folder / "life.html", texts)),
-        ("picture", write_picture(found, folder / "life.png")),
-    ]
+    old_sheet = (folder / SHEET).is_file() and not is_current(found, folder)
+    files = write_life(found, folder, texts, warnings)
     if ends:
         files.append(("results", write_oil_range(ends, folder)))
     if of_bearings:
@@ -95,6 +98,22 @@ def life(
         )
     for label, path in files:
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    if old_sheet:
+        console.print(
+            f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]", soft_wrap=True
+        )
+
+
+def write_life(found, folder, texts, warnings):
+    """Write all files of a Life into its folder: (label, path) of each."""
+    from ..duty.assess import write_record
+    from ..duty.page import write_page, write_picture
+
+    return [
+        ("results", write_record(found, folder)),
+        ("page", write_page(found, folder / "life.html", texts, warnings)),
+        ("picture", write_picture(found, folder / "life.png")),
+    ]
 
 
 def print_life(found, remarks, ends=()):

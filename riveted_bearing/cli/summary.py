@@ -8,7 +8,8 @@ from rich.markup import escape
 
 from ..errors import UserError
 from ..results import FORMATS, make_folder
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, number_or_text
+from .life import SHEET, write_life
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, number_or_text, print_warnings
 
 
 @command
@@ -27,7 +28,9 @@ def summary(
     ] = None,
     out: Annotated[
         Path | None,
-        typer.Option(help="the page to write; default: summary.html in results/MISSION, or beside the result"),
+        typer.Option(
+            help="the page to write, with runs and life beside it if results/MISSION has another FMU's; default: summary.html there, or beside the result"
+        ),
     ] = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
@@ -48,7 +51,7 @@ def summary(
         path = out or source.with_name(f"{source.stem}_summary.html")
     else:
         sheet, folder = sheet_of_mission(source, fmu, hours, decides, out, scheduler, workers)
-        path = out or folder / "summary.html"
+        path = out or folder / SHEET
     write_sheet(sheet, path)
     console.print(f"[bold]{escape(sheet.verdict[1])}[/]  {escape(sheet.verdict[2])}", soft_wrap=True)
     for check in sheet.checks:
@@ -77,18 +80,33 @@ def target_hours(target):
 
 def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
     """The Sheet of a mission, and the folder of its runs, of which a second call does only missing ones."""
-    from ..duty.assess import RECORD, Runs, assess, write_record
+    from ..duty.assess import RECORD, Runs, assess, is_current
     from ..duty.mission import load_mission
+    from ..duty.notes import matrix_warnings, notes
     from ..duty.sheet import mission_sheet, of_mission
     from ..fmu import Model
 
     model = Model(fmu)
     plan = load_mission(path, model)
-    folder = Path("results") / plan.name
+    print_warnings(plan.warnings)
+    folder = folder_of(plan, out)
     make_folder(folder)
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
         found = assess(plan, runs)
         evidence = of_mission(found, runs, model, lambda done, total: progress(done, 0, total))
-    write_record(found, folder)
-    return mission_sheet(found, evidence, hours, decides, [model.path, path, folder / RECORD]), folder
+    warnings = matrix_warnings(runs)
+    print_warnings(warnings)
+    if not is_current(found, folder):  # the pages of `life` too, so that all files are of one life
+        write_life(found, folder, notes(found, runs), warnings)
+    return mission_sheet(found, evidence, hours, decides, [model.path, path, folder / RECORD], warnings), folder
+
+
+def folder_of(plan, out):
+    """The folder of a mission's runs and life: that of `life`, or, if it is another FMU's, the one of the page."""
+    from ..duty.assess import check_folder, is_of_another
+
+    usual, remedy = Path("results") / plan.name, f"--out FOLDER/{SHEET} puts page, life and runs into another folder"
+    folder = out.parent if out and is_of_another(usual, plan) else usual
+    check_folder(folder, plan, remedy)
+    return folder

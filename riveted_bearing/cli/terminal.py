@@ -158,6 +158,12 @@ def print_basis(rows):
         console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]", soft_wrap=True)
 
 
+def print_warnings(texts):
+    """Sentences that a user must not miss, on stderr."""
+    for text in texts:
+        messages.print(f"[yellow]warning: {escape(text)}[/]", soft_wrap=True)
+
+
 @contextlib.contextmanager
 def design_runs(name, folder, scheduler, workers):
     """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a

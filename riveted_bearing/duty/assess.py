@@ -19,7 +19,7 @@ from .confidence import Estimate, until_sure
 from .cycles import OUTPUTS, rainflow_columns, rainflow_fields, stored_cycles
 from .miner import Duty, part_rates
 from .mission import Mission
-from .sn import damage_of_matrix, read_strength
+from .sn import Strength, damage_of_cycles, damage_of_matrix, read_strength
 
 PLACES = ("head", "mid")
 SAFETY = 10.0  # of the bound on the damage of points that are not simulated
@@ -86,6 +86,7 @@ class Runs:
             (rainflow_columns, rainflow_fields),
         )
         self.strengths, self.damages, self.matrices, self.cost = {}, {}, {}, {}
+        self.per = {}  # of each run: what makes its damage one per hour of a point, or per event
 
     def __call__(self, counts):
         """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case
@@ -133,24 +134,32 @@ class Runs:
                 self.strengths[law] = read_strength(self.mission.path, self.mission.document["sn"], law)
             damage = damage_of_matrix(self.strengths[law], matrix, own.size).reshape(own.shape)
         seconds = rows["simulated_time"][i] - rows["start.settle"][i]
-        self.damages[key] = damage if part.event else damage * 3600.0 / seconds
+        self.per[key] = 1.0 if part.event else 3600.0 / seconds
+        self.damages[key] = damage * self.per[key]
         laws = [fatigue_law_at({n: rows[n][i] for n in rows}, 1 + c // 2, PLACES[c % 2]) for c in range(own.size)]
         self.matrices[key] = (matrix, laws, own)
         self.cost[key] = float(rows["whole_cpu_time"][i])
 
     def counted(self):
-        """Damage of all matrices over the FMU's own count, with the FMU's law, at the place with the most damage."""
-        from .sn import Strength, damage_of_cycles
-
+        """Damage of all matrices over the FMU's own count, with the FMU's law, at the place of each run with the most
+        damage; runs count by their damage in the mission.
+        """
         found, own = 0.0, 0.0
-        for matrix, laws, total in self.matrices.values():
-            channel = total.argmax()
-            chosen = matrix[0] == channel
-            found += damage_of_cycles(Strength(laws[channel]), *(column[chosen] for column in matrix[1:])).sum() / max(
-                total.max(), 1e-300
-            )
-            own += 1.0
-        return found / own
+        for c, case in enumerate(self.mission.cases):
+            keys = [key for s in range(self.mission.settings["max_seeds"]) if (key := self.keys[c, s]) in self.matrices]
+            for key in keys:
+                weight = self.mission.duty.weights[case.part] * self.per[key] / len(keys)
+                of_matrix, of_fmu = damages_counted(*self.matrices[key])
+                found, own = found + weight * of_matrix, own + weight * of_fmu
+        return found / own if own > 0.0 else 1.0
+
+
+def damages_counted(matrix, laws, own):
+    """Damage of a run's matrix and the FMU's own count at the place with the most damage."""
+    channel = own.argmax()
+    chosen = matrix[0] == channel
+    cycles = (column[chosen] for column in matrix[1:])
+    return damage_of_cycles(Strength(laws[channel]), *cycles).sum(), own.max()
 
 
 def number_of_rivets(rows):
@@ -318,6 +327,8 @@ def record(life):
     k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)
     rivets = np.einsum("i,ikp->kp", mission.duty.weights, life.rates)
     return {
+        "fmu": mission.fmu,
+        "fmu_sha256": mission.fmu_sha256,
         "basis": dict(mission.basis),
         "life_h": finite(found.life),
         "low_h": finite(life.low),
@@ -339,6 +350,32 @@ def record(life):
 def finite(hours):
     """A number of hours, None for infinity."""
     return float(hours) if math.isfinite(hours) else None
+
+
+def check_folder(folder, mission, remedy):
+    """UserError if a folder has the life of another FMU, whose pages and runs would be replaced in part."""
+    if is_of_another(folder, mission):
+        other = read_record(folder)["fmu"]
+        raise UserError(f"{folder}: has the life of another FMU, {other}, not of {mission.fmu}: {remedy}")
+
+
+def is_of_another(folder, mission):
+    """Whether life.json of a folder is of the FMU of another file; one that was built again at its place is no other one."""
+    known = read_record(folder)
+    return "fmu" in known and known["fmu"] != mission.fmu and known["fmu_sha256"] != mission.fmu_sha256
+
+
+def is_current(life, folder):
+    """Whether life.json of a folder is this Life's."""
+    return read_record(folder) == json.loads(json.dumps(record(life)))
+
+
+def read_record(folder):
+    """The content of a folder's life.json, empty if there is none."""
+    try:
+        return json.loads((folder / RECORD).read_text(encoding="utf-8"))
+    except (FileNotFoundError, ValueError):
+        return {}
 
 
 def write_record(life, folder):

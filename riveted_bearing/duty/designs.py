@@ -2,8 +2,8 @@
 intervals, and what differs between them.
 
 A design is an FMU, or an FMU with parameters of its own.  All designs have the same number of runs of each case, and
-run s of each has the same start.seed (common random numbers).  The interval of a ratio of lives is the bootstrap of
-confidence.py, in which a draw has the same runs of both designs.  Bearing motion is chaotic: where the designs differ
+run s of each has the same start.seed (common random numbers).  The interval of a ratio of lives is that of
+confidence.py for the differences of the runs of equal seeds.  Bearing motion is chaotic: where the designs differ
 at all, common seeds may correlate little; the correlation stands beside the result.
 """
 
@@ -29,6 +29,8 @@ from ..units import hours_text
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission, tables
+from .notes import matrix_warnings
+from .page import OPEN, interval_text, open_ends, open_text
 
 RESPONSES = {  # column of a run: in words
     "stat.sigma_head_p999": "head stress, p99.9",
@@ -84,7 +86,7 @@ class Outcome:
 @dataclass(frozen=True)
 class Comparison:
     """Outcomes in the order of the designs; counts: runs of each case; differences: (name, [text of each design]);
-    basis: lines that all designs share.
+    basis: lines that all designs share; warnings: sentences on events and matrices.
     """
 
     name: str
@@ -94,6 +96,7 @@ class Comparison:
     outcomes: tuple
     differences: tuple
     basis: dict
+    warnings: tuple = ()
 
 
 def read_designs(words, number_or_text):
@@ -169,16 +172,14 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
         all_runs.append(runs)
     settings = missions[0].settings
     samples = [[places(damage, settings["rivets"]) for damage in runs(counts)] for runs in all_runs]
-    found = [estimate(m.duty, s, settings["confidence"], settings["seed"]) for m, s in zip(missions, samples)]
+    found = [estimate(m.duty, s, settings["confidence"]) for m, s in zip(missions, samples)]
     rows = [responses_of(runs, counts) for runs in all_runs]
     outcomes = [
         Outcome(
             design,
             found[k],
             place_text(found[k].place, settings["rivets"]),
-            life_ratio([missions[0].duty, missions[k].duty], [samples[0], samples[k]], [found[0], found[k]], settings)
-            if k
-            else None,
+            life_ratio([samples[0], samples[k]], [found[0], found[k]], settings["confidence"]) if k else None,
             {
                 part: {
                     name: (values.mean(), ratio_of(rows[0][part][name], values, settings["confidence"]) if k else None)
@@ -201,7 +202,17 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
             *differences(designs, common_parameters(path, designs[0].model)),
         ),
         {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1},
+        tuple(warnings_of(all_runs, outcomes)),
     )
+
+
+def warnings_of(all_runs, outcomes):
+    """Sentences on the designs' events, matrices and intervals of life."""
+    for runs, outcome in zip(all_runs, outcomes, strict=True):
+        texts = [*runs.mission.warnings, *matrix_warnings(runs)]
+        if ends := open_ends(*ends_of(outcome)):
+            texts.append(f"the interval of life is {open_text(ends)}")
+        yield from (f"{outcome.design.name}: {text}" for text in texts)
 
 
 def rested_on(missions):
@@ -222,11 +233,11 @@ def place_text(place, rivets):
     return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
 
 
-def life_ratio(duties, samples, found, settings):
+def life_ratio(samples, found, confidence):
     """Ratio of the lives of two Estimates, the second over the first."""
     if not all(math.isfinite(one.life) for one in found):
         return Ratio(math.nan, 0.0, math.inf, math.nan)
-    low, high, r = ratio_interval(duties, samples, found, settings["confidence"], settings["seed"])
+    low, high, r = ratio_interval(samples, found, confidence)
     return Ratio(found[1].life / found[0].life, math.exp(low), math.exp(high), r)
 
 
@@ -304,12 +315,19 @@ def lowest_mode(model):
 
 
 def ratio_text(ratio):
-    """A Ratio with its interval; – where there is none."""
+    """A Ratio with its interval, or that it is open; – where there is none."""
     if ratio is None:
         return ""
     if math.isnan(ratio.ratio):
         return "–"
+    if open_ends(ratio.ratio, ratio.low, ratio.high):
+        return f"{ratio.ratio:.3g} (open)"
     return f"{ratio.ratio:.3g} ({ratio.low:.3g} … {ratio.high:.3g})"
+
+
+def ends_of(outcome):
+    """Life, lower and upper end of its interval [h]."""
+    return outcome.estimate.life, outcome.estimate.low, outcome.estimate.high
 
 
 def verdict(outcome):
@@ -378,11 +396,10 @@ def life_chart(fig, found):
     """Life of each design with its interval."""
     ax = fig.subplots()
     for k, outcome in enumerate(found.outcomes):
-        e = outcome.estimate
-        if math.isfinite(e.life):
-            ax.plot([e.low, e.high], [k, k], color=COLOURS[k % len(COLOURS)], lw=3, solid_capstyle="butt")
-            ax.plot(e.life, k, "o", color=COLOURS[k % len(COLOURS)], ms=7)
-    ends = [x for o in found.outcomes for x in (o.estimate.low, o.estimate.high) if math.isfinite(x) and x > 0.0]
+        if math.isfinite(life := outcome.estimate.life):
+            ax.plot(shown_ends(outcome), [k, k], color=COLOURS[k % len(COLOURS)], lw=3, solid_capstyle="butt")
+            ax.plot(life, k, "o", color=COLOURS[k % len(COLOURS)], ms=7)
+    ends = [x for outcome in found.outcomes for x in shown_ends(outcome) if math.isfinite(x)]
     ax.set_xscale("log")
     if ends and max(ends) < 10.0 * min(ends):
         ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])
@@ -391,6 +408,12 @@ def life_chart(fig, found):
     ax.set_yticks(range(len(found.outcomes)), [short(outcome.design.name) for outcome in found.outcomes])
     ax.set(xlabel="life [h]", ylim=(len(found.outcomes) - 0.5, -0.5))
     ax.grid(axis="y", visible=False)
+
+
+def shown_ends(outcome):
+    """Ends of the interval of life [h] as the picture shows them, an open one at OPEN times the life."""
+    life, low, high = ends_of(outcome)
+    return max(low, life / OPEN), min(high, life * OPEN)
 
 
 def short(name, length=26):
@@ -431,6 +454,7 @@ def write_page(found, path):
             "stat.Q_c_p999": (1.0, "N"),
         },
         hours_text=hours_text,
+        interval_text=lambda outcome: interval_text(*ends_of(outcome)),
         ratio_text=ratio_text,
         verdict=verdict,
         charts={

@@ -16,7 +16,8 @@ inputs.shaft.F_y = "3 kN"            # [point.inputs], [point.parameters], [poin
 [[event]]
 name = "landing"
 count = 12                           # per pass of the mission; damage of its whole run after start.settle
-inputs.impact.F_r = { t = [0.05, 0.051, 0.052], value = [0, 4000, 0] }
+after_settle = true                  # the times of its inputs count from start.settle; default false: from the start of the run
+inputs.impact.F_r = { t = [0.01, 0.011, 0.012], value = [0, 4000, 0] }
 
 [[change]]                           # of tunable parameters, in every pass of the mission: from this time of its points on,
 at = "2 h"                           # in their order; a point that is under way is divided
@@ -40,7 +41,7 @@ confidence = 0.9                     # of the interval
 half_width = 0.25                    # of life: simulate until the interval is at most life/1.25 ... 1.25 life wide
 min_seeds = 6
 max_seeds = 32
-seed = 1                             # first start.seed, common to all points, and seed of the bootstrap
+seed = 1                             # first start.seed, common to all points
 skip = 0.01                          # share of the damage that rare points may have and yet be left out by a bound; 0: none left out
 rivets = "each"                      # or "alike": every rivet takes every place in turn, so that rates are means over the rivets
 [sn]                                 # see sn.py; default: the FMU's law and its own count
@@ -81,7 +82,7 @@ SECTIONS = (
     "tolerance",
 )
 POINT = ("name", "hours", "share", "preload_factor", "interpolate", "scene", "simulation", "parameters", "inputs")
-EVENT = ("name", "count", "preload_factor", "scene", "simulation", "parameters", "inputs")
+EVENT = ("name", "count", "after_settle", "preload_factor", "scene", "simulation", "parameters", "inputs")
 TABLE = ("file", "hours", "inputs", "parameters")
 HISTORY = ("file", "time", "hours", "inputs", "parameters")
 LOSS = ("hours", "factor")
@@ -105,8 +106,8 @@ FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage":
 @dataclass(frozen=True)
 class Part:
     """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of all
-    inputs, None for those that vary, and of the parameters that it sets, SI; load, speed: in words.  Of a class of a
-    record: cell, its number along each axis; means and spreads, of the record's values in it.
+    inputs, None for those that vary, and of the parameters that it sets, SI; load, speed: in words; warnings: sentences.
+    Of a class of a record: cell, its number along each axis; means and spreads, of the record's values in it.
     """
 
     name: str
@@ -120,6 +121,7 @@ class Part:
     cell: tuple = ()
     means: tuple = ()
     spreads: tuple = ()
+    warnings: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,7 @@ class Case:
 @dataclass(frozen=True)
 class Mission:
     """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
-    whether its points have shares of a time that is not given.
+    whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file.
     """
 
     name: str
@@ -147,6 +149,13 @@ class Mission:
     settings: dict
     basis: tuple
     shares: bool = False
+    fmu: str = ""
+    fmu_sha256: str = ""
+
+    @property
+    def warnings(self):
+        """What the user has to know of the parts before the runs: sentences."""
+        return tuple(text for part in self.parts for text in part.warnings)
 
 
 def load_mission(path, model):
@@ -186,6 +195,8 @@ def plan_mission(name, document, model, path):
         settings,
         rows,
         any("share" in block for block in tables(path, document, "point")),
+        str(model.path.resolve()),
+        model.digest,
     )
 
 
@@ -380,10 +391,59 @@ def part_of(path, document, model, label, name, block, weight, event=False):
             scene.t_end,
             f"longer than start.settle = {settle:g} s is needed, before which damage does not count",
         )
+    warnings = ()
+    if event:
+        names = {name for name, _ in leaves(own["inputs"], model.inputs)} | (
+            set(scene.inputs) if "scene" in block else set()
+        )
+        scene, warnings = event_in_time(path, label, block, scene, settle, sorted(names))
     simulated = None if block.get("interpolate", False) else scene
     return Part(
-        name, event, weight, simulated, factor, values_of(scene, model), loads(model, [scene]), speeds(model, [scene])
+        name,
+        event,
+        weight,
+        simulated,
+        factor,
+        values_of(scene, model),
+        loads(model, [scene]),
+        speeds(model, [scene]),
+        warnings=warnings,
     )
+
+
+def event_in_time(path, label, block, scene, settle, names):
+    """The scene of an event with its times moved if it says so, and warnings; names: of the inputs that the event sets.
+
+    UserError for an input whose changes are all over before start.settle, or begin after the end: they count nothing.
+    """
+    moved = block.get("after_settle", False)
+    if not isinstance(moved, bool):
+        raise refusal(f"{path}: {label}", "after_settle", moved, "allowed: true, false")
+    varying = {name: scene.inputs[name] for name in names if np.ptp(scene.inputs[name].value) > 0.0}
+    if moved:
+        varying = {name: replace(history, t=history.t + settle) for name, history in varying.items()}
+        scene = replace(scene, inputs=scene.inputs | varying)
+    counted = f"damage counts from start.settle = {settle:g} s to t_end = {scene.t_end:g} s"
+    warnings = []
+    for name, history in varying.items():
+        begin, end = changing_time(history)
+        told = f"{label}: inputs.{name} changes from {begin:g} s to {end:g} s"
+        over = end <= settle and history.value[0] == history.value[-1]
+        if over or begin >= scene.t_end:
+            remedy = (
+                "set a longer t_end" if not over else "set later times, or after_settle = true, from which they count"
+            )
+            raise UserError(f"{path}: {told}, but {counted}: {remedy}")
+        if begin < settle or end > scene.t_end:
+            warnings.append(f"{told}, but {counted}: a part of the event does not count")
+    return scene, tuple(warnings)
+
+
+def changing_time(history):
+    """First and last time [s] of the changes of a History that is not constant."""
+    first = int(np.argmax(history.value != history.value[0]))
+    last = len(history.t) - 1 - int(np.argmax(history.value[::-1] != history.value[-1]))
+    return float(history.t[first if history.hold else first - 1]), float(history.t[last + 1])
 
 
 def values_of(scene, model):

@@ -9,8 +9,9 @@ import numpy as np
 from ..units import hours_text
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
-from .page import open_ends, percent, width_text
+from .page import ends_of, open_ends, percent, width_text
 
+ENOUGH = 0.95  # of the damage that the FMU counts: with less in the matrices the life is too long
 WIDE, MATTERS = 1.3, 0.05  # factor of a class, and share in the damage from which it is named
 
 
@@ -26,6 +27,24 @@ def wide_classes(life):
         for i, factor, share in zip(life.kept, factors, found.shares, strict=True)
         if factor > WIDE and share > MATTERS
     ]
+
+
+def matrix_warnings(runs):
+    """Sentences on a mission with its own S-N curve whose matrices miss damage, because stress between the communication
+    points is not in them.
+    """
+    if "sn" not in runs.mission.document or (found := runs.counted()) >= ENOUGH:
+        return []
+    step = max(case.scene.step for case in runs.mission.cases)
+    return [
+        f"the rainflow matrices at simulation.step = {step_text(step)} find {100 * found:.3g} % of the damage that the FMU "
+        f"counts: life by [sn] is too long; take {step_text(0.1 * step)}"
+    ]
+
+
+def step_text(step):
+    """A communication step as a mission's file has it."""
+    return f'"{1e3 * step:.3g} ms"'
 
 
 def oil_in_pockets(mission):
@@ -46,7 +65,7 @@ def notes(life, runs, scatter=None):
     mission, found = life.mission, life.estimate
     settings = mission.settings
     reached = f"{percent(found.half_width)}, wanted {100 * settings['half_width']:g} %"
-    if open_ends(life):
+    if open_ends(*ends_of(life)):
         sentences = [f"The interval of life is {width_text(life)}; max_seeds = {settings['max_seeds']} was reached."]
     elif found.half_width > math.log1p(settings["half_width"]):
         sentences = [

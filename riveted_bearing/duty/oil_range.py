@@ -13,7 +13,7 @@ from ..scene import leaves, section_of
 from ..units import hours_text
 from .assess import Life, finite, write_record
 from .mission import changed_points, plan_mission, tables
-from .page import interval_text
+from .page import ends_of, interval_text
 
 FILLING = "cage.pocket_filling"
 ENDS = {"dry": 0.0, "flooded": 1.0}
@@ -77,7 +77,7 @@ def oil_range(found, model, folder, assessed):
 def rows(ends):
     """Title, life and interval of each end."""
     for end, life in ends.lives.items():
-        yield f"Life, {end}", hours_text(life.estimate.life), f"{interval_text(life)} · {life.place}"
+        yield f"Life, {end}", hours_text(life.estimate.life), f"{interval_text(*ends_of(life))} · {life.place}"
 
 
 def remarks(ends):

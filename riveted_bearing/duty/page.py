@@ -4,6 +4,7 @@ import math
 
 import matplotlib
 import numpy as np
+from scipy.stats import t as student
 
 from .. import charts
 from ..pages import save_page
@@ -15,12 +16,13 @@ from ..units import LONGEST, hours_text
 
 MOST_BARS = 14
 OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
+BEYOND = 1.6  # half-widths of ln life that the picture shows on each side
 WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
-def write_page(life, path, notes):
-    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out.  Returns the
-    path.
+def write_page(life, path, notes, warnings=()):
+    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out; warnings:
+    beside those of the mission.  Returns the path.
     """
     return save_page(
         path,
@@ -29,6 +31,7 @@ def write_page(life, path, notes):
         cards=list(cards(life)),
         rows=list(part_rows(life)),
         notes=notes,
+        warnings=[*life.mission.warnings, *warnings],
         charts={
             name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label)
             for name, (draw, size, label) in CHARTS.items()
@@ -45,7 +48,7 @@ def cards(life):
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
     yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
-    yield f"{100 * settings['confidence']:g} % interval", interval_text(life), width_text(life)
+    yield f"{100 * settings['confidence']:g} % interval", interval_text(*ends_of(life)), width_text(life)
     yield "Mission", *mission_text(life)
     yield (
         "Runs",
@@ -64,33 +67,40 @@ def mission_text(life):
     return "shares of time", "of any length"
 
 
-def open_ends(life):
+def ends_of(life):
+    """Life, lower and upper end of a Life's interval [h]."""
+    return life.estimate.life, life.low, life.estimate.high
+
+
+def open_ends(life, low, high):
     """Which ends of the interval are so far from life that they say nothing: "lower", "upper"."""
-    found = life.estimate
-    if not math.isfinite(found.life):
+    if not math.isfinite(life):
         return []
-    return [
-        end for end, far in (("lower", found.life > OPEN * life.low), ("upper", found.high > OPEN * found.life)) if far
-    ]
+    return [end for end, far in (("lower", life > OPEN * low), ("upper", high > OPEN * life)) if far]
 
 
-def interval_text(life):
+def interval_text(life, low, high):
     """The interval, without the ends that are open."""
-    low, high, ends = hours_text(life.low), hours_text(life.estimate.high), open_ends(life)
+    low_text, high_text, ends = hours_text(low), hours_text(high), open_ends(life, low, high)
     if len(ends) == 2:
         return "open at both ends"
     if ends == ["lower"]:
-        return "open" if life.estimate.high > LONGEST else f"below {high}"
+        return "open" if high > LONGEST else f"below {high_text}"
     if ends:
-        return low if life.low > LONGEST else f"above {low}"
-    return low if low == high else f"{low} – {high}"
+        return low_text if low > LONGEST else f"above {low_text}"
+    return low_text if low_text == high_text else f"{low_text} – {high_text}"
+
+
+def open_text(ends):
+    """Which ends of an interval are open and what closes them."""
+    return f"open at its {' and its '.join(ends)} end: more seeds (max_seeds) or a longer t_end close it"
 
 
 def width_text(life):
     """How wide the interval is, or which of its ends are open and what closes them."""
-    if not (ends := open_ends(life)):
-        return f"half-width {percent(life.estimate.half_width)} of life"
-    return f"open at its {' and its '.join(ends)} end: more seeds (max_seeds) or a longer t_end close it"
+    if ends := open_ends(*ends_of(life)):
+        return open_text(ends)
+    return f"half-width {percent(life.estimate.half_width)} of life"
 
 
 def passes_text(life, hours):
@@ -136,30 +146,32 @@ def rate_at_place(life, i):
 
 
 def life_chart(fig, life):
-    """Bootstrap distribution of life, the interval shaded."""
+    """How likely each life is by the scatter of the runs, the interval shaded."""
     ax, found = fig.subplots(), life.estimate
     if not math.isfinite(found.life):
         ax.text(0.5, 0.5, "no damage", ha="center", transform=ax.transAxes)
         return
-    draws = np.log10(found.draws)
-    low, high = min(draws.min(), math.log10(life.low)), max(draws.max(), math.log10(found.high))
-    margin = 0.05 * (high - low) or 0.1
-    ax.axvspan(
-        life.low,
-        found.high,
-        color="#f3f4f6",
-        zorder=0,
-        label=f"{100 * life.mission.settings['confidence']:g} % interval",
-    )
-    ax.hist(found.draws, bins=np.logspace(low - margin, high + margin, 41), color=MIDDLE, alpha=0.8, label="bootstrap")
+    beyond = min(max(BEYOND * found.half_width, math.log(found.life / life.low)), BEYOND * math.log(OPEN)) or 0.1
+    hours, likely = life_density(found, beyond)
+    label = f"{100 * life.mission.settings['confidence']:g} % interval"
+    ax.axvspan(life.low, found.high, color="#f3f4f6", zorder=0, label=label)
+    ax.fill_between(hours, likely, color=MIDDLE, alpha=0.8, lw=0, label="Student's law")
     ax.axvline(found.life, color=HEAD, lw=1.8, label="life")
     ax.set_xscale("log")
-    ax.set(xlabel="life [h]", ylabel="draws", xlim=(10 ** (low - margin), 10 ** (high + margin)))
+    ax.set(xlabel="life [h]", ylabel="density of ln life", xlim=(hours[0], hours[-1]), ylim=(0.0, None))
+    low, high = np.log10(hours[[0, -1]])
     if high - low < 1.0:
-        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)])
+        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)[1:-1]])
         ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
         ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def life_density(found, beyond):
+    """Lives [h] up to the factor exp(beyond) from an Estimate's, and the density of ln life by which its interval is made."""
+    x = np.linspace(-beyond, beyond, 401)
+    likely = student.pdf(x / found.spread, found.freedom) / found.spread if found.spread > 0.0 else np.zeros_like(x)
+    return found.life * np.exp(x), likely
 
 
 def share_chart(fig, life):

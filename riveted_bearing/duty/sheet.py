@@ -45,7 +45,7 @@ from ..version import __version__
 from .assess import part_duty, places, used_cases
 from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
-from .page import interval_text, mission_text, part_rows, share_text
+from .page import ends_of, interval_text, mission_text, part_rows, share_text
 from .sn import damage_of_matrix
 
 MIXED = 1.0  # film over roughness: below it asperities carry
@@ -158,7 +158,7 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         life.low,
         found.high,
         life.place,
-        f"{100 * mission.settings['confidence']:g} %: {interval_text(life)}",
+        f"{100 * mission.settings['confidence']:g} %: {interval_text(*ends_of(life))}",
         functools.cache(lambda x: scaled_lives(life, runs, used, x)),
         largest_amplitudes((matrix, laws) for matrix, laws, _ in matrices),
         knees_of(strength, laws),
@@ -554,8 +554,8 @@ def part_lines(life):
     return lines
 
 
-def mission_sheet(life, evidence, target=None, decides=None, files=()):
-    """The Sheet of a mission."""
+def mission_sheet(life, evidence, target=None, decides=None, files=(), remarks=()):
+    """The Sheet of a mission; remarks: sentences beside the mission's own warnings."""
     mission = life.mission
     hours, passes = mission_text(life)
     return make_sheet(
@@ -566,7 +566,7 @@ def mission_sheet(life, evidence, target=None, decides=None, files=()):
         target,
         decides,
         part_lines(life),
-        (),
+        (*mission.warnings, *remarks),
         files,
     )
 

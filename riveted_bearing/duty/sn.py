@@ -35,6 +35,8 @@ PLAIN = {"1": (1.0, 0.0)}
 NUMBERS = {"sigma_D": PASCAL, "N_D": PLAIN, "k_1": PLAIN, "k_2": PLAIN, "sigma_m": PASCAL, "sigma_f": PASCAL}
 SCATTER = {"T_S": PLAIN, "T_N": PLAIN, "survival": PLAIN}
 FKM = {"R_z": METRE, "A_90": PLAIN, "A_90_specimen": PLAIN}
+LEAST = 1e6  # Pa; no steel is weaker: a smaller strength is one in MPa without its unit
+LEAST_ALLOWED = "from 1e6 Pa (1 MPa) on is allowed"
 RULES = ("knee", "haibach", "elementary", "original")
 KEYS = ("file", "unit", "rule", "mean_stress", *NUMBERS, *SCATTER, *FKM)
 FKM_STEEL = "Steel"
@@ -186,6 +188,11 @@ def with_file(path, where, section):
         raise UserError(
             f"{file}: at least two positive amplitudes are needed, all different, with cycles that fall while the amplitude grows"
         )
+    if amplitude[0] < LEAST:
+        raise UserError(
+            f"{where}: {file}: amplitude = {amplitude[0]:g} Pa: {LEAST_ALLOWED}; the column is read in {unit}: "
+            'its unit stands in [sn], as in unit = "MPa"'
+        )
     return section, (amplitude, cycles)
 
 
@@ -197,6 +204,8 @@ def positive(where, key, value, scales):
         raise refusal(where, key, value, problem) from None
     if number <= 0.0:
         raise refusal(where, key, value, "must be greater than 0")
+    if scales is PASCAL and number < LEAST:
+        raise refusal(where, key, value, f'{LEAST_ALLOWED}; a number without a unit is in Pa, "250 MPa" has its unit')
     return number
 
 

@@ -24,7 +24,6 @@ from ..scene import leaves, refusal, section_of
 from ..sweep import count_of
 from ..units import to_si
 from .assess import Runs, places
-from .confidence import relative_error
 from .mission import SHARES, Case, loosened, number
 
 KEYS = ("bearings", "seeds", "share", "parameters")
@@ -181,6 +180,13 @@ def scatter(life, tolerances, model, folder, client, progress=None, runs_of=None
     lives = np.array(lives)
     share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
     return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))
+
+
+def relative_error(spread, count):
+    """Standard error of ln of the mean of n runs whose logarithms have the standard deviation `spread` (log-normal
+    law).
+    """
+    return np.sqrt(np.expm1(np.minimum(spread, 5.0) ** 2) / count)
 
 
 def decisive_parts(life, share):
