@@ -1,7 +1,6 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
 import math
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from .animation import frames, number_of_balls
 from .design.bench import display_of
 from .duty.sn import Strength, assumed, in_words
 from .errors import UserError
+from .in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from .life import fatigue_law, rivet_life
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
@@ -36,7 +36,7 @@ from .summary import (
     summary_rows,
     table_note,
 )
-from .units import hours_text, scales_of, suffix
+from .units import hours_text
 
 FIRST = 3  # rows without statistics that stand on the cards
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
@@ -125,12 +125,13 @@ def render(result, decides=None, measured=()):
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
         as_bronze=assumed_as_bronze(result),
-        notes=[note for note in (settle_note(result), count_note(result)) if note],
+        notes=[note for note in (settle_note(result), count_note(result), alone_note(result)) if note],
         decides=decides,
         measured=views(measured),
         display_of=display_of,
         life_is_known=life_is_known(result),
         breaks=breaks(result),
+        changes=change_lines(result),
         accelerated=accelerated(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS if is_shown(name, result, elastic)},
@@ -327,31 +328,19 @@ def input_rows(result):
             yield name, variable.description, figure(low) if low == high else f"{figure(low)} … {figure(high)}", unit
 
 
-def unit_of(result, name, variable):
-    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset
-    from SI.
-    """
-    scales = scales_of(variable.unit, variables.UNITS[variable.unit])
-    symbol = result.about.get("units", {}).get(name)
-    symbol = symbol if symbol in scales else variable.display or variable.unit
-    return suffix(symbol).strip().replace("um", "µm"), *scales[symbol]
-
-
 def setting_rows(result):
-    """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
+    """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default or changed in the run."""
     for name, value in result.parameters.items():
-        # those of an array have one entry for all balls, pockets or rivets
-        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
-        variable = next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
+        variable, later = variable_of(name), later_values(result, name)
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
         elif isinstance(value, str):
             yield (
                 name,
                 variable.description,
-                value,
+                value + later,
                 "",
-                value != getattr(variables, variable.type)(variable.start).name.lower(),
+                bool(later) or value != getattr(variables, variable.type)(variable.start).name.lower(),
             )
         else:
             unit, factor, offset = unit_of(result, name, variable)
@@ -359,9 +348,9 @@ def setting_rows(result):
             yield (
                 name,
                 variable.description,
-                figure(shown),
+                figure(shown) + later,
                 unit,
-                not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15),
+                bool(later) or not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15),
             )
 
 
