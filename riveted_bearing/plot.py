@@ -10,7 +10,7 @@ from matplotlib.patches import Circle
 
 from .in_run import changes
 from .results import write_atomically
-from .summary import RPM, breaks, rivet_rows, settled, summary_rows
+from .summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
 MARK = "_mark"  # label of lines that are no curves
@@ -180,9 +180,10 @@ HEIGHTS = {loads: 0.6, stress: 1.4}
 
 def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
+    kind = clearance_of_cage(result.parameters)
     ax.set(
         title="Orbit of the cage's centre, seen from +X",
-        xlabel="y [µm]; dashed: guide clearance",
+        xlabel=f"y [µm]; dashed: {kind} clearance",
         ylabel="z [µm]",
         aspect="equal",
     )
@@ -191,7 +192,7 @@ def cage_orbit(ax, result):
         return
     late = settled(result)
     y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
-    clearance = 1e6 * result.parameters["cage.guide_clearance"] / 2
+    clearance = 1e6 * result.parameters[f"cage.{kind}_clearance"] / 2
     ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
     ax.plot(y, z, color=FORCE, lw=0.35, alpha=0.7)
     limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())

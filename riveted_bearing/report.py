@@ -24,11 +24,13 @@ from .summary import (
     assumed_as_bronze,
     assumed_rows,
     breaks,
+    clearance_of_cage,
     columns,
     count_note,
     early_rows,
     flag_note,
     has_statistics,
+    is_guided_by_balls,
     life_is_known,
     no_statistics,
     settle_note,
@@ -39,6 +41,7 @@ from .summary import (
 from .units import hours_text
 
 FIRST = 3  # rows without statistics that stand on the cards
+OF_LAND = ("cage.guide_clearance", "cage.land_x", "cage.land_width", "cage.mu_land")  # no effect without a land
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
 NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {
     "basis": {},
@@ -121,6 +124,7 @@ def render(result, decides=None, measured=()):
         elastic=elastic,
         vibrates=charts.vibrates(result),
         loaded=charts.loaded_rivet(result),
+        clearance=clearance_of_cage(result.parameters),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
@@ -330,6 +334,7 @@ def input_rows(result):
 
 def setting_rows(result):
     """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default or changed in the run."""
+    ineffective = OF_LAND if is_guided_by_balls(result.parameters) else ()
     for name, value in result.parameters.items():
         variable, later = variable_of(name), later_values(result, name)
         if variable is None:
@@ -350,7 +355,8 @@ def setting_rows(result):
                 variable.description,
                 figure(shown) + later,
                 unit,
-                bool(later) or not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15),
+                bool(later)
+                or (name not in ineffective and not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)),
             )
 
 

@@ -22,7 +22,16 @@ from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spect
 from riveted_bearing.charts import thinned as thinned_result
 from riveted_bearing.design.sensitivity import Sensitivity
 from riveted_bearing.life import fatigue_law, rivet_life
-from riveted_bearing.report import CHARTS, OF_ELASTIC, duration, figure, render, report_files, report_pages
+from riveted_bearing.report import (
+    CHARTS,
+    OF_ELASTIC,
+    duration,
+    figure,
+    render,
+    report_files,
+    report_pages,
+    setting_rows,
+)
 from riveted_bearing.results import Result
 from riveted_bearing.summary import breaks, gone_from
 
@@ -132,6 +141,20 @@ def test_breaks_are_on_the_page_in_the_charts_and_in_the_film():
     assert "accelerated 30000 times" in broken.about["basis"]["damage"]
     whole = run("demo", t_end=2e-3, parameters={"rivet[4].intact": 0})
     assert breaks(whole) == [] and gone_from(whole) == {4: 0.0}
+
+
+def test_a_cage_guided_by_balls_has_no_land(result, page):
+    """Neither in the drawing and its legend nor among the parameters that differ; its eccentricity names the pocket's
+    clearance.
+    """
+    own = {"cage.guidance": "balls", "cage.guide_clearance": 5e-3, "cage.sheet": 1e-3}
+    ribbon = replace(result, parameters=result.parameters | own)
+    shown, film = render(ribbon), frames(ribbon)[0]
+    assert frames(result)[0]["land"] and not film["land"] and film["scale"] == frames(result)[0]["scale"]
+    assert "land of the outer ring" in page and "land of the outer ring" not in shown
+    assert "dashed: the guide clearance" in page and "dashed: the pocket clearance" in shown
+    assert "cage eccentricity / pocket clearance" in shown and "cage eccentricity /" not in page
+    assert not {name: differs for name, *_, differs in setting_rows(ribbon)}["cage.guide_clearance"]
 
 
 def test_a_run_without_stress_has_a_page():
