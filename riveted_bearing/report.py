@@ -41,6 +41,7 @@ from .summary import (
 from .units import hours_text
 
 FIRST = 3  # rows without statistics that stand on the cards
+PLACE_NAMES = {"head": "head", "mid": "middle"}
 OF_LAND = ("cage.guide_clearance", "cage.land_x", "cage.land_width", "cage.mu_land")  # no effect without a land
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
 NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {
@@ -121,6 +122,7 @@ def render(result, decides=None, measured=()):
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
         worst=charts.worst_rivet(result),
+        weakest=weakest(lives) if lives else None,
         elastic=elastic,
         vibrates=charts.vibrates(result),
         loaded=charts.loaded_rivet(result),
@@ -193,7 +195,7 @@ CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart 
         "Head stress of each rivet over time",
         rivet_channels("sigma_head_peak"),
     ),
-    "rainflow": (None, HIGH, "Rainflow matrix of the worst rivet's head", rivet_channels("sigma_head")),
+    "rainflow": (None, HIGH, "Rainflow matrix of the weakest rivet", rivet_channels("sigma_head")),
     "distribution": (
         charts.load_distribution,
         WIDE,
@@ -244,8 +246,8 @@ def chart(result, name, lives):
     if name == "rainflow" and not lives:
         return f'<p class="missing">{label}: {table_note(result) or "the stress of the rivets was not recorded"}</p>'
     if name == "rainflow":
-        k = charts.worst_rivet(result)
-        cycles = next(life["head"].cycles for life in lives if str(life["k"]) == k) * np.array([1e-6, 1e-6, 1.0])
+        k, place = weakest(lives)
+        cycles = next(life[place].cycles for life in lives if life["k"] == k) * np.array([1e-6, 1e-6, 1.0])
         return charts.svg(lambda figure: charts.rainflow_matrix(figure, cycles), size, label)
     return charts.svg(lambda figure: draw(figure, result), size, label)
 
@@ -266,6 +268,12 @@ def all_lives(result):
             ]
             rows.append({"k": k, "head": head, "mid": mid, "fmu_head": own[0], "fmu_mid": own[1]})
     return rows
+
+
+def weakest(lives):
+    """Number and place, "head" or "mid", with the shortest life."""
+    places = ((life[place].life, life["k"], place) for life in lives for place in PLACE_NAMES)
+    return min(places, key=lambda each: each[0])[1:]
 
 
 def cards(result, lives):
@@ -307,12 +315,9 @@ def cards(result, lives):
         count = len(broken)
         yield "Broken rivets", str(count), "", f"first rivet {k}, {place}, at {figure(1e3 * t)} ms · no life is told"
     if lives and not broken:
-        shortest = min(
-            (life[place].life, f"rivet {life['k']}, {'head' if place == 'head' else 'middle'}")
-            for life in lives
-            for place in ("head", "mid")
-        )
-        yield "Life of the weakest rivet", duration(shortest[0]), "", f"{shortest[1]} · Miner's sum 1"
+        k, place = weakest(lives)
+        shortest = next(life[place].life for life in lives if life["k"] == k)
+        yield "Life of the weakest rivet", duration(shortest), "", f"rivet {k}, {PLACE_NAMES[place]} · Miner's sum 1"
     if "real_time_factor" in result.summary:
         s = result.summary
         yield (

@@ -335,6 +335,17 @@ def test_life_of_a_constant_amplitude(result):
     assert life.cycles[:, 2].sum() == 1000
 
 
+def test_the_cycles_drawn_are_those_of_the_weakest_rivet(result):
+    """Rivet 4 has the largest swing, rivet 2 the largest stress; card and chart name rivet 4."""
+    swing = 1e6 * np.append(np.tile([100.0, -100.0], 50), 100.0)
+    plain = made_up(result, swing)
+    own = {f"rivet[{k}].sigma_head{peak}": values for k, values in ((4, 3.0 * swing), (2, 400e6 + 0.1 * swing))
+           for peak in ("", "_peak")}  # fmt: skip
+    shown = render(replace(plain, data=plain.data | own))
+    assert "Cycles of the weakest rivet, 4, head" in shown and "Spectra, rivet 2" in shown
+    assert "rivet 4, head · Miner" in shown and "Rainflow matrix of the weakest rivet" in shown
+
+
 def test_life_agrees_with_the_streaming_count(result):
     """A third party's rainflow against the FMU's own algorithm, of any history."""
     history = 1e8 + 2e8 * np.random.default_rng(5).normal(size=3000)
