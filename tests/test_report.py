@@ -539,9 +539,11 @@ def test_tables_use_the_width_of_the_page(opened, width, columns):
         < 170
     )
     places = tab.evaluate(
-        "[...document.querySelectorAll('details tr')].map(row => Math.round(row.getBoundingClientRect().x))"
+        "[...document.querySelectorAll('details tbody tr')].map(row => Math.round(row.getBoundingClientRect().x))"
     )
     assert len(places) > 90 and len(set(places)) == columns
+    last = "[...document.querySelectorAll('.settings td:last-child')].map(cell => cell.getBoundingClientRect().right)"
+    assert max(tab.evaluate(last)) <= width  # no unit is hidden
     table = tab.evaluate("document.querySelector('details table').getBoundingClientRect().width")
     assert table > 0.8 * min(width, 1150)
     assert complaints == []
