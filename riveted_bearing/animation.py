@@ -7,7 +7,7 @@ import base64
 import numpy as np
 
 from .runner import is_peak
-from .summary import gone_from, settled
+from .summary import clearance_of_cage, gone_from, is_guided_by_balls, settled
 
 BUDGET = 650_000  # characters of all channels in the page
 SCALARS = (
@@ -73,6 +73,7 @@ def frames(result):
             for name, values in channels.items()
         },
         "scale": exaggeration(p),
+        "land": not is_guided_by_balls(p),
         "bend": magnification(result, forms) if bends else 0.0,
         "widening": widening,
         "bearing": {
@@ -123,9 +124,8 @@ def angle(t, omega):
 
 def exaggeration(p):
     """Factor by which displacements and clearances are magnified: round, limited to a share of the ball."""
-    return round_factor(
-        DRAWN * p["bearing.D"] / max(0.5 * p["cage.pocket_clearance"], 0.5 * p["cage.guide_clearance"], 1e-5)
-    )
+    clearances = [p[f"cage.{kind}_clearance"] for kind in {"pocket", clearance_of_cage(p)}]
+    return round_factor(DRAWN * p["bearing.D"] / max(0.5 * max(clearances), 1e-5))
 
 
 def bent(result, Z):

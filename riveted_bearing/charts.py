@@ -295,7 +295,7 @@ def heat_map(figure, rows, extent, xlabel, ticks=None):
 
 
 def rainflow_matrix(figure, cycles):
-    """Cycles of the worst rivet's head over range and mean [MPa]; cycles: rows (range, mean, count)."""
+    """Cycles of a rivet over range and mean [MPa]; cycles: rows (range, mean, count)."""
     ax = figure.subplots()
     span, mean, count = np.asarray(cycles).T
     keep = span > 0.0

@@ -1,5 +1,6 @@
 """Errors that the user can put right: one message each, without a traceback."""
 
+import re
 import reprlib
 from difflib import get_close_matches
 
@@ -12,7 +13,8 @@ class UserError(ValueError):
 
 def unknown(where, kind, name, allowed):
     """The error for a name that is not among those allowed, with the nearest one if there is any."""
-    near = get_close_matches(str(name), list(allowed), n=1, cutoff=0.6)
+    bracketed = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", str(name))  # rivet.3.intact is rivet[3].intact
+    near = [bracketed] if bracketed in allowed else get_close_matches(bracketed, list(allowed), n=1, cutoff=0.6)
     hint = f'did you mean "{near[0]}"?' if near else f"allowed: {shortlist(allowed)}"
     return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
 

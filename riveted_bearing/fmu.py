@@ -7,6 +7,7 @@ import json
 import shutil
 import weakref
 import zipfile
+from difflib import get_close_matches
 from numbers import Integral
 from pathlib import Path
 from xml.etree import ElementTree
@@ -26,7 +27,7 @@ from fmpy.logging import addLoggerProxy
 
 from bearing_model.generated.variables import MODEL_IDENTIFIER, RETIRED_ITEMS
 
-from .errors import UserError
+from .errors import UserError, shortlist
 from .units import suffix, symbol_of, to_si, unit_table
 
 FMU_NAME = "RivetedBearing.fmu"
@@ -59,6 +60,15 @@ def default_fmu():
     raise UserError(f"no FMU yet: `riveted-bearing build` makes one (looked for {', '.join(map(str, places))})")
 
 
+def near_fmu(path):
+    """The FMUs that the folder of a missing one has, the nearest name or all of them; "" if there are none."""
+    others = sorted(other.name for other in path.parent.glob("*.fmu"))
+    near = get_close_matches(path.name, others, n=1, cutoff=0.5)
+    if near:
+        return f'; did you mean "{path.parent / near[0]}"?'
+    return f"; the folder has {shortlist(others)}" if others else ""
+
+
 def check_archive(path):
     """UserError if an FMU would unpack to more than an FMU needs.  The sizes are those in the archive's directory, beyond
     which Python does not unpack.
@@ -81,7 +91,7 @@ class Model:
     def __init__(self, path=None):
         self.path = Path(path) if path else default_fmu()
         if not self.path.is_file():
-            raise UserError(f"{self.path}: no such FMU")
+            raise UserError(f"{self.path}: no such FMU{near_fmu(self.path)}")
         try:
             check_archive(self.path)
             self.description = read_model_description(str(self.path), validate=False)

@@ -8,10 +8,12 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle
 
+from .in_run import changes
 from .results import write_atomically
-from .summary import RPM, breaks, rivet_rows, settled, summary_rows
+from .summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
+MARK = "_mark"  # label of lines that are no curves
 STYLE = {
     "font.size": 9,
     "axes.spines.top": False,
@@ -86,19 +88,21 @@ def mark_settling(ax, result):
     end = 1e3 * min(result.parameters.get("start.settle", 0.0), result.data["time"][-1])
     ax.axvspan(0.0, end, color="#f3f4f6", zorder=0)
     ax.margins(x=0.0)
-    mark_breaks(ax, result)
+    mark_events(ax, result)
 
 
-def mark_breaks(ax, result):
-    """A line at the time at which each rivet broke, in the colour of its place."""
+def mark_events(ax, result):
+    """A line at the time at which each rivet broke, in the colour of its place, a dotted one where parameters changed."""
     for _, place, t in breaks(result):
-        ax.axvline(1e3 * t, color=HEAD if place == "head" else MIDDLE, lw=0.9, ls="--", label="_break")
+        ax.axvline(1e3 * t, color=HEAD if place == "head" else MIDDLE, lw=0.9, ls="--", label=MARK)
+    for t, _ in changes(result):
+        ax.axvline(1e3 * t, color=FORCE, lw=1.0, ls=":", label=MARK)
 
 
 def show_settled(ax, result):
     """Scale a panel by the values after settling; the first shock may exceed the panel."""
     late = settled(result)
-    curves = [line for line in ax.get_lines() if line.get_label() != "_break"]
+    curves = [line for line in ax.get_lines() if line.get_label() != MARK]
     if not curves:  # none of the panel's channels was recorded
         return
     values = np.concatenate([line.get_ydata()[late] for line in curves])
@@ -176,9 +180,10 @@ HEIGHTS = {loads: 0.6, stress: 1.4}
 
 def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
+    kind = clearance_of_cage(result.parameters)
     ax.set(
         title="Orbit of the cage's centre, seen from +X",
-        xlabel="y [µm]; dashed: guide clearance",
+        xlabel=f"y [µm]; dashed: {kind} clearance",
         ylabel="z [µm]",
         aspect="equal",
     )
@@ -187,7 +192,7 @@ def cage_orbit(ax, result):
         return
     late = settled(result)
     y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
-    clearance = 1e6 * result.parameters["cage.guide_clearance"] / 2
+    clearance = 1e6 * result.parameters[f"cage.{kind}_clearance"] / 2
     ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
     ax.plot(y, z, color=FORCE, lw=0.35, alpha=0.7)
     limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())

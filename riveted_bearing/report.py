@@ -1,7 +1,6 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
 import math
-import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from .animation import frames, number_of_balls
 from .design.bench import display_of
 from .duty.sn import Strength, assumed, in_words
 from .errors import UserError
+from .in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from .life import fatigue_law, rivet_life
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
@@ -24,11 +24,13 @@ from .summary import (
     assumed_as_bronze,
     assumed_rows,
     breaks,
+    clearance_of_cage,
     columns,
     count_note,
     early_rows,
     flag_note,
     has_statistics,
+    is_guided_by_balls,
     life_is_known,
     no_statistics,
     settle_note,
@@ -36,9 +38,11 @@ from .summary import (
     summary_rows,
     table_note,
 )
-from .units import hours_text, scales_of, suffix
+from .units import hours_text
 
 FIRST = 3  # rows without statistics that stand on the cards
+PLACE_NAMES = {"head": "head", "mid": "middle"}
+OF_LAND = ("cage.guide_clearance", "cage.land_x", "cage.land_width", "cage.mu_land")  # no effect without a land
 WIDE, LOW, SQUARE, HIGH = (4.9, 2.7), (4.9, 1.9), (4.9, 4.2), (4.9, 3.0)  # inches
 NOT_SAID = dict.fromkeys(("scene", "description", "model", "date", "guid"), "") | {
     "basis": {},
@@ -118,19 +122,22 @@ def render(result, decides=None, measured=()):
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
         worst=charts.worst_rivet(result),
+        weakest=weakest(lives) if lives else None,
         elastic=elastic,
         vibrates=charts.vibrates(result),
         loaded=charts.loaded_rivet(result),
+        clearance=clearance_of_cage(result.parameters),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=list(assumed_rows(result)),
         as_bronze=assumed_as_bronze(result),
-        notes=[note for note in (settle_note(result), count_note(result)) if note],
+        notes=[note for note in (settle_note(result), count_note(result), alone_note(result)) if note],
         decides=decides,
         measured=views(measured),
         display_of=display_of,
         life_is_known=life_is_known(result),
         breaks=breaks(result),
+        changes=change_lines(result),
         accelerated=accelerated(result),
         solver=list(solver_rows(result)),
         charts={name: chart(result, name, lives) for name in CHARTS if is_shown(name, result, elastic)},
@@ -188,7 +195,7 @@ CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart 
         "Head stress of each rivet over time",
         rivet_channels("sigma_head_peak"),
     ),
-    "rainflow": (None, HIGH, "Rainflow matrix of the worst rivet's head", rivet_channels("sigma_head")),
+    "rainflow": (None, HIGH, "Rainflow matrix of the weakest rivet", rivet_channels("sigma_head")),
     "distribution": (
         charts.load_distribution,
         WIDE,
@@ -239,8 +246,8 @@ def chart(result, name, lives):
     if name == "rainflow" and not lives:
         return f'<p class="missing">{label}: {table_note(result) or "the stress of the rivets was not recorded"}</p>'
     if name == "rainflow":
-        k = charts.worst_rivet(result)
-        cycles = next(life["head"].cycles for life in lives if str(life["k"]) == k) * np.array([1e-6, 1e-6, 1.0])
+        k, place = weakest(lives)
+        cycles = next(life[place].cycles for life in lives if life["k"] == k) * np.array([1e-6, 1e-6, 1.0])
         return charts.svg(lambda figure: charts.rainflow_matrix(figure, cycles), size, label)
     return charts.svg(lambda figure: draw(figure, result), size, label)
 
@@ -261,6 +268,12 @@ def all_lives(result):
             ]
             rows.append({"k": k, "head": head, "mid": mid, "fmu_head": own[0], "fmu_mid": own[1]})
     return rows
+
+
+def weakest(lives):
+    """Number and place, "head" or "mid", with the shortest life."""
+    places = ((life[place].life, life["k"], place) for life in lives for place in PLACE_NAMES)
+    return min(places, key=lambda each: each[0])[1:]
 
 
 def cards(result, lives):
@@ -302,12 +315,9 @@ def cards(result, lives):
         count = len(broken)
         yield "Broken rivets", str(count), "", f"first rivet {k}, {place}, at {figure(1e3 * t)} ms · no life is told"
     if lives and not broken:
-        shortest = min(
-            (life[place].life, f"rivet {life['k']}, {'head' if place == 'head' else 'middle'}")
-            for life in lives
-            for place in ("head", "mid")
-        )
-        yield "Life of the weakest rivet", duration(shortest[0]), "", f"{shortest[1]} · Miner's sum 1"
+        k, place = weakest(lives)
+        shortest = next(life[place].life for life in lives if life["k"] == k)
+        yield "Life of the weakest rivet", duration(shortest), "", f"rivet {k}, {PLACE_NAMES[place]} · Miner's sum 1"
     if "real_time_factor" in result.summary:
         s = result.summary
         yield (
@@ -327,31 +337,20 @@ def input_rows(result):
             yield name, variable.description, figure(low) if low == high else f"{figure(low)} … {figure(high)}", unit
 
 
-def unit_of(result, name, variable):
-    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset
-    from SI.
-    """
-    scales = scales_of(variable.unit, variables.UNITS[variable.unit])
-    symbol = result.about.get("units", {}).get(name)
-    symbol = symbol if symbol in scales else variable.display or variable.unit
-    return suffix(symbol).strip().replace("um", "µm"), *scales[symbol]
-
-
 def setting_rows(result):
-    """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default."""
+    """Name, meaning, value, unit of every parameter and whether it differs from the 6207's default or changed in the run."""
+    ineffective = OF_LAND if is_guided_by_balls(result.parameters) else ()
     for name, value in result.parameters.items():
-        # those of an array have one entry for all balls, pockets or rivets
-        names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
-        variable = next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
+        variable, later = variable_of(name), later_values(result, name)
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
         elif isinstance(value, str):
             yield (
                 name,
                 variable.description,
-                value,
+                value + later,
                 "",
-                value != getattr(variables, variable.type)(variable.start).name.lower(),
+                bool(later) or value != getattr(variables, variable.type)(variable.start).name.lower(),
             )
         else:
             unit, factor, offset = unit_of(result, name, variable)
@@ -359,9 +358,10 @@ def setting_rows(result):
             yield (
                 name,
                 variable.description,
-                figure(shown),
+                figure(shown) + later,
                 unit,
-                not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15),
+                bool(later)
+                or (name not in ineffective and not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)),
             )
 
 

@@ -172,11 +172,23 @@ def find_scene(source):
 def read_toml(path):
     """The document of a TOML file; UserError if it cannot be read."""
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as problem:
+        text = path.read_text(encoding="utf-8")
+        return tomllib.loads(text)
+    except UnicodeDecodeError as problem:
         raise UserError(f"{path}: not valid TOML: {problem}") from None
+    except tomllib.TOMLDecodeError as problem:
+        raise UserError(f"{path}: not valid TOML: {problem}{quotes_hint(text, problem)}") from None
     except OSError as problem:
         raise UserError(f"{path}: {problem.strerror}") from None
+
+
+def quotes_hint(text, problem):
+    """How to write a name with brackets if the line of a TOML error begins with one, else ""."""
+    line = re.search(r"line (\d+)", str(problem))
+    lines = text.splitlines()
+    at = int(line[1]) - 1 if line else len(lines)
+    bare = re.match(r"\s*([\w.]+\[\w+\][\w.]*)\s*=", lines[at]) if at < len(lines) else None
+    return f'; a name with brackets needs quotes: "{bare[1]}" = ...' if bare else ""
 
 
 def apply(scene, where, document, model, folder):
@@ -274,12 +286,20 @@ def read_section(where, kind, section, variables, others, value_of):
                 f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]"
             )
         if name not in variables:
-            raise unknown(where, kind.removesuffix("s"), name, variables)
+            raise unknown(where, kind.removesuffix("s"), whole_name(name, value), variables)
         try:
             settings[name] = value_of(value, variables[name])
         except UserError as problem:
             raise refusal(where, f"{kind}.{name}", value, problem) from None
     return settings
+
+
+def whole_name(name, value):
+    """The name that the first key of nested tables gives: rivet.3 with {strength_factor: 0.8} is rivet.3.strength_factor."""
+    while isinstance(value, dict) and value and "t" not in value and "file" not in value:
+        key, value = next(iter(value.items()))
+        name = f"{name}.{key}"
+    return name
 
 
 def leaves(tree, names, prefix=""):

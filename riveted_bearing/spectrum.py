@@ -73,6 +73,10 @@ class Spectra:
     def axis(self):
         return "order of the shaft" if self.orders else "frequency [Hz]"
 
+    @property
+    def axis_unit(self):
+        return "orders" if self.orders else "Hz"
+
 
 def spectra(result, channel=None, band=None):
     """Spectra of a Result.  channel: name, default the first of CHANNELS that moves; band: (low, high) of the envelope in
@@ -270,7 +274,7 @@ def draw(figure, found):
 
 
 def squared(unit):
-    return f"({unit})²"
+    return f"{unit}²" if unit.isalpha() else f"({unit})²"
 
 
 def plot_spectra(found, path):

@@ -54,7 +54,7 @@ def channels(result):
         ("largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), largest_of),
         ("cage speed", "rev/min", RPM, ["cage.omega"], None),
         ("cage slip ratio", "%", 100.0, ["cage.slip_ratio"], None),
-        ("cage eccentricity", "1", 1.0, ["cage.eccentricity"], None),
+        (eccentricity_title(result.parameters), "1", 1.0, ["cage.eccentricity"], None),
         ("cage dislocation", "um", 1e6, ["cage.dislocation"], None),
         ("ring displacement, radial", "um", 1e6, ["ring.y", "ring.z"], length_of),
         ("ring displacement, axial", "um", 1e6, ["ring.x"], None),
@@ -172,6 +172,17 @@ def flag_note(result):
 def is_guided_by_balls(parameters):
     """Whether the cage has no land."""
     return parameters.get("cage.guidance") == "balls"
+
+
+def clearance_of_cage(parameters):
+    """The clearance that lets the cage move, and over which its eccentricity stands: "guide" or "pocket"."""
+    return "pocket" if is_guided_by_balls(parameters) else "guide"
+
+
+def eccentricity_title(parameters):
+    """Title of cage.eccentricity; of a cage that balls guide it names the clearance."""
+    title = "cage eccentricity"
+    return f"{title} / pocket clearance" if is_guided_by_balls(parameters) else title
 
 
 def is_known(name, given, parameters):

@@ -11,11 +11,13 @@ import pytest
 from commands import command
 
 from riveted_bearing import UserError
-from riveted_bearing.design.bench import Bench, response, shown, titled
+from riveted_bearing.cli.optimize import present_values, print_optimum
+from riveted_bearing.design.bench import Bench, displayed, response, shown, titled
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
 from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, read_indices, write_indices, write_picture
 from riveted_bearing.fmu import Model
+from riveted_bearing.scene import load_scene
 from riveted_bearing.summary import assumed_ranges
 from riveted_bearing.sweep import cluster
 
@@ -34,7 +36,7 @@ def in_place_of_the_bearing(function, noise=0.0, seed=1):
     rng = np.random.default_rng(seed)
 
     def evaluate(names, points, responses, seeds=(1, 2)):
-        low, high = np.array([BOX[name] for name in names]).T
+        low, high = np.array([BOX[name] for name in names]).reshape(-1, 2).T
         unit = dict.fromkeys(NAMES, 0.5 * np.ones(len(points))) | dict(
             zip(names, ((np.asarray(points) - low) / (high - low)).T, strict=True)
         )
@@ -186,6 +188,23 @@ def test_two_objectives_give_a_front(tmp_path, model):
         and len(answer["candidates"]) == 4
     )
     assert write_optimum_picture(found, tmp_path / "o.png").stat().st_size > 15000
+    assert answer["criterion"].startswith("the point simulated again nearest to the least damage and least friction")
+    assert answer["present"]["mean"] == pytest.approx({"damage": 0.35, "friction": 0.35})  # the middle of the box
+
+
+def test_the_program_says_why_a_point_is_recommended(model, capsys):
+    """The criterion with its limits, and the present design, with the values of the scene, as a row of the table."""
+    two = {name: BOX[name] for name in NAMES[:2]}
+    document = {"between": two, "objectives": ["-damage"], "limits": {"stress": "1 MPa"}, "trials": 10, "candidates": 2}
+    found = search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [a, 0.0 * a]))
+    names = found.study.box.names
+    print_optimum(found, present_values(names, load_scene(None, model), model))
+    text = capsys.readouterr().out
+    assert "recommended: the point simulated again with the largest damage, of those that keep stress <= 1 MPa" in text
+    row = next(line for line in text.splitlines() if line.startswith("present design"))
+    assert (
+        row.split()[2] == f"{displayed(names[0], model.default(model.parameters[names[0]])):.4g}" and "0.5 ± 0" in row
+    )
 
 
 def test_a_search_repeats_itself(model):

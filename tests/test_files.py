@@ -582,3 +582,14 @@ def test_the_made_up_result_of_another_program_has_a_page(tmp_path):
     data = {"time": np.array([0.0, 1e-3]), "ring.y": np.array([0.0, 1e-6])}
     page = render(Result(data=data, units={"time": "s", "ring.y": "m"}, parameters={}))
     assert "not recorded" in page
+
+
+def test_a_missing_fmu_names_those_of_its_folder(tmp_path):
+    """The nearest name, else all, else nothing."""
+    with pytest.raises(UserError, match="no such FMU$"):
+        Model(tmp_path / "ribbon.fmu")
+    (tmp_path / "ribbon-ribbon.fmu").touch()
+    with pytest.raises(UserError, match=r'did you mean ".*ribbon-ribbon\.fmu"'):
+        Model(tmp_path / "ribbon.fmu")
+    with pytest.raises(UserError, match=r"the folder has ribbon-ribbon\.fmu"):
+        Model(tmp_path / "6207.fmu")

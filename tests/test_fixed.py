@@ -126,6 +126,8 @@ def test_the_host_runs_the_unit_against_the_clock(fmu, tmp_path):
     assert done.returncode == 0, done.stderr
     assert len(re.findall(r": 200 steps, mean", done.stdout)) == 2, done.stdout
     assert Z == 9
+    asked = subprocess.run([str(tmp_path / "host"), "--help"], capture_output=True, text=True, timeout=60, check=False)
+    assert asked.returncode == 0 and asked.stdout.startswith("usage: host FOLDER") and not asked.stderr
 
 
 def test_steps_that_the_films_do_not_bear_are_an_event(core):

@@ -495,11 +495,11 @@ def test_stiffness_matrix(core, folder):
     assert balls["Q_i"].max() > 500.0 and K[1, 1] > 5e7  # [N], [N/m]
 
 
-def test_stiffness_example(monkeypatch, capsys):
+def test_stiffness_example(tmp_path, monkeypatch, capsys):
     """At the working point the inner contacts alone are about twice as stiff as the quasi-static bearing, 176 N/um
-    along Y.
+    along Y.  The example finds its FMU from any folder.
     """
-    monkeypatch.chdir(ROOT)
+    monkeypatch.chdir(tmp_path)
     runpy.run_path(str(ROOT / "examples" / "stiffness" / "stiffness.py"))["main"]([])
     stiffness = float(capsys.readouterr().out.split()[0])
     assert 1.7 * 176e6 < stiffness < 2.4 * 176e6  # observed 3.56e8 N/m

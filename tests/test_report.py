@@ -22,7 +22,16 @@ from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spect
 from riveted_bearing.charts import thinned as thinned_result
 from riveted_bearing.design.sensitivity import Sensitivity
 from riveted_bearing.life import fatigue_law, rivet_life
-from riveted_bearing.report import CHARTS, OF_ELASTIC, duration, figure, render, report_files, report_pages
+from riveted_bearing.report import (
+    CHARTS,
+    OF_ELASTIC,
+    duration,
+    figure,
+    render,
+    report_files,
+    report_pages,
+    setting_rows,
+)
 from riveted_bearing.results import Result
 from riveted_bearing.summary import breaks, gone_from
 
@@ -132,6 +141,20 @@ def test_breaks_are_on_the_page_in_the_charts_and_in_the_film():
     assert "accelerated 30000 times" in broken.about["basis"]["damage"]
     whole = run("demo", t_end=2e-3, parameters={"rivet[4].intact": 0})
     assert breaks(whole) == [] and gone_from(whole) == {4: 0.0}
+
+
+def test_a_cage_guided_by_balls_has_no_land(result, page):
+    """Neither in the drawing and its legend nor among the parameters that differ; its eccentricity names the pocket's
+    clearance.
+    """
+    own = {"cage.guidance": "balls", "cage.guide_clearance": 5e-3, "cage.sheet": 1e-3}
+    ribbon = replace(result, parameters=result.parameters | own)
+    shown, film = render(ribbon), frames(ribbon)[0]
+    assert frames(result)[0]["land"] and not film["land"] and film["scale"] == frames(result)[0]["scale"]
+    assert "land of the outer ring" in page and "land of the outer ring" not in shown
+    assert "dashed: the guide clearance" in page and "dashed: the pocket clearance" in shown
+    assert "cage eccentricity / pocket clearance" in shown and "cage eccentricity /" not in page
+    assert not {name: differs for name, *_, differs in setting_rows(ribbon)}["cage.guide_clearance"]
 
 
 def test_a_run_without_stress_has_a_page():
@@ -310,6 +333,17 @@ def test_life_of_a_constant_amplitude(result):
     assert life.damage == pytest.approx(1000 * (300 / 250) ** 8 / 2e6, rel=1e-12)
     assert life.life == pytest.approx(2.0 / life.damage, rel=1e-12)
     assert life.cycles[:, 2].sum() == 1000
+
+
+def test_the_cycles_drawn_are_those_of_the_weakest_rivet(result):
+    """Rivet 4 has the largest swing, rivet 2 the largest stress; card and chart name rivet 4."""
+    swing = 1e6 * np.append(np.tile([100.0, -100.0], 50), 100.0)
+    plain = made_up(result, swing)
+    own = {f"rivet[{k}].sigma_head{peak}": values for k, values in ((4, 3.0 * swing), (2, 400e6 + 0.1 * swing))
+           for peak in ("", "_peak")}  # fmt: skip
+    shown = render(replace(plain, data=plain.data | own))
+    assert "Cycles of the weakest rivet, 4, head" in shown and "Spectra, rivet 2" in shown
+    assert "rivet 4, head · Miner" in shown and "Rainflow matrix of the weakest rivet" in shown
 
 
 def test_life_agrees_with_the_streaming_count(result):
@@ -505,9 +539,11 @@ def test_tables_use_the_width_of_the_page(opened, width, columns):
         < 170
     )
     places = tab.evaluate(
-        "[...document.querySelectorAll('details tr')].map(row => Math.round(row.getBoundingClientRect().x))"
+        "[...document.querySelectorAll('details tbody tr')].map(row => Math.round(row.getBoundingClientRect().x))"
     )
     assert len(places) > 90 and len(set(places)) == columns
+    last = "[...document.querySelectorAll('.settings td:last-child')].map(cell => cell.getBoundingClientRect().right)"
+    assert max(tab.evaluate(last)) <= width  # no unit is hidden
     table = tab.evaluate("document.querySelector('details table').getBoundingClientRect().width")
     assert table > 0.8 * min(width, 1150)
     assert complaints == []

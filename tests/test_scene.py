@@ -170,6 +170,14 @@ def test_communication_points_end_exactly(model):
 # scene text, fragments of the message: file, key, value, what is allowed
 BAD_SCENES = [
     ("x = [", ["mine.toml", "not valid TOML"]),
+    (
+        '[parameters]\nball[1].spall_length = "2 mm"',
+        ["line 2", 'a name with brackets needs quotes: "ball[1].spall_length" ='],
+    ),
+    (
+        "[parameters]\nrivet.3.strength_factor = 0.8",
+        ['"rivet.3.strength_factor"', 'did you mean "rivet[3].strength_factor"'],
+    ),
     ("simulate = 1", ["mine.toml", '"simulate"', '"simulation"']),
     ("parameters = 3", ["parameters = 3", "not a table"]),
     ("[simulation]\nt_ende = 1", ["mine.toml", "simulation.t_ende", "simulation.t_end"]),

@@ -167,8 +167,8 @@ def test_a_run_with_a_broken_rivet_tells_no_life(result):
 # --------------------------------------------------------------------------------------------------------------- paper
 
 
-def crowded(made):
-    """The sheet with as much on it as there may be."""
+def crowded(made, of_run=False):
+    """The sheet with as much on it as there may be, of a run without parts of a mission."""
     words = "A long text of many words that goes on and on, "
     names = ("bearing", "replaced", "loads", "speed", "oil", "temperatures", "preload", "S-N curve", "mission")
     check = sheet.Check(
@@ -178,26 +178,30 @@ def crowded(made):
         1.7,
         "bad",
     )
+    parts = ((words[:24], words[:44], "6000 rev/min", "30 h", "< 0.1 %"),) * sheet.MOST_PARTS
+    parts = () if of_run else parts
     return replace(
         made,
         name=sheet.clipped(words * 3, 60),
         description=sheet.clipped(words * 4, sheet.CHARACTERS),
-        basis=sheet.fitted(dict.fromkeys(names, 20 * words)),
+        basis=sheet.fitted(dict.fromkeys(names, 20 * words), sheet.free_lines((check,) * 6, parts)),
         checks=(check,) * 6,
         limits=tuple((True, sheet.clipped(words * 5, sheet.CHARACTERS)) for _ in range(sheet.MOST_LIMITS)),
-        parts=tuple((words[:24], words[:44], "6000 rev/min", "30 h", "< 0.1 %") for _ in range(sheet.MOST_PARTS)),
+        parts=parts,
         remarks=(sheet.clipped(words * 4, 150),) * sheet.MOST_REMARKS,
         files=tuple((f"{words[:30]}.parquet", "0" * 16) for _ in range(3)),
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("full", [False, True])
+@pytest.mark.parametrize("full", ["", "mission", "run"])
 def test_it_prints_on_one_sheet(browser, made, tmp_path, full):
     """One page of the PDF, nothing cut, on A4 and on the shorter Letter."""
-    path = sheet.write_sheet(crowded(made) if full else made, tmp_path / "sheet.html")
+    path = sheet.write_sheet(crowded(made, full == "run") if full else made, tmp_path / "sheet.html")
     tab = browser.new_page(viewport={"width": 390, "height": 900})
     tab.goto(path.as_uri())
     assert tab.evaluate("document.documentElement.scrollWidth") == 390  # nothing sticks out on a phone
+    rights = tab.evaluate("[...document.querySelectorAll('meter')].map(part => part.getBoundingClientRect().right)")
+    assert rights and max(rights) < 390.0
     for size in ({"prefer_css_page_size": True}, {"format": "Letter"}):
         pdf = tab.pdf(**size)
         assert len(re.findall(rb"/Type\s*/Page\b", pdf)) == 1
@@ -206,6 +210,20 @@ def test_it_prints_on_one_sheet(browser, made, tmp_path, full):
     assert tab.evaluate("(m => m.scrollHeight - m.clientHeight)(document.querySelector('main'))") <= 0
     assert tab.evaluate("(m => m.scrollWidth - m.clientWidth)(document.querySelector('main'))") <= 0
     tab.close()
+
+
+def test_texts_are_cut_between_words():
+    assert sheet.clipped("stress table by coarse finite elements", 30) == "stress table by coarse finite…"
+    assert sheet.clipped("stress table by coarse finite elements", 34) == "stress table by coarse finite…"
+    assert sheet.clipped("one two", 7) == "one two" and sheet.clipped("elements", 5) == "elem…"
+
+
+def test_empty_rows_leave_their_place_to_the_basis(made):
+    """A run has no parts of a mission: a basis too long for a full sheet stands there whole."""
+    long = dict.fromkeys(("bearing", "replaced", "loads", "speed", "oil", "preload"), "word " * 30)
+    assert sheet.fitted(long) != long
+    assert sheet.fitted(long, sheet.free_lines(made.checks, made.parts)) == long
+    assert sheet.free_lines(made.checks, (None,) * sheet.MOST_PARTS) == sheet.MOST_CHECKS - len(made.checks)
 
 
 def test_it_needs_nothing_else(made, tmp_path):

@@ -13,7 +13,7 @@ from riveted_bearing.errors import UserError
 from riveted_bearing.fmu import Model
 from riveted_bearing.results import Result, write_result
 from riveted_bearing.scene import load_scene
-from riveted_bearing.spectrum import amplitude_spectrum, kurtosis_band, spectra, write_spectra
+from riveted_bearing.spectrum import amplitude_spectrum, kurtosis_band, spectra, squared, write_spectra
 from riveted_bearing.surfaces import waves_of
 
 RATE, D, D_M, Z = 25_600.0, 11.1125e-3, 53.5e-3, 9
@@ -115,6 +115,9 @@ def test_spall_in_the_housing(tmp_path):
     write_result(result, tmp_path / "spall.parquet")
     done = CliRunner().invoke(program, ["spectrum", str(tmp_path / "spall.parquet")])
     assert done.exit_code == 0 and "BPFO" in done.stdout
+    assert "resolution 4 Hz; amplitudes are those of the squared envelope" in " ".join(done.stdout.split())
+    assert "[Hz]" in done.stdout and f"[{squared(found.unit)}]" in done.stdout
+    assert (squared("N"), squared("m/s2")) == ("N²", "(m/s2)²")
     assert {path.name for path in tmp_path.iterdir()} == {"spall.parquet", "spall_spectrum.csv", "spall_spectrum.png"}
 
 

@@ -5,6 +5,7 @@ here.
 import copy
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from scipy.stats import binomtest
 from bearing_model.rivet import rivet_table
 from rivet_model import table
 from riveted_bearing import build, run
+from riveted_bearing.cli.study import FIGURES
 from riveted_bearing.fmu import Model
 from riveted_bearing.paper_study import claims, paper, study
 from riveted_bearing.paper_study.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
@@ -209,9 +211,39 @@ def test_the_whole_page_can_be_written(all_runs, tmp_path, monkeypatch):
         "Tolerance",
     ):
         assert f"\n## {heading}" in text
+    assert "Part of the study: 34 of the paper's 34 claims, 2 seeds" in text and "700: Figs. 10 to 18 with" in text
     assert text.count("Neither stricter nor more lenient") == 34 and "nan" not in text and "undefined" not in text
     own = paper.write_paper({"paper": figures_only, "yours": figures_only}, tmp_path, ["joint.mu=0.3"]).read_text()
     assert "`joint.mu=0.3`" in own and " With your parameters the counts are " in own and "## Conflicts" not in own
+
+
+def test_the_page_in_docs_is_of_the_whole_study():
+    """Its introduction is the one that a whole study writes into docs: its words, the link, and no line about a part."""
+    page = Path(__file__).parents[1] / "docs" / "paper.md"
+    runs = {name: Runs({"seed": np.arange(8)}) for name in study.shipped_studies()}
+    judged = {"paper": {"mean": {"all": [None] * claims.number_of_claims()}}}
+    text = paper.introduction({"paper": runs}, judged, study.PICTURES, page.parent, "study --report docs")
+    assert page.read_text(encoding="utf-8").startswith(text)
+
+
+def test_the_help_names_the_figures_of_each_sweep():
+    assert sorted(FIGURES) == shipped_studies()
+    for name in FIGURES:
+        titles = [title.split(":")[0] for needed, title, _ in study.PICTURES.values() if name in needed]
+        assert not titles or re.findall(r"\d+", FIGURES[name]) == re.findall(r"\d+", " ".join(titles)), name
+
+
+@pytest.mark.parametrize(
+    ("names", "text"),
+    [
+        (["preload", "tilt"], "Figs. 10, 11 and 15"),
+        (["tilt"], "Fig. 15"),
+        ([], "no figure"),
+        (["preload", "fit"], "Figs. 10 to 12"),
+    ],
+)
+def test_figures_in_words(names, text):
+    assert paper.figures_text(names) == text
 
 
 def test_the_conditions_in_words_have_all_numbers_of_those_for_the_program():
@@ -407,7 +439,10 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
     assert drawn == [tmp_path / "paper" / "clearance.png"] and drawn[0].read_bytes()[:4] == b"\x89PNG"
     assert (
         "![Fig. 16: clearance ratio](paper/clearance.png)" in text
-        and "Of the paper's 3 claims " in text
+        and "Of 3 of the paper's 34 claims its own" in text
+        and "**Part of the study: 3 of the paper's 34 claims, 2 seeds.**" in text
+        and "Machines 2023, 11, 700: Fig. 16 with" in text
+        and "](parameters.md)" not in text
         and "reproduce 3, partly 0, not 0" in text
     )
     assert "(`physical`) the counts are 0, 0 and 3." in text

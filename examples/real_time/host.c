@@ -299,7 +299,12 @@ int main(int argc, char **argv)
     double step = 1e-4, seconds = 60.0;
     char *settings[64];
     int count_of_settings = 0;
-    if (argc < 2) stop("usage: host FOLDER [--step 1e-4] [--seconds 60] [--set NAME=VALUE]...");
+    const char *const usage = "usage: host FOLDER [--step 1e-4] [--seconds 60] [--set NAME=VALUE]...";
+    if (argc < 2) stop("%s", usage);
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        puts(usage);
+        return 0;
+    }
     for (int i = 2; i < argc; i++) {
         if (i + 1 >= argc) stop("%s: a value is missing", argv[i]);
         if (strcmp(argv[i], "--step") == 0)

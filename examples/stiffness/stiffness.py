@@ -1,6 +1,6 @@
 """Stiffness and damping of the inner ring's bearing at a communication point, by directional derivatives of the FMU.
 
-    python examples/stiffness/stiffness.py [--fmu fmus/RivetedBearing.fmu] [--steps 10]
+    python examples/stiffness/stiffness.py [--fmu RivetedBearing.fmu] [--steps 10]
 
 The derivatives keep balls and cage where they are.  K is therefore the stiffness against a fast motion of the ring,
 that of the inner contacts alone: about twice the quasi-static stiffness of `riveted-bearing info`, in which the balls
@@ -19,6 +19,7 @@ PLACE = ["ring." + name for name in ("x", "y", "z", "beta", "gamma")]
 SPEED = ["ring." + name for name in ("v_x", "v_y", "v_z", "beta_dot", "gamma_dot")]
 ACCELERATION = ["ring." + name for name in ("a_x", "a_y", "a_z", "beta_ddot", "gamma_ddot")]
 STEP = 1e-4  # s
+FMU = Path(__file__).resolve().parents[2] / "fmus" / "RivetedBearing.fmu"
 
 
 def matrices(path, steps):
@@ -50,7 +51,7 @@ def matrices(path, steps):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description="Stiffness and damping of the ring's bearing.")
-    parser.add_argument("--fmu", type=Path, default=Path("fmus/RivetedBearing.fmu"))
+    parser.add_argument("--fmu", type=Path, default=FMU)
     parser.add_argument("--steps", type=int, default=10, help="communication steps of 0.1 ms from the start")
     options = parser.parse_args(arguments)
     K, C = matrices(str(options.fmu), options.steps)

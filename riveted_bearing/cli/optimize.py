@@ -44,30 +44,52 @@ def optimize(
         make_folder(folder)
         found = search(plan, bench)
     print_basis(bench.basis())
-    print_optimum(found)
+    print_optimum(found, present_values(plan.box.names, bench.scene, model))
     written = write_optimum(found, folder / "optimize.json", bench.basis())
     for label, path in (("results", written), ("picture", write_picture(found, folder / "optimize.png"))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
-def print_optimum(found):
-    """The points simulated again, the recommended one marked."""
-    from ..design.bench import display_of, displayed, titled
+def present_values(names, scene, model):
+    """Values [SI] that the scene or the FMU has where nothing varies."""
+    return [
+        float(scene.inputs[name](0.0))
+        if name in scene.inputs
+        else scene.parameters[name]
+        if name in scene.parameters
+        else model.default((model.parameters | model.inputs)[name])
+        for name in names
+    ]
+
+
+def print_optimum(found, present):
+    """The points simulated again, the recommended one marked, the present design with its values, and the criterion."""
+    from ..design.bench import titled
+    from ..design.optimize import criterion
 
     study = found.study
     heads = map(titled, (*study.box.names, *study.responses))
     table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
-    for place, (i, mean, error) in enumerate(zip(found.candidates, found.means, found.errors, strict=True)):
-        cells = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, found.points[i], strict=True)]
-        cells += [
-            f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}"
-            for name, m, e in zip(study.responses, mean, error, strict=True)
-        ]
-        table.add_row(
-            "recommended" if place == found.best else "", *cells, style="bold" if place == found.best else None
-        )
+    rows = [("", found.points[i], *of) for i, *of in zip(found.candidates, found.means, found.errors, strict=True)]
+    for place, row in enumerate([*rows, ("present design", present, *found.present)]):
+        best = place == found.best
+        title, *rest = row
+        table.add_row("recommended" if best else title, *cells(study, *rest), style="bold" if best else None)
     console.print(table)
     text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
     console.print(
         f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True
     )
+    if found.best is not None:
+        console.print(f"recommended: {escape(criterion(study))}", soft_wrap=True)
+
+
+def cells(study, point, mean, error):
+    """Values of a point and its responses as text."""
+    from ..design.bench import display_of, displayed
+
+    values = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, point, strict=True)]
+    return values + [
+        f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}"
+        for name, m, e in zip(study.responses, mean, error, strict=True)
+    ]

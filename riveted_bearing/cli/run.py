@@ -60,10 +60,11 @@ def run(
         f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
         soft_wrap=True,
     )
-    from ..summary import accelerated, breaks
+    from ..in_run import break_lines
+    from ..summary import accelerated
 
-    for k, place, t in breaks(result):
-        console.print(f"rivet {k} broke in the {place} at {1e3 * t:.4g} ms")
+    for line in break_lines(result):
+        console.print(line)
     if words := accelerated(result):
         console.print(f"[yellow]{words}[/]")
     if result.stopped:
@@ -150,6 +151,7 @@ def four_digits(value):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
+    from ..in_run import alone_note, change_lines
     from ..summary import (
         assumed_as_bronze,
         assumed_rows,
@@ -165,6 +167,8 @@ def print_summary(result):
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
     print_basis(about["basis"].items())
+    for line in change_lines(result):
+        console.print(f"changes {escape(line)}", soft_wrap=True)
     console.print(statistics_table(result) if has_statistics(result) else early_table(result))
     rivets = rivet_rows(result)
     if rivets:
@@ -206,7 +210,8 @@ def print_summary(result):
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if names := assumed_as_bronze(result):
         console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
-    for note in filter(None, (settle_note(result), count_note(result), flag_note(result), table_note(result))):
+    notes = settle_note(result), count_note(result), flag_note(result), table_note(result), alone_note(result)
+    for note in filter(None, notes):
         messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:

@@ -27,17 +27,21 @@ def spectrum(
 ):
     """Spectrum and envelope spectrum of a run, with the lines of cage, balls and races: table, CSV and picture."""
     from ..results import make_folder, read_result
-    from ..spectrum import plot_spectra, spectra, write_spectra
+    from ..spectrum import plot_spectra, spectra, squared, write_spectra
 
     found = spectra(read_result(result), channel, band)
     folder = out or result.parent
     make_folder(folder)
+    low, high = (f"{end:.4g}" if found.orders else f"{end:,.0f}" for end in found.band)
     console.print(
-        f"{found.channel}: band of the envelope {found.band[0]:,.4g} to {found.band[1]:,.4g}, "
-        f"resolution {found.resolution:.3g} ({found.axis})"
+        f"{found.channel} [{found.unit}]: band of the envelope {low} to {high} {found.axis_unit}, "
+        f"resolution {found.resolution:.3g} {found.axis_unit}; amplitudes are those of the squared envelope",
+        soft_wrap=True,
+        markup=False,
     )
-    heads = "line", "expected", "found", "amplitude", "times the median", "stands out"
-    rows = Table(*(Column(head, justify="left" if head == "line" else "right") for head in heads), box=None)
+    places, amplitude = f"[{found.axis_unit}]", f"amplitude [{squared(found.unit)}]"
+    heads = "line", f"expected {places}", f"found {places}", amplitude, "times the median", "stands out"
+    rows = Table(*(Column(escape(head), justify="left" if head == "line" else "right") for head in heads), box=None)
     for line in found.lines:
         times = line.amplitude / line.background if line.background > 0.0 else 0.0
         values = f"{line.expected:,.4g}", f"{line.found:,.4g}", f"{line.amplitude:.3g}", f"{times:.1f}"

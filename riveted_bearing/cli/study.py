@@ -9,10 +9,26 @@ from rich.markup import escape
 from ..results import make_folder
 from .terminal import FMU, SCHEDULER, SETTINGS, WORKERS, changes, command, console, resumable, sweep_progress
 
+FIGURES = {  # of the paper, by the sweep that makes them
+    "preload": "Figs. 10, 11",
+    "fit": "Figs. 12, 17, 18",
+    "speed": "Fig. 13",
+    "impact": "Fig. 14",
+    "tilt": "Fig. 15",
+    "clearance": "Fig. 16",
+    "fretting": "Fig. 18",
+    "rings_speed": "Fig. 13 with other rings",
+    "rings_clearance": "Fig. 16 with other rings",
+    "tolerance": "of the solver",
+}
+SWEEPS = ", ".join(f"{name} ({figures})" for name, figures in FIGURES.items())
+
 
 @command
 def study(
-    names: Annotated[list[str] | None, typer.Argument(help="sweeps of the study; default: all", metavar="NAME")] = None,
+    names: Annotated[
+        list[str] | None, typer.Argument(help=f"sweeps of the study; default: all of {SWEEPS}", metavar="NAME")
+    ] = None,
     fmu: FMU = None,
     out: Annotated[Path, typer.Option(help="folder of the runs")] = Path("results/study"),
     report: Annotated[
@@ -39,7 +55,14 @@ def study(
     make_folder(report or out)
     with resumable(out), cluster(scheduler, workers) as client, sweep_progress() as progress:
         columns = run_columns(model, out, client, names, seeds, progress, yours)
-    path = write_paper(columns, report or out, settings or ())
+    path = write_paper(columns, report or out, settings or (), command_line(names, seeds, settings, report or out))
     for line in counted(columns):
         console.print(escape(line), soft_wrap=True)
     console.print(f"report   [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def command_line(names, seeds, settings, folder):
+    """The command that writes a page into a folder."""
+    parts = ["study", *(names or []), *(f"--set {setting}" for setting in settings or [])]
+    parts += [f"--seeds {seeds}"] if seeds else []
+    return " ".join([*parts, f"--report {folder.as_posix()}"])

@@ -28,7 +28,7 @@ from ..results import write_atomically
 from ..scene import refusal, section_of
 from ..sweep import count_of
 from ..units import to_si
-from .bench import COLUMNS, COMMON, Box, display_of, displayed, response_names, titled
+from .bench import COLUMNS, COMMON, Box, display_of, displayed, response_names, shown, titled
 
 KEYS = (*COMMON, "objectives", "limits", "trials", "batch", "check_seeds", "candidates")
 COUNTS = {"trials": 40, "batch": 4, "check_seeds": 8, "candidates": 5}
@@ -64,7 +64,7 @@ class Study:
 class Optimum:
     """points [n, d] of the search in its order with their means over seeds [n, m]; candidates: numbers of those
     simulated again, their means [c, m] and standard errors over fresh seeds; best: place among the candidates, None if
-    none keeps the limits.
+    none keeps the limits; present: mean and standard error [2, m] of the design that nothing varies, over the same seeds.
     """
 
     study: Study
@@ -74,6 +74,7 @@ class Optimum:
     means: np.ndarray
     errors: np.ndarray
     best: int | None
+    present: np.ndarray
 
 
 def plan_optimize(path, document, model):
@@ -119,11 +120,29 @@ def search(study, evaluate):
     points, values = explore(study, evaluate)
     candidates = most_promising(study, values)
     fresh = range(study.seed + FRESH, study.seed + FRESH + study.check_seeds)
-    again = evaluate(study.box.names, points[candidates], study.responses, seeds=fresh)
-    means, errors = again.mean(axis=1), again.std(axis=1, ddof=1) / math.sqrt(study.check_seeds)
+    means, errors = mean_and_error(evaluate(study.box.names, points[candidates], study.responses, seeds=fresh))
+    present = mean_and_error(evaluate([], np.zeros((1, 0)), study.responses, seeds=fresh))
     allowed = np.all(excess(study, means) <= 0.0, axis=1) & np.isfinite(means).all(axis=1)
     best = min(np.flatnonzero(allowed), key=lambda i: distance(study, means, allowed)[i]) if allowed.any() else None
-    return Optimum(study, points, values, candidates, means, errors, None if best is None else int(best))
+    best = None if best is None else int(best)
+    return Optimum(study, points, values, candidates, means, errors, best, np.array(present)[:, 0])
+
+
+def mean_and_error(values):
+    """Means and standard errors [n, m] of responses [n, seeds, m]."""
+    return values.mean(axis=1), values.std(axis=1, ddof=1) / math.sqrt(values.shape[1])
+
+
+def criterion(study):
+    """In words, by which of the points simulated again one is recommended."""
+    wanted = [
+        f"{'least' if sign > 0 else 'largest'} {name}" for name, sign in zip(study.objectives, study.signs, strict=True)
+    ]
+    limits = [f"{name} <= {shown(name, limit)}" for name, limit in study.limits.items()]
+    kept = f", of those that keep {', '.join(limits)}" if limits else ""
+    if len(wanted) == 1:
+        return f"the point simulated again with the {wanted[0]}{kept}"
+    return f"the point simulated again nearest to the {' and '.join(wanted)} at once, each over its range among these points{kept}"
 
 
 def explore(study, evaluate):
@@ -208,6 +227,11 @@ def write_optimum(found, path, basis=()):
     ]
     document = {
         "basis": dict(basis),
+        "criterion": criterion(study),
+        "present": {
+            "mean": dict(zip(study.responses, found.present[0].tolist(), strict=True)),
+            "standard_error": dict(zip(study.responses, found.present[1].tolist(), strict=True)),
+        },
         "recommended": None if found.best is None else rows[found.best],
         "fresh_seeds": study.check_seeds,
         "candidates": rows,

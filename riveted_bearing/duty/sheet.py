@@ -52,7 +52,7 @@ MIXED = 1.0  # film over roughness: below it asperities carry
 SCALES = (0.05, 20.0)  # of stress, between which the target is looked for
 HALVINGS = 12  # of the logarithm of their ratio: to 0.15 % of stress
 OF_PLACE = ("Head, fatigue", "Middle, fatigue")
-MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 3, 5, 4, 2
+MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 6, 3, 5, 4, 2
 LINES, CHARACTERS = 11, 90  # of all texts of the basis together; of a line
 
 STATES = {"good": "✓", "bad": "✗", "open": "?", "": ""}
@@ -450,15 +450,16 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
     """The Sheet of some Evidence; target: life [h] or None; files: paths whose digests stand on it."""
     worst = evidence.results[evidence.worst]
     rows, source = assumptions(worst, decides)
+    found, parts = tuple(checks(evidence, target)), tuple(parts[:MOST_PARTS])
     limits = list(limits_crossed(evidence.results))
     if len(limits) > MOST_LIMITS:
         limits = [*limits[: MOST_LIMITS - 1], (True, f"{len(limits) - MOST_LIMITS + 1} others")]
     return Sheet(
         clipped(name, 60),
         clipped(description, CHARACTERS),
-        fitted({key: text for key, text in basis.items() if key not in ("FMU", "scene")}),
+        fitted({key: text for key, text in basis.items() if key not in ("FMU", "scene")}, free_lines(found, parts)),
         judged(evidence, target),
-        tuple(checks(evidence, target)),
+        found,
         tuple(limits),
         rows,
         source,
@@ -473,7 +474,7 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
             ),
         },
         f"rivet {evidence.rivet}" + (f", {clipped(evidence.worst, 28)}" if len(evidence.results) > 1 else ""),
-        tuple(parts[:MOST_PARTS]),
+        parts,
         tuple(clipped(text, 150) for text in [*filter(None, [table_note(worst)]), *remarks][:MOST_REMARKS]),
         tuple(
             (clipped(path.name, 40), hashlib.sha256(path.read_bytes()).hexdigest()[:16]) for path in map(Path, files)
@@ -482,16 +483,26 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
 
 
 def clipped(text, length):
-    """A text of at most this length."""
+    """A text of at most this length, cut between words where there are some."""
     text = str(text)
-    return text if len(text) <= length else f"{text[: length - 1].rstrip(' ,;')}…"
+    if len(text) <= length:
+        return text
+    kept = text[: length - 1]
+    if not text[length - 1].isspace() and " " in kept:
+        kept = kept[: kept.rindex(" ")]
+    return f"{kept.rstrip(' ,;:(')}…"
 
 
-def fitted(texts):
-    """Texts of the basis, the longest ones clipped line by line until all of them fit their place."""
+def free_lines(checks, parts):
+    """Lines that the rows of a sheet with fewer checks or parts of a mission leave to the basis."""
+    return MOST_CHECKS - len(checks) + MOST_PARTS - len(parts) + (0 if parts else 1)
+
+
+def fitted(texts, more=0):
+    """Texts of the basis, the longest ones clipped line by line until all of them fit their place and `more` lines."""
     texts = dict(texts)
     lines = {key: -(-len(text) // CHARACTERS) for key, text in texts.items()}
-    while sum(lines.values()) > max(LINES, len(lines)):
+    while sum(lines.values()) > max(LINES + more, len(lines)):
         longest = max(lines, key=lines.get)
         lines[longest] -= 1
         texts[longest] = clipped(texts[longest], lines[longest] * CHARACTERS)

@@ -67,6 +67,11 @@ def all_claims(data, measure="mean"):
     }
 
 
+def number_of_claims():
+    """Number of the paper's claims, with or without runs."""
+    return sum(": " in title for picture in PICTURES.values() for title in picture)
+
+
 def sweep_of(picture):
     """Name of the sweep whose runs a picture shows."""
     return PICTURES[picture].get("sweep", picture)

@@ -1,5 +1,6 @@
 """docs/paper.md: the page about the paper's study, which `riveted-bearing study` makes from the runs."""
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,7 +8,7 @@ import numpy as np
 from scipy.stats import norm
 
 from ..results import write_atomically
-from .claims import MEASURES, all_claims, numbers
+from .claims import MEASURES, all_claims, number_of_claims, numbers
 from .study import (
     BESIDE,
     CLEARANCES,
@@ -24,9 +25,9 @@ from .study import (
 
 INTRODUCTION = """# The paper's study, again
 
-<!-- Written by `riveted-bearing study --report docs`: do not edit. -->
-
-Cui et al., *Study on Fatigue Characteristics of Rivets in Bearing Cage for an Aeroengine Transmission System*, Machines 2023, 11, 700: Figs. 10 to 18 with
+<!-- Written by `riveted-bearing {command}`: do not edit. -->
+{part}
+Cui et al., *Study on Fatigue Characteristics of Rivets in Bearing Cage for an Aeroengine Transmission System*, Machines 2023, 11, 700: {figures} with
 this model, and each claim of the paper's section 4 and of its conclusions, in two scenes.
 
 | scene | is | column |
@@ -34,7 +35,7 @@ this model, and each claim of the paper's section 4 and of its conclusions, in t
 | `paper` | the paper's equations as they read: a free inner ring (3.4), rigid halves without centrifugal load (3.3), mixed lubrication | paper |
 | `physical` | the same bearing with the centrifugal load of the halves, which are elastic | physical |
 
-The paper's clearances, conformities, oil, masses and friction are not published. [parameters.md](parameters.md) gives those of this model with their
+The paper's clearances, conformities, oil, masses and friction are not published. {parameters} gives those of this model with their
 sources. Both scenes have one set of them for all figures, and none is fitted to the paper's results: a search over thirteen of them on Figs. 10, 11 and 13
 gained nothing on the other claims. Only Fig. 15 prescribes the ring's tilt, because the figure gives the angle. The sweeps are in
 `riveted_bearing/data/studies/`.
@@ -57,18 +58,20 @@ The paper does not say which stress of its 0.4 s it means. Each claim is judged 
 
 The mean stress is the paper's most likely one, and the counts below are in it unless they name another.
 """
+SEEDS = 8  # of each point, from which on half of them have a verdict
 MARKS = {"reproduced": "●", "partly": "◐", "not": "○"}
 
 
-def write_paper(columns, folder, settings=()):
+def write_paper(columns, folder, settings=(), command="study --report docs"):
     """Write paper.md and its pictures into a folder from the columns {column: {sweep: Runs}}; settings: of the column
-    `yours`, for the page.  Returns the file's path.
+    `yours`, for the page; command: of the program, which the page names as its author.  Returns the file's path.
     """
     folder = Path(folder)
     judged = judge(columns)
     pictures = draw(columns, folder / "paper")
     parts = [
-        INTRODUCTION + (f"\nYours: scene `paper` with {', '.join(f'`{s}`' for s in settings)}.\n" if settings else "")
+        introduction(columns, judged, pictures, folder, command)
+        + (f"\nYours: scene `paper` with {', '.join(f'`{s}`' for s in settings)}.\n" if settings else "")
     ]
     parts += [summary_text(judged), seeds_text(columns), flips_text(judged), numbers_text(columns)]
     data = columns.get("paper", {})
@@ -82,6 +85,46 @@ def write_paper(columns, folder, settings=()):
     path = folder / "paper.md"
     write_atomically(path, lambda temporary: temporary.write_text("\n".join(parts), encoding="utf-8"))
     return path
+
+
+def introduction(columns, judged, pictures, folder, command):
+    """The page's first part, which says on top how much of the study was run if it was not all of it."""
+    beside = (folder / "parameters.md").is_file()
+    return INTRODUCTION.format(
+        command=command,
+        part=part_text(columns, judged),
+        figures=figures_text(pictures),
+        parameters="[parameters.md](parameters.md)" if beside else "The page `docs/parameters.md` of the program",
+    )
+
+
+def part_text(columns, judged):
+    """A line on the claims and seeds of a study that has not all of them, "" for a whole one."""
+    seeds = [seeds_of(data) for data in columns.values() if set(data) - set(BESIDE)]
+    fewest, judged_claims = min(seeds, default=0), number_judged(judged)
+    if judged_claims == number_of_claims() and fewest >= SEEDS:
+        return ""
+    return f"\n**Part of the study: {of_all(judged)}{f', {fewest} seeds' if fewest else ''}.**\n"
+
+
+def number_judged(judged):
+    """Number of claims that have a verdict in a column."""
+    return max((len(every(claims["mean"])) for claims in judged.values()), default=0)
+
+
+def of_all(judged):
+    """The claims judged of all claims, in words."""
+    return f"{number_judged(judged)} of the paper's {number_of_claims()} claims"
+
+
+def figures_text(pictures):
+    """The paper's figures that pictures show: "Figs. 10, 11 and 15", "Figs. 10 to 18" if there is none missing between."""
+    found = sorted(int(number) for name in pictures for number in re.findall(r"\d+", PICTURES[name][1].split(":")[0]))
+    if len(found) < 2:
+        return f"Fig. {found[0]}" if found else "no figure"
+    if len(found) > 2 and found == list(range(found[0], found[-1] + 1)):
+        return f"Figs. {found[0]} to {found[-1]}"
+    return f"Figs. {', '.join(map(str, found[:-1]))} and {found[-1]}"
 
 
 def judge(columns):
@@ -115,9 +158,9 @@ def counted(columns):
 def verdict_sentence(judged):
     """The counts of all columns in mean stress."""
     first = {
-        "paper": "Of the paper's {all} claims its own equations (scene `paper`) reproduce {r}, partly {p}, not {n}.",
-        "physical": "Of the paper's {all} claims elastic halves with their centrifugal load (`physical`) reproduce {r}, partly {p}, not {n}.",
-        "yours": "Of the paper's {all} claims your parameters reproduce {r}, partly {p}, not {n}.",
+        "paper": "Of {all} its own equations (scene `paper`) reproduce {r}, partly {p}, not {n}.",
+        "physical": "Of {all} elastic halves with their centrifugal load (`physical`) reproduce {r}, partly {p}, not {n}.",
+        "yours": "Of {all} your parameters reproduce {r}, partly {p}, not {n}.",
     }
     later = {
         "paper": "By its own equations (scene `paper`) the counts are {r}, {p} and {n}.",
@@ -125,9 +168,11 @@ def verdict_sentence(judged):
         "yours": "With your parameters the counts are {r}, {p} and {n}.",
     }
     sentences = []
+    whole = number_judged(judged) == number_of_claims()
+    claims_judged = f"the paper's {number_of_claims()} claims" if whole else of_all(judged)
     for column, claims in judged.items():
         r, p, n = count(claim.verdict for claim in every(claims["mean"]))
-        sentences.append((later if sentences else first)[column].format(all=r + p + n, r=r, p=p, n=n))
+        sentences.append((later if sentences else first)[column].format(all=claims_judged, r=r, p=p, n=n))
     return " ".join(sentences)
 
 
@@ -201,7 +246,7 @@ def seeds_text(columns):
         if not set(data) - set(BESIDE):
             continue
         seeds = seeds_of(data)
-        if seeds < 8:
+        if seeds < SEEDS:
             lines.append(f"- `{column}`: not judged, because there are {seeds} seeds a point and each half needs four.")
             continue
         found = depending_on_seeds(data)

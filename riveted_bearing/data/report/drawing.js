@@ -4,12 +4,13 @@
 //   Z, scale, bearing   number of balls, magnification, dimensions by their parameter names [m]
 //   bend                magnification of what elastic halves move by their modes, 0 or left out for rigid ones
 //   range               largest race load, pocket force and stress and the least stress, to which arrows and colours belong: {race, pocket, stress, least}
+//   land                whether the outer ring guides the cage by a land, which is drawn; left out: true
 //   has(name)           whether a channel is known
 //
 // What is drawn comes from a reader `see` of one instant, with the channels' names of animation.py: see.angle(name), see.value(name), see.peak(name),
 // and see.gone(k), whether rivet k is broken, where there is one.
 "use strict";
-function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
+function bearingDrawing({ Z, scale, bend, bearing, range, has, land = true }) {
   const colours = {};
   const mm = (name) => 1e3 * bearing[name];
   const R = mm("bearing.D") / 2, pitch = mm("bearing.d_m") / 2;
@@ -104,12 +105,14 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
     g.lineWidth = 2.5 / zoom;
     g.stroke();
     g.lineWidth = 0.8 / zoom;
-    g.setLineDash([3 / zoom, 3 / zoom]);
-    g.strokeStyle = colours.muted;
-    g.beginPath();
-    g.arc(0, 0, cageOut + guide, 0, 2 * Math.PI);
-    g.stroke();
-    g.setLineDash([]);
+    if (land) {
+      g.setLineDash([3 / zoom, 3 / zoom]);
+      g.strokeStyle = colours.muted;
+      g.beginPath();
+      g.arc(0, 0, cageOut + guide, 0, 2 * Math.PI);
+      g.stroke();
+      g.setLineDash([]);
+    }
 
     const flex = bending(see);
     const bodies = [0, 1].map((h) => [...["y", "z"].map((name) => 1e3 * scale * see.value(`half_${h}.${name}`)), psi + (h ? 0.5 : -0.5) * scale * see.value("twist")]);
@@ -144,6 +147,23 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
         }
       }
     };
+    const caps = () => {  // the sheet of half 1 over the balls, between its lands, so thin that the balls show
+      const turn = bodies[1][2], step = (2 * Math.PI) / Z;
+      g.lineWidth = 0.8 / zoom;
+      for (let k = 0; k < Z; k++) {
+        const wide = Math.min(step / 2, Math.asin(Math.min(0.95, pocket / cageOut))), a = turn + step * k;
+        const points = (r, sign) => Array.from({ length: 13 }, (_, i) => at(1, r, a + sign * wide * (i / 6 - 1)));
+        g.beginPath();
+        for (const point of [...points(cageOut, 1), ...points(cageIn, -1)]) g.lineTo(...point);
+        g.closePath();
+        g.globalAlpha = 0.45;
+        g.fillStyle = colours.cage;
+        g.fill();
+        g.globalAlpha = 1;
+        g.strokeStyle = colours.ink;
+        g.stroke();
+      }
+    };
     webs(0, colours["cage-back"]);
     webs(1, colours.cage);
 
@@ -168,7 +188,11 @@ function bearingDrawing({ Z, scale, bend, bearing, range, has }) {
         arrow(g, (rim + 0.4) * c, (rim + 0.4) * s, (rim + 0.4 + outside) * c, (rim + 0.4 + outside) * s, colours.force, 0.7);
         arrow(g, ry + (bore - 0.4) * c, rz + (bore - 0.4) * s, ry + (bore - 0.4 - inside) * c, rz + (bore - 0.4 - inside) * s, colours.middle, 0.7);
       }
-      const push = see.value("Q_c" + j);
+    }
+    if (bearing["cage.sheet"] > 0) caps();
+    for (let j = 1; j <= Z; j++) {
+      const azimuth = psi + (2 * Math.PI * (j - 1)) / Z + scale * see.value("lag" + j), c = Math.cos(azimuth), s = Math.sin(azimuth);
+      const r = pitch + scale * (1e3 * see.value("r" + j) - pitch), push = see.value("Q_c" + j);
       if (push > 0.01 * range.pocket) {
         const side = gapSide(see, j) * R * (0.5 + 1.4 * Math.min(1, push / range.pocket));
         arrow(g, r * c, r * s, r * c - s * side, r * s + c * side, colours.head, 0.9);
