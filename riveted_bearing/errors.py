@@ -26,7 +26,7 @@ def refusal(where, key, value, reason):
 
 def extra(name):
     """How to install what one of the package's extras brings: the package is in no index."""
-    return f'pip install ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'
+    return f'pip install -e ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'
 
 
 def shortlist(names, length=12):

@@ -51,7 +51,7 @@ def test_the_page_names_variables_that_there_are():
 @pytest.fixture(scope="session")
 def built():
     """The page, built anew from the present sources; the first time compiles zig's C library too, minutes long."""
-    pytest.importorskip("ziglang", reason='no zig: pip install ".[cross]"')
+    pytest.importorskip("ziglang", reason='no zig: pip install -e ".[cross]"')
     subprocess.run(["make", "browser"], cwd=ROOT, check=True)
     return PAGE
 

@@ -71,7 +71,7 @@ def cook(kinds, skip=()):
 
 def test_the_cookbook(kitchen, capsys):
     """All but what takes minutes, which the next test does: the build of another bearing, a rivet's finite elements."""
-    pytest.importorskip("xarray", reason='pip install ".[tables]"')
+    pytest.importorskip("xarray", reason='pip install -e ".[tables]"')
     cook(("sh", "python"), skip=SLOW)
     printed = capsys.readouterr().out
     assert len(re.findall(r"N, [+-]?\d+ um: p99.9 \d+ MPa", printed)) == 2 * 2 * 2
@@ -115,8 +115,8 @@ class Links(html.parser.HTMLParser):
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     """The site, built as `make site` does; any warning of the generator is an error."""
-    pytest.importorskip("mkdocs", reason='pip install ".[docs]"')
-    pytest.importorskip("mkdocstrings", reason='pip install ".[docs]"')
+    pytest.importorskip("mkdocs", reason='pip install -e ".[docs]"')
+    pytest.importorskip("mkdocstrings", reason='pip install -e ".[docs]"')
     folder = tmp_path_factory.mktemp("site")
     env = os.environ | {"NO_MKDOCS_2_WARNING": "1"}
     command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--site-dir", str(folder)]

@@ -208,7 +208,8 @@ def test_energy_balance_of_a_run(core, method, order_of_error, largest, record_p
 
     Error by tolerance over the first 2 ms: slope 1 (Runge-Kutta), 2/3 (Verlet: order 2, steps by an estimate of order
     3).  Later the motions at two tolerances have parted, and so have their residuals, which have a sign and pass
-    through zero: medians of three clearances.
+    through zero: medians of three clearances.  A steeper slope than the order is no loss of energy: 2 % less traction
+    in the films makes 1.26.
     """
     parameters = {"solver.method": method}
     error, loss, _ = residual(core, 1e-4 if method == Method.EXPLICIT else 4e-5, parameters, 1e-2)
@@ -221,7 +222,7 @@ def test_energy_balance_of_a_run(core, method, order_of_error, largest, record_p
         order(core, tolerances, parameters | {"cage.pocket_clearance": clearance}, 2e-3)[0]
         for clearance in (1.8e-4, 2e-4, 2.2e-4)
     ]
-    assert np.median(slopes) == pytest.approx(order_of_error, abs=0.2)  # observed 1.15, 1.14; 0.63
+    assert -0.2 < np.median(slopes) - order_of_error < 0.4  # observed 1.15, 1.14; 0.63
 
 
 @pytest.mark.c_only

@@ -11,10 +11,10 @@ NOTEBOOK = ROOT / "examples" / "from_fmu_to_life.ipynb"
 
 
 def test_the_notebook_runs(fmu, tmp_path, monkeypatch):
-    nbformat = pytest.importorskip("nbformat", reason='pip install ".[notebook]"')
-    nbclient = pytest.importorskip("nbclient", reason='pip install ".[notebook]"')
-    pytest.importorskip("ipykernel", reason='pip install ".[notebook]"')
-    pytest.importorskip("xarray", reason='pip install ".[notebook]"')
+    nbformat = pytest.importorskip("nbformat", reason='pip install -e ".[notebook]"')
+    nbclient = pytest.importorskip("nbclient", reason='pip install -e ".[notebook]"')
+    pytest.importorskip("ipykernel", reason='pip install -e ".[notebook]"')
+    pytest.importorskip("xarray", reason='pip install -e ".[notebook]"')
     monkeypatch.setenv("PYTHONPATH", f"{ROOT}{os.pathsep}{os.environ.get('PYTHONPATH', '')}")
     notebook = nbformat.read(NOTEBOOK, as_version=4)
     assert all(not cell.get("outputs") for cell in notebook.cells), "stored without outputs"

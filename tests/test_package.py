@@ -376,7 +376,7 @@ def test_arithmetic_that_is_not_ieee_754s_is_refused(folder, tmp_path):
 @pytest.mark.parametrize("target", ["x86_64-linux-musl", "aarch64-linux-musl"])
 def test_sources_compile_for_other_systems(folder, tmp_path, target):
     """By clang, with another C library, for another processor: what the guide for targets promises."""
-    pytest.importorskip("ziglang", reason='pip install ".[cross]"')
+    pytest.importorskip("ziglang", reason='pip install -e ".[cross]"')
     library, sources = tmp_path / "RivetedBearing.so", sorted(map(str, (folder / "sources").glob("*.c")))
     options = ["-target", target, "-std=c17", "-O1", "-ffp-contract=off", "-shared", "-fPIC"]
     subprocess.run(

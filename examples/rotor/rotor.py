@@ -1,7 +1,7 @@
 """A flexible rotor in ROSS on two bearing FMUs, motion in, force out: unbalance response against ROSS with the FMU's
 own stiffness and damping.
 
-    pip install ".[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--run-up 0.4] [--picture rotor.png]
+    pip install -e ".[rotor]"; python examples/rotor/rotor.py [--unbalance 5e-5 5e-4] [--run-up 0.4] [--picture rotor.png]
 
 The bearings' coefficients (bearing_ross.toml) are those of `riveted-bearing matrices examples/rotor/bearing.toml`.  The
 master integrates the rotor by the trapezoidal rule.  Each step the FMUs get position, velocity and acceleration of
