@@ -14,7 +14,7 @@ from whole_half import SMALL, whole
 from bearing_model.cage.cage import cage_kinematics
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_preload, cage_elastic_speed_2
 from bearing_model.cage.elastic.elastic_half import ROOT, joints_out, mode_order
-from bearing_model.cage.elastic.elastic_lands import static_changes
+from bearing_model.cage.elastic.elastic_lands import answers, static_changes
 from bearing_model.cage.elastic.half_modes import EVEN, OUT, land_shapes
 from bearing_model.cage.two_half.half_path import at_rivets, by_waves, land_harmonics, land_path_rows
 from bearing_model.generated.variables import STATE_SLICES, CageModel, Switch, Z
@@ -250,6 +250,48 @@ def test_no_film_changes_no_load():
     load = rng.standard_normal((Z, 3)) * [20.0, 0.05, 0.1]
     changes = static_changes(model, trial, load, np.zeros((Z, 3)), np.full(Z, 20.0), 0.0)
     assert not np.any(changes)
+
+
+def film_on_spinning_joints(part):
+    """Model, loads L_0 of joints that the centrifugal moment opens, preloads, and a film's loads of bonded joints, `part` of them as
+    a root mean square.
+    """
+    rng, model = np.random.default_rng(5), Model.of(ELASTIC)
+    law, P = model.d.table.half.law, np.full(Z, 40.0)
+    start = rng.uniform(-1.0, 1.0, (Z, 3)) * [10.0, 5e-3, 5e-3] + [0.0, 0.0, 0.1]
+    film, per = rng.standard_normal((Z, 3)) * [1.0, law.length, law.length], [1.0, 1.0 / law.length, 1.0 / law.length]
+    whole = np.sum((start * per) ** 2) + np.sum(P * P)
+    return model, start, P, film * part * np.sqrt(whole / np.sum((film * per) ** 2))
+
+
+def changes_of_tension(part):
+    model, start, P, film = film_on_spinning_joints(part)
+    return static_changes(model, start, start, film, P, np.zeros(Z))[1][:, 0]
+
+
+@pytest.mark.parametrize(("part", "left"), [(0.004, 0.2), (0.05, 0.03)])
+def test_sweeps_come_near_their_limit(part, left):
+    """One sweep for a film that changes the loads by little, two for others, against sweeps without end.  Observed 0.08, 0.010 of the
+    largest change.
+    """
+    model, start, P, film = film_on_spinning_joints(part)
+    law, intact = model.d.table.half.law, np.ones((Z, 1), dtype=bool)
+    before = answers(law, intact, start, P)
+    now = before
+    for _ in range(40):
+        relief = ((now[0] - before[0]).reshape(-1) @ law.among.T).reshape(Z, 3)
+        now = answers(law, intact, start + film - relief, P)
+    expected = (now[1] - before[1])[:, 0]
+    off = np.abs(changes_of_tension(part) - expected).max() / np.abs(expected).max()
+    print(f"{off:.4f}")
+    assert 1e-4 < off < left
+
+
+@pytest.mark.parametrize("edge", [0.005, 0.01])
+def test_the_second_sweep_comes_in_smoothly(edge):
+    """No jump of a rivet's tension where the second sweep begins and where all of it is there."""
+    below, above = changes_of_tension(edge * (1.0 - 1e-7)), changes_of_tension(edge * (1.0 + 1e-7))
+    assert np.abs(above - below).max() < 1e-6 * np.abs(below).max()
 
 
 def test_growth_is_of_the_order_of_a_ring():
