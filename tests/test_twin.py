@@ -522,7 +522,8 @@ def test_trajectory(core, scene, t_end, record_property):
 
     Two languages, two integrators, two start solvers.  Where a contact opens or closes, its force has a kink in the
     slope: a step over it errs by a part of h^3 once, so that the explicit slope lies between 3 and 4, and it scatters
-    by 0.5, because tolerances meet the kink in different parts of a step. Observed 3.8, 2.7, 3.1, 3.7, 3.6 (explicit),
+    by 0.5, because tolerances meet the kink in different parts of a step.  Verlet comes to its order from below, in the scene `other`
+    by 1.45, 1.79, 1.92, 1.98 from tolerance to tolerance, so that the coarsest does not count. Observed 3.8, 2.7, 3.1, 3.7, 3.6 (explicit),
     2.01, 1.99, 1.99, 1.95 (Verlet).  Error / bound: observed 0.08 ... 0.30 (Verlet), 0.02 ... 0.13 (explicit).
     """
     for method, order in ((variables.Method.EXPLICIT, 4), (variables.Method.VERLET, 2)):
@@ -533,7 +534,9 @@ def test_trajectory(core, scene, t_end, record_property):
             f"{scene} {method.name}: steps {steps}, errors {error}, slope {slope(steps, error):.2f}, error/bound {error / bound(steps, tolerances, t_end)}"
         )
         kinked = method == variables.Method.EXPLICIT and scene not in ("demo", "sliced_mixed")
-        assert (3.0 - 0.5 if kinked else order - 0.25) < slope(steps, error) < order + (0.5 if kinked else 0.25)
+        first = 1 if method == variables.Method.VERLET else 0
+        found = slope(steps[first:], error[first:])
+        assert (3.0 - 0.5 if kinked else order - 0.25) < found < order + (0.5 if kinked else 0.25)
         assert np.all(error < bound(steps, tolerances, t_end))
 
 
