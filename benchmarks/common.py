@@ -128,17 +128,22 @@ def cpu(action, repeat=1):
     return best, result
 
 
+def processor():
+    """Name of the processor; a name without a number says little, so that family and model follow it."""
+    said = {key.strip(): value.strip() for key, _, value in (line.partition(":") for line in cpu_info())}
+    name = said.get("model name") or said.get("Model") or platform.machine()
+    if "cpu family" not in said or any(letter.isdigit() for letter in name):
+        return name
+    return f"{name} family {said['cpu family']} model {said['model']}"
+
+
 def machine():
     """Processor, system, compiler and Python, without names of hosts or users."""
-    processor = next(
-        (line.partition(":")[2].strip() for line in cpu_info() if line.startswith(("model name", "Model"))),
-        platform.machine(),
-    )
     compiler = subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[
         0
     ]
     return {
-        "processor": processor,
+        "processor": processor(),
         "system": f"{platform.system()} {platform.machine()}",
         "compiler": compiler,
         "python": platform.python_version(),

@@ -68,6 +68,7 @@ def bearing_file(Z):
     ratio = Z / 9.0
     d_m = 0.0535 * ratio
     values = {
+        "bearing.D": 0.0111125,
         "bearing.d_m": d_m,
         "cage.D_o": d_m + 0.0060,
         "cage.D_i": d_m - 0.0038,

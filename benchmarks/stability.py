@@ -44,6 +44,7 @@ OUTPUTS = [
     for j in range(1, v.count + 1)
 ]
 CAGE = {"cage.D_o": 0.0595, "cage.D_i": 0.0497}
+SIZES = {"bearing.D": 0.0111125, "bearing.d_m": 0.0535}  # of the 6207
 BEARINGS = {  # changes of the 6207: number of balls, parameters
     "5 balls": (5, {}),
     "16 balls": (16, {"bearing.D": 6.35e-3, "cage.pocket_clearance": 1.5e-4}),
@@ -74,7 +75,7 @@ def build_fmu(bearing):
     target = fmu_of(bearing)
     source, name = target.with_suffix(".toml"), target.stem
     text = f'designation = "{bearing}"\nZ = {Z}\n[parameters]\n' + "".join(
-        f"{key} = {value}\n" for key, value in changes.items()
+        f"{key} = {value}\n" for key, value in (SIZES | changes).items()
     )
     source.write_text(text)
     rivet = None
