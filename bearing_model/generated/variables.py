@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{4c18fcc5-5a88-9407-e2e7-712af8469c35}"
+MODEL_GUID = "{5a030642-3c3d-5c67-cdbe-a9d243cadf2a}"
 Z = 9
 
 
@@ -363,7 +363,7 @@ PARAMETERS = {
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5", False, "it decides on the states and their meaning"),
         Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, a tenth of a pocket's pulse for rigid ones", False, "it decides on the states and their meaning"),
         Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms", False, None),
-        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 10000 for each 0.1 ms begun, without limit for solver.method = fixed", "work limit instead of a hung host: some 0.15 s of processor time for 0.1 ms", False, None),
+        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, without limit for solver.method = fixed", "work limit instead of a hung host: at most 0.2 s of processor time for 0.1 ms", False, None),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default", False, "it belongs to the start"),
         Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed", False, "it belongs to the start"),
         Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point", False, "it belongs to the start"),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{4c18fcc5-5a88-9407-e2e7-712af8469c35}"  // digest of the table
+#define MODEL_GUID "{5a030642-3c3d-5c67-cdbe-a9d243cadf2a}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -303,7 +303,7 @@ typedef struct {
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
         int clock;  // Switch: Measure solver.cpu_time
-        int max_steps;  // Largest number of internal steps in one communication step; 0: 10000 for each 0.1 ms begun, without limit for solver.method = fixed
+        int max_steps;  // Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, without limit for solver.method = fixed
     } solver;
     struct {
         int seed;  // Seed of the balls' initial spacing (splitmix64)

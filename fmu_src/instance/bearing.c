@@ -458,11 +458,11 @@ static double next_stop(const Bearing *b, double t_begin, double t_end, int stre
 }
 
 // Internal steps that a communication step of length h [s] may take.  Where solver.max_steps leaves it to the core,
-// MOST_STEPS for each SPAN [s] of it, and no fewer: some 0.15 s of processor time, 500 times the usual steps at the
-// default tolerance and 10 times those at the smallest.  The number of fixed steps is the user's.
+// MOST_STEPS for each SPAN [s] of it, and no fewer: at most 0.2 s of processor time, 500 times the usual steps at the
+// default tolerance and 6 times those at the smallest.  The number of fixed steps is the user's.
 static double most_steps(const Bearing *b, double h)
 {
-    const double MOST_STEPS = 10000.0, SPAN = 1e-4, LARGEST = 2e9;  // the largest fits a long everywhere
+    const double MOST_STEPS = 6000.0, SPAN = 1e-4, LARGEST = 2e9;  // the largest fits a long everywhere
     const double given = b->s.p.solver.max_steps;
     if (given > 0.0) return given;
     return is_fixed(b) ? LARGEST : floor(fmin(MOST_STEPS * fmax(h / SPAN, 1.0), LARGEST));
