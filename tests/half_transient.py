@@ -159,7 +159,7 @@ def recorded(core, parameters, inputs, count, settle=0.05, apart=3e-3):
             model.rhs(bearing.time, bearing.y)
             for h, pockets in enumerate(model.work.pocket):
                 push_x, push_t = view(core, pockets.push_x)[: variables.Z], view(core, pockets.push_t)[: variables.Z]
-                for j in np.flatnonzero(push_x**2 + push_t**2):
+                for j in np.flatnonzero(view(core, pockets.Q)[: variables.Z]):  # the push of others is their last one
                     force[h, j, :, i] = np.hypot(push_x[j], push_t[j]) * on_angles(
                         np.arctan2(abs(push_x[j]), push_t[j])
                     )

@@ -272,7 +272,7 @@ LARGER = 2.5  # about the 6316's size over the 6207's
 
 def enlarged(g, factor):
     """The same joint and half, all their lengths times factor."""
-    others = ("E_", "nu_", "rho_", "alpha_", "yield_", "hardening_", "Z", "T_0")
+    others = ("E_", "nu_", "rho_", "alpha_", "yield_", "hardening_", "Z", "T_0", "shape")
     lengths = [name for name in asdict(g) if not name.startswith(others)]
     return replace(g, **{name: getattr(g, name) * factor for name in lengths})
 

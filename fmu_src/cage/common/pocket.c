@@ -80,7 +80,8 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const vec v = motion.v;
     const wide delta_dot = vec_dot(n, v);
 
-    // share of the half, contact load, and the energy's gradient across n
+    // share of the half, contact load, and the energy's gradient across n; walls move the approach alone, so that their modes do
+    // not feel the gradient
     const PocketShare share = pocket_share(d, h, n_x, gap->delta);
     const wide Q_0 = share.load * hertz_load(wide_set(d->pocket.K), gap->delta);
     const wide Q =

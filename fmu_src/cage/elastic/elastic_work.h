@@ -36,10 +36,10 @@ typedef struct {
     // (cage_elastic.c)
     ball_array pad_out[3], pad_in[2], pad_in_dot[2];
 
-    // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c)
+    // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c and pocket_spheres.c)
     mode_array wall_force[2];
 
-    // contacts with the walls (pocket.c): direction (x, t) from the pocket's axis to the ball, stiffness along it [N/m],
+    // contacts with the walls (pocket.c, pocket_spheres.c): direction (x, t) from the pocket's axis to the ball, stiffness along it [N/m],
     // 0 without contact, the rate of the approach by ball and half as rigid bodies [m/s], and the load [N]
     ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2], touch_Q[2];
 
