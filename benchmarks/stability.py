@@ -270,7 +270,7 @@ def problems(records):
 
 def tiny_steps(count=10_000_000, h=1e-9):
     """Ten million communication steps of 1 ns: time, memory of the solver and energy."""
-    instance = CoreInstance(core_library(), {"scene.cage": 2, "scene.stress": 1, "scene.statistics": 1})
+    instance = CoreInstance(core_library(), {"scene.cage": 1, "scene.stress": 1, "scene.statistics": 1})
     step, bearing = instance.lib.part_step, instance.bearing
 
     def go():
@@ -279,8 +279,8 @@ def tiny_steps(count=10_000_000, h=1e-9):
     seconds, worst = cpu(go)
     error = abs(instance.time - count * h)
     residual = instance.output("bearing.energy_residual")
-    one = CoreInstance(core_library(), {"scene.cage": 2, "scene.stress": 1, "scene.statistics": 1}).step(1e-3)
-    few = CoreInstance(core_library(), {"scene.cage": 2, "scene.stress": 1, "scene.statistics": 1})
+    one = CoreInstance(core_library(), {"scene.cage": 1, "scene.stress": 1, "scene.statistics": 1}).step(1e-3)
+    few = CoreInstance(core_library(), {"scene.cage": 1, "scene.stress": 1, "scene.statistics": 1})
     for k in range(1_000_000):
         few.lib.part_step(few.bearing, (k + 1) * h)
     difference = np.max(np.abs(few.y - one.y)[variables.RING_Y])

@@ -84,7 +84,7 @@ def write_page(path, problems):
 
 `benchmarks/stability.py` runs random and extreme scenes to their ends.
 Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
-Scenes whose rivets have closed forms have no modes and run with rigid halves only.
+Scenes whose rivets have closed forms run with rigid halves only.
 
 """
     text += table(

@@ -316,7 +316,7 @@ def randoms(count=200):
             "oil.eta": log(5e-4, 0.5),
             "oil.rho_mix": pick(0.0, 35.0, 500.0),
             "gravity.y": pick(0.0, -9.81),
-            "scene.cage": pick(1, 1, 1, 2),
+            "": pick(1, 1, 1, 2),  # of a parameter that is no longer drawn, so that those after it keep their values
             "scene.traction": pick(1, 1, 2),
             "scene.lubrication": pick(1, 2),
             "scene.stress": pick(1, 3, 3, 4),
@@ -343,6 +343,7 @@ def randoms(count=200):
             "shaft.tilt_y": float(rng.normal(0, math.radians(0.1))),
             "shaft.tilt_z": float(rng.normal(0, math.radians(0.15))),
         }
+        del parameters[""]
         yield Scene("random", f"random {n}", parameters, inputs)
 
 
