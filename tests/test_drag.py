@@ -170,6 +170,10 @@ def test_ring_that_stops_before_the_cage(core, speed):
     f = 0.066 * (m.work.stream * r * h / NU) ** -0.25
     M = 0.5 * RHO_MIX * f * ((m.work.stream - speed) * r) ** 2 * 2.0 * np.pi * r * 13.5e-3 * r
     assert 0.75 < m.work.ring.M[0] / M < 1.2
+    kappa = 0.5 * (1.0 - 0.0111125 / 0.0535)  # orbital speed over shaft speed
+    rolling = 0.5 * 757.0 / kappa  # half of the shaft speed at which this cage would roll
+    floored = M / f * 0.066 * ((1.0 - kappa) * rolling * r * h / NU) ** -0.25
+    assert m.work.ring.M[0] == pytest.approx(floored, rel=1e-11)
 
 
 def test_balls(core):

@@ -28,7 +28,8 @@
 // isolated balls the mixture stands.  Neglected: the cage's bore, which holds the mixture too.
 //
 // A cage that still turns when the rings stop works the mixture too.  The omega of walls and fresh oil is therefore half of
-// the speed at which this cage would roll, at the least: the friction factor is infinite at none.
+// the speed at which this cage would roll, at the least: the friction factor is infinite at none.  By half, and not the
+// whole, the rings decide in any rolling; where they stop the factor is 0.5^-0.25 = 1.19 times that of the whole.
 //
 // All speeds are against the outer ring (outer_ring.h): oil and air at its walls turn with it.
 #include "physics/drag.h"
