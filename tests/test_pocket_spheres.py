@@ -205,6 +205,49 @@ def test_force_is_c1_over_the_seams(start, end):
     assert fine < 0.35 * coarse  # 1/4 of a bounded second derivative
 
 
+def support(direction, sin_chi, sin_eta, count=400):
+    """Largest n.u over the normals n that sphere and rims have, for unit vectors u [3, m] = (x, r, t): on a grid over r and the height
+    above the split.
+    """
+    x = np.linspace(sin_chi, 1.0, count)[:, None]
+    r = np.linspace(-sin_eta, sin_eta, count)[None, :]
+    left = 1.0 - x**2 - r**2
+    n = np.stack([(x + 0.0 * r)[left >= 0.0], (r + 0.0 * x)[left >= 0.0], np.sqrt(left[left >= 0.0])])
+    return np.array([np.max(n.T @ np.array([u[0], u[1], abs(u[2])])) for u in direction.T])
+
+
+def test_force_is_continuous_beside_the_corners():
+    """Along ways round the whole pocket at 8 um of approach, also where neither sphere nor fillet is near: the largest difference of
+    neighbouring forces falls with the step.  No force is more than three times the largest that the sphere has at such an approach.
+
+    A law whose fillet ends at a corner as a straight line gives steps of the energy there, and forces without limit.
+    """
+    spheres, rng = Model.of(RIBBON).d.spheres, np.random.default_rng(2)
+    sin_eta = (0.5 * WIDTH - EDGE) / (RADIUS + EDGE)
+    ends = rng.normal(size=(2, 3, 40))
+    ends[:, 0] = np.abs(ends[:, 0]) * 0.5  # many near the split
+    ends /= np.linalg.norm(ends, axis=1, keepdims=True)
+    knots = np.linspace(0.0, 1.0, 60)
+    largest = spheres.K * 8e-6**1.5 * (1.0 + 0.7 * np.sqrt(R * RADIUS / SLACK * 8e-6) / R)
+
+    def differences(count):
+        found = []
+        for start, end in zip(ends[0].T, ends[1].T, strict=True):
+            way = np.linspace(0.0, 1.0, count)
+            u = np.outer(start, 1.0 - way) + np.outer(end, way)
+            u /= np.linalg.norm(u, axis=0)
+            at = np.outer(start, 1.0 - knots) + np.outer(end, knots)
+            at /= np.linalg.norm(at, axis=0)
+            size = np.interp(way, knots, (SLACK + 8e-6) / support(at, SIN_CHI, sin_eta))
+            _, Q, n, _ = spheres_contact(spheres, *(np.repeat((c * size)[:, None], Z, axis=1) for c in u))
+            F = (Q * np.array(n))[..., 0]
+            assert np.max(Q) < 3.0 * largest
+            found.append(np.max(np.abs(np.diff(F, axis=1))) / np.max(Q))
+        return np.max(found)
+
+    assert differences(16_001) < 0.35 * differences(4_001)  # 1/4 of a bounded slope
+
+
 def test_touch_down_is_c1(core):
     """Force and stiffness begin at 0 where the second half is touched: 1.5 K delta^0.5."""
     t = np.sqrt(SLACK**2 - E**2)

@@ -19,9 +19,13 @@ A rim ends at the others: the fillet lies between the edges, an edge between the
 arc, v across and omega half of its opening,  g = sqrt(u^2 + v^2) within it, else u cos omega + v sin omega: the corner.
 
 The part of a patch on the sphere's side of a seam is that of the machined pocket's split (pocket.py), e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5
-of the energy, xi = R_c sin(angle of q above the seam)/a, at most 1, a of the rim's approach: V = (1 - e_f) V_fillet + e_f ((1 - e_e) V_edge +
-e_e V_sphere).  V decides all: the force on the ball is -dV/dq = -Q n through its centre, the friction acts at the contact point p + R n.
-Energy and momentum are conserved exactly.
+of the energy, xi = R_c sin(angle of q above the seam)/a, at most 1, a of the rim's approach:
+
+    V = e_f e_e V_sphere + (1 - e_f e_e) (w V_fillet + (1 - w) V_edge),   w = (delta_f/delta_e)^2/2 where delta_f < delta_e,
+                                                                          1 - (delta_e/delta_f)^2/2 elsewhere
+
+Beyond a corner both rims have the same approach; elsewhere the rim that is reached farther has the load.  V decides all: the force on the ball
+is -dV/dq = -Q n through its centre, the friction acts at the contact point p + R n.  Energy and momentum are conserved exactly.
 
 A push along the tangent touches both halves at sin chi_0 = e/(R_c - R) if that is more than sin chi_1: each half has N = F sin(chi_0 +- beta)
 /sin 2 chi_0 of a push at the angle beta from the split, beyond chi_0 one half has all.  0.7 a/R: independent solution of an elastic ball in a
@@ -55,35 +59,45 @@ def arc_reach(rim, u, v):
     return np.where(within, g, corner), np.where(within, u / g, rim.cos_arc), np.where(within, v / g, rim.sin_arc)
 
 
-def rim_contact(d, rim, g, h):
-    """Contact with a rim at the reach g in its plane and the height h above it: approach, energy, and its slope; part of the energy that the
-    sphere has, and its slopes along g and h; slopes of the approach.  The last two are (along g, along h).
+def rim_contact(d, rim, g, h, inside):
+    """Contact with a rim at the reach g in its plane and the height h above it, where q lies above its seam by the angle of the sine `inside`:
+    approach, energy, load, slope of the approach (along g, along h); part of the energy that the sphere has by this seam, and its slopes along
+    `inside` and along the approach.
     """
     off_g, off_h = rim.A - g, rim.H - h
     apart = np.sqrt(off_g * off_g + off_h * off_h)
     delta = rim.reach - d.slack - apart
-    slope = off_g / apart, off_h / apart
     own = maximum(delta, 1e-30)
     root = np.sqrt(own)
     load = np.where(np.real(delta) > 0.0, rim.K * own * root, 0.0)
 
-    # angle of q beyond the seam: of the sphere, h below H is inside
-    m = np.sqrt(g * g + h * h)
-    inside = (g * rim.sin - h * rim.cos) / m
     wide = d.radius / (d.a_delta * root)
     xi = maximum(minimum(wide * inside, 1.0), -1.0)
     xi_2 = xi * xi
-    share = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2))
     steep = 15.0 / 16.0 * (1.0 - xi_2) * (1.0 - xi_2)
-    by_delta = -0.5 * steep * xi / own  # 0 where xi is at its bounds
-    by_angle = steep * wide / m
-    share_slope = (
-        by_angle * (rim.sin - inside * g / m) + by_delta * slope[0],
-        by_angle * (-rim.cos - inside * h / m) + by_delta * slope[1],
-    )
     return SimpleNamespace(
-        delta=delta, energy=0.4 * load * own, load=load, slope=slope, share=share, share_slope=share_slope
+        delta=delta,
+        energy=0.4 * load * own,
+        load=load,
+        slope=(off_g / apart, off_h / apart),
+        share=0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2)),
+        by_inside=steep * wide,
+        by_delta=-0.5 * steep * xi / own,  # 0 where xi is at its bounds
     )
+
+
+def rim_pair(f, edge):
+    """Fillet and edge together: the one that is reached farther has the energy, near a corner both.  Energy, part of the fillet, and slopes of
+    that part along both approaches.
+    """
+    own_f, own_e = maximum(f.delta, 0.0), maximum(edge.delta, 0.0)
+    most = maximum(maximum(own_f, own_e), 1e-30)
+    ratio = minimum(own_f, own_e) / most
+    less, edge_more = 0.5 * ratio * ratio, np.real(own_e - own_f) > 0.0
+    fillet = np.where(edge_more, less, 1.0 - less)
+    by_f = np.where(edge_more, ratio, ratio * ratio) / most
+    by_e = -np.where(edge_more, ratio * ratio, ratio) / most
+    return edge.energy + fillet * (f.energy - edge.energy), fillet, by_f, by_e
 
 
 def spheres_contact(d, x, r, t):
@@ -101,28 +115,31 @@ def spheres_contact(d, x, r, t):
     energy = d.K * own * own * (0.4 * root + d.more / 3.0 * own)
     load = d.K * own * (root + d.more * own) / s
 
-    # rims, as slopes along x, |r|, |t|
+    # rims; the sphere lies above the fillet's seam and below the edge's
+    round_pole, round_r = np.sqrt(T * T + R_r * R_r), np.sqrt(x * x + T * T)
+    in_f = (x * d.fillet.cos - round_pole * d.fillet.sin) / s
+    in_e = (round_r * d.edge.sin - R_r * d.edge.cos) / s
     g, g_t, g_r = arc_reach(d.fillet, T, R_r)
-    f = rim_contact(d, d.fillet, g, x)
     k, k_x, k_t = arc_reach(d.edge, x, T)
-    edge = rim_contact(d, d.edge, k, R_r)
-    # above the fillet's seam lies the sphere, below the edge's
-    f.share, f.share_slope = 1.0 - f.share, (-f.share_slope[0], -f.share_slope[1])
+    f, edge = rim_contact(d, d.fillet, g, x, in_f), rim_contact(d, d.edge, k, R_r, in_e)
+    rims, fillet, by_f, by_e = rim_pair(f, edge)
+    share = f.share * edge.share
+    rest, over = 1.0 - share, energy - rims
+    V = rims + share * over
 
-    inner = (1.0 - edge.share) * edge.energy + edge.share * energy
-    V = (1.0 - f.share) * f.energy + f.share * inner
-
-    # gradient
-    by_edge, of_edge, of_sphere = f.share * (energy - edge.energy), f.share * (1.0 - edge.share), f.share * edge.share
-    along_k = by_edge * edge.share_slope[0] + of_edge * edge.load * edge.slope[0]
-    along_r = by_edge * edge.share_slope[1] + of_edge * edge.load * edge.slope[1]
-    along_g = (inner - f.energy) * f.share_slope[0] + (1.0 - f.share) * f.load * f.slope[0]
-    along_x = (inner - f.energy) * f.share_slope[1] + (1.0 - f.share) * f.load * f.slope[1]
-    V_x = along_x + along_k * k_x + of_sphere * load * x
-    V_r = (along_r + along_g * g_r + of_sphere * load * R_r) * r_slope
-    V_t = (along_g * g_t + along_k * k_t + of_sphere * load * T) * t_slope
+    # slopes along the approaches of both rims and along both angles; gradient along x, |r|, |t|
+    between = f.energy - edge.energy
+    of_f = rest * (fillet * f.load + between * by_f) + over * edge.share * f.by_delta
+    of_e = rest * ((1.0 - fillet) * edge.load + between * by_e) + over * f.share * edge.by_delta
+    turn_f, turn_e = over * edge.share * f.by_inside / s, over * f.share * edge.by_inside / s
+    out = share * load - (turn_f * in_f + turn_e * in_e) / s
+    along_g, along_k = of_f * f.slope[0], of_e * edge.slope[0]
+    pole, across = turn_f * d.fillet.sin / round_pole, turn_e * d.edge.sin / round_r
+    V_x = of_f * f.slope[1] + turn_f * d.fillet.cos + along_k * k_x + (out + across) * x
+    V_r = (of_e * edge.slope[1] - turn_e * d.edge.cos + along_g * g_r + (out - pole) * R_r) * r_slope
+    V_t = (along_g * g_t + along_k * k_t + (out + across - pole) * T) * t_slope
     Q = np.sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60)
-    nearest = (1.0 - f.share) * f.delta + f.share * ((1.0 - edge.share) * edge.delta + edge.share * delta)
+    nearest = share * delta + rest * (fillet * f.delta + (1.0 - fillet) * edge.delta)
     return V, Q, (V_x / Q, V_r / Q, V_t / Q), np.where(np.real(delta) > 0.0, nearest, delta)
 
 

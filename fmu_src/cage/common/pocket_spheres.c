@@ -21,9 +21,14 @@
 //
 // The part of a patch on the sphere's side of a seam is that of the machined pocket's split (pocket.c),
 // e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5 of the energy, xi = R_c sin(angle of q above the seam)/a, at most 1, a of the
-// rim's approach:  V = (1 - e_f) V_fillet + e_f ((1 - e_e) V_edge + e_e V_sphere).  V decides all: the force on the ball is
-// -dV/dq = -Q n through its centre, the friction acts at the contact point p + R n.  Energy and momentum are conserved
-// exactly.
+// rim's approach:
+//
+//     V = e_f e_e V_sphere + (1 - e_f e_e) (w V_fillet + (1 - w) V_edge),   w = (delta_f/delta_e)^2/2 where delta_f < delta_e,
+//                                                                           1 - (delta_e/delta_f)^2/2 elsewhere
+//
+// Beyond a corner both rims have the same approach; elsewhere the rim that is reached farther has the load.  V decides all: the
+// force on the ball is -dV/dq = -Q n through its centre, the friction acts at the contact point p + R n.  Energy and momentum
+// are conserved exactly.
 //
 // A push along the tangent touches both halves at sin chi_0 = e/(R_c - R) if that is more than sin chi_1: each half has
 // N = F sin(chi_0 +- beta)/sin 2 chi_0 of a push at the angle beta from the split, beyond chi_0 one half has all.

@@ -62,14 +62,15 @@ INLINE ArcReach arc_reach(const Rim *rim, wide u, wide v)
                       wide_select(within, v * inv_g, wide_set(rim->sin_arc))};
 }
 
-// Contact with a rim at the reach g in its plane and the height h above it.  share: part of the energy that the sphere
-// has where it lies below the seam; slopes along g and h.
+// Contact with a rim at the reach g in its plane and the height h above it, where q lies above its seam by the angle of the
+// sine `inside`.  share: part of the energy that the sphere has, by this seam; slopes of the approach along g and h, of the
+// share along `inside` and along the approach.
 typedef struct {
     wide delta, energy, load, slope_g, slope_h;
-    wide share, share_g, share_h;
+    wide share, by_inside, by_delta;
 } RimContact;
 
-INLINE RimContact rim_contact(const Spheres *s, const Rim *rim, wide slack, wide g, wide h)
+INLINE RimContact rim_contact(const Spheres *s, const Rim *rim, wide slack, wide g, wide h, wide inside)
 {
     const wide off_g = rim->A - g, off_h = rim->H - h, apart = wide_sqrt(off_g * off_g + off_h * off_h);
     const wide inv_apart = 1.0 / apart;
@@ -80,16 +81,33 @@ INLINE RimContact rim_contact(const Spheres *s, const Rim *rim, wide slack, wide
     c.load = wide_select(wide_above(c.delta, 0.0), rim->K * own * root, wide_set(0.0));
     c.energy = 0.4 * c.load * own;
 
-    // angle of q from the seam toward the sphere
-    const wide one = wide_set(1.0), inv_m = 1.0 / wide_sqrt(g * g + h * h);
-    const wide inside = (g * rim->sine - h * rim->cosine) * inv_m, width = s->radius / (s->a_delta * root);
+    const wide one = wide_set(1.0), width = s->radius / (s->a_delta * root);
     const wide xi = wide_max(wide_min(width * inside, one), -one), xi_2 = xi * xi, rest = 1.0 - xi_2;
     const wide steep = 15.0 / 16.0 * rest * rest;
-    const wide by_delta = -0.5 * steep * xi / own, by_angle = steep * width * inv_m;
     c.share = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2));
-    c.share_g = by_angle * (rim->sine - inside * g * inv_m) + by_delta * c.slope_g;
-    c.share_h = by_angle * (-rim->cosine - inside * h * inv_m) + by_delta * c.slope_h;
+    c.by_inside = steep * width;
+    c.by_delta = -0.5 * steep * xi / own;
     return c;
+}
+
+// Fillet and edge together: the one that is reached farther has the energy, near a corner both.  fillet: part of the fillet,
+// slopes of that part along both approaches.
+typedef struct {
+    wide energy, fillet, by_f, by_e;
+} RimPair;
+
+INLINE RimPair rim_pair(const RimContact *f, const RimContact *e)
+{
+    const wide zero = wide_set(0.0), own_f = wide_max(f->delta, zero), own_e = wide_max(e->delta, zero);
+    const wide inv_most = 1.0 / wide_max(wide_max(own_f, own_e), wide_set(1e-30));
+    const wide ratio = wide_min(own_f, own_e) * inv_most, less = 0.5 * ratio * ratio;
+    const bits edge_more = wide_above(own_e - own_f, 0.0);
+    RimPair pair;
+    pair.fillet = wide_select(edge_more, less, 1.0 - less);
+    pair.by_f = wide_select(edge_more, ratio, ratio * ratio) * inv_most;
+    pair.by_e = -wide_select(edge_more, ratio * ratio, ratio) * inv_most;
+    pair.energy = e->energy + pair.fillet * (f->energy - e->energy);
+    return pair;
 }
 
 // Elastic contact in a packet of pockets: energy, load, direction into the wall along the pocket's axes, approach; of a
@@ -116,28 +134,33 @@ INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r
     const wide energy = s->K * own * own * (0.4 * root + s->more / 3.0 * own);
     const wide load = s->K * own * (root + s->more * own) / distance;
 
-    // rims; above the fillet's seam lies the sphere, below the edge's
+    // rims; the sphere lies above the fillet's seam and below the edge's
+    const wide inv = 1.0 / distance, round_pole = wide_sqrt(T * T + R * R), round_r = wide_sqrt(x * x + T * T);
+    const wide in_f = (x * s->fillet.cosine - round_pole * s->fillet.sine) * inv;
+    const wide in_e = (round_r * s->edge.sine - R * s->edge.cosine) * inv;
     const ArcReach g = arc_reach(&s->fillet, T, R), k = arc_reach(&s->edge, x, T);
-    const RimContact f = rim_contact(s, &s->fillet, slack, g.g, x);
-    const RimContact e = rim_contact(s, &s->edge, slack, k.g, R);
-    const wide above = 1.0 - f.share;
-    const wide inner = (1.0 - e.share) * e.energy + e.share * energy;
-    SphereContact c = {.V = f.share * f.energy + above * inner};
+    const RimContact f = rim_contact(s, &s->fillet, slack, g.g, x, in_f);
+    const RimContact e = rim_contact(s, &s->edge, slack, k.g, R, in_e);
+    const RimPair rims = rim_pair(&f, &e);
+    const wide share = f.share * e.share, rest = 1.0 - share, over = energy - rims.energy;
+    SphereContact c = {.V = rims.energy + share * over};
 
-    // gradient along x, |r|, |t|
-    const wide by_edge = above * (energy - e.energy), of_edge = above * (1.0 - e.share) * e.load;
-    const wide of_sphere = above * e.share * load, by_fillet = f.energy - inner, of_fillet = f.share * f.load;
-    const wide along_k = by_edge * e.share_g + of_edge * e.slope_g;
-    const wide along_r = by_edge * e.share_h + of_edge * e.slope_h;
-    const wide along_g = by_fillet * f.share_g + of_fillet * f.slope_g;
-    const wide along_x = by_fillet * f.share_h + of_fillet * f.slope_h;
-    const wide V_x = along_x + along_k * k.u + of_sphere * x;
-    const wide V_r = (along_r + along_g * g.v + of_sphere * R) * (r / R);
-    const wide V_t = (along_g * g.u + along_k * k.v + of_sphere * T) * (t / T);
+    // slopes along the approaches of both rims and along both angles; gradient along x, |r|, |t|
+    const wide between = f.energy - e.energy;
+    const wide of_f = rest * (rims.fillet * f.load + between * rims.by_f) + over * e.share * f.by_delta;
+    const wide of_e = rest * ((1.0 - rims.fillet) * e.load + between * rims.by_e) + over * f.share * e.by_delta;
+    const wide turn_f = over * e.share * f.by_inside * inv, turn_e = over * f.share * e.by_inside * inv;
+    const wide out = share * load - (turn_f * in_f + turn_e * in_e) * inv;
+    const wide along_g = of_f * f.slope_g, along_k = of_e * e.slope_g;
+    const wide pole = turn_f * s->fillet.sine / round_pole, across = turn_e * s->edge.sine / round_r;
+    const wide V_x = of_f * f.slope_h + turn_f * s->fillet.cosine + along_k * k.u + (out + across) * x;
+    const wide V_r =
+        (of_e * e.slope_h - turn_e * s->edge.cosine + along_g * g.v + (out - pole) * R) * (r / R);
+    const wide V_t = (along_g * g.u + along_k * k.v + (out + across - pole) * T) * (t / T);
     c.Q = wide_sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60);
     const wide inv_Q = 1.0 / c.Q;
     c.n_x = V_x * inv_Q, c.n_r = V_r * inv_Q, c.n_t = V_t * inv_Q;
-    const wide nearest = f.share * f.delta + above * ((1.0 - e.share) * e.delta + e.share * delta);
+    const wide nearest = share * delta + rest * (rims.fillet * f.delta + (1.0 - rims.fillet) * e.delta);
     c.delta = wide_select(wide_above(delta, 0.0), nearest, delta);
     return c;
 }
