@@ -43,13 +43,13 @@ def test_a_cage_at_standstill_hangs_on_its_balls(core):
     instance = Instance(core, parameters, {"shaft.omega": 0.0})
     model = core.model(parameters, {"shaft.omega": 0.0})
     force = []
-    for i in range(200):
-        y = instance.step((i + 1) * 5e-4).y
-        if i >= 100:
+    for i in range(2000):
+        y = instance.step((i + 1) * 5e-5).y
+        if i >= 1000:
             model.rhs(0.0, y)
             force.append(sum(sum(list(model.work.pocket[h].half_F_y)[:Z]) for h in range(2)))
     weight = 2.0 * model.p.cage.m * G
-    # samples of impacts that ring down
+    # impacts that ring down, with a standard deviation of 1.3 weights: samples every 0.5 ms would scatter by 16 %
     assert np.mean(force) == pytest.approx(weight, rel=0.1)
     assert 0.1 < instance.output("cage.eccentricity") < 1.5
 

@@ -100,9 +100,22 @@ def rim_pair(f, edge):
     return edge.energy + fillet * (f.energy - edge.energy), fillet, by_f, by_e
 
 
+def spheres_nearest(d, x, r, t):
+    """Approach of the nearest place of sphere and rims [m], by which no contact is missed; of a ball within the sphere, the sphere's."""
+    R_r, T = np.sqrt(r * r + TIP**2), np.sqrt(t * t + TIP**2)
+    sphere = np.sqrt(x * x + R_r * R_r + T * T) - d.slack
+    above = x * d.fillet.cos - np.sqrt(T * T + R_r * R_r) * d.fillet.sin
+    below = np.sqrt(x * x + T * T) * d.edge.sin - R_r * d.edge.cos
+    g, k = arc_reach(d.fillet, T, R_r)[0], arc_reach(d.edge, x, T)[0]
+    f = d.fillet.reach - d.slack - np.sqrt((d.fillet.A - g) ** 2 + (d.fillet.H - x) ** 2)
+    e = d.edge.reach - d.slack - np.sqrt((d.edge.A - k) ** 2 + (d.edge.H - R_r) ** 2)
+    nearest = np.where(np.real(minimum(above, below)) > 0.0, sphere, maximum(f, e))
+    return np.where(np.real(sphere) > 0.0, nearest, sphere)
+
+
 def spheres_contact(d, x, r, t):
     """Elastic contact of a ball whose centre is at q = (x, r, t) from the sphere's: energy V [J], load Q [N], direction n (x, r, t) into the
-    wall, approach [m]; of a ball that the sphere does not reach, the sphere's.
+    wall, approach [m]; of a ball within the sphere, the sphere's.
     """
     R_r, T = np.sqrt(r * r + TIP**2), np.sqrt(t * t + TIP**2)
     r_slope, t_slope = r / R_r, t / T
@@ -139,7 +152,7 @@ def spheres_contact(d, x, r, t):
     V_r = (of_e * edge.slope[1] - turn_e * d.edge.cos + along_g * g_r + (out - pole) * R_r) * r_slope
     V_t = (along_g * g_t + along_k * k_t + (out + across - pole) * T) * t_slope
     Q = np.sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60)
-    nearest = share * delta + rest * (fillet * f.delta + (1.0 - fillet) * edge.delta)
+    nearest = share * delta + rest * maximum(f.delta, edge.delta)
     return V, Q, (V_x / Q, V_r / Q, V_t / Q), np.where(np.real(delta) > 0.0, nearest, delta)
 
 
@@ -206,13 +219,17 @@ def spheres_wall(model, w, h, gap):
     half, e = model.modes, w.elastic
     chi, radius, back, chi_slope, radius_slope = spheres_place(model.d.spheres, half, gap.q)
     shape, by_chi, by_r = ribbon_wall_shapes(half, gap.side, chi, radius, back)
-    delta = np.sqrt(sum(x * x for x in gap.q)) - model.d.spheres.slack
-    near = np.real(delta) + e.reach[h] > 0.0  # others cannot have been reached
     q, q_dot = e.q[h], e.q_dot[h]
-    u, u_dot, u_chi, u_r = (
-        np.sum(a * b, axis=-1) * near for a, b in ((shape, q), (shape, q_dot), (by_chi, q), (by_r, q))
-    )
-    poleward = np.array([gap.side, 1.0, 1.0]).reshape(-1, *[1] * (u.ndim - 1))
+    poleward = np.array([gap.side, 1.0, 1.0]).reshape(-1, *[1] * (shape.ndim - 2))
+
+    # walls that cannot be reached: by how far they can move, and by that without the modes that move all pockets alike
+    near = np.real(spheres_nearest(model.d.spheres, *gap.q)) + e.reach[h] > 0.0
+    alike = near * np.sum(np.where(half.uniform, shape * q, 0.0), axis=-1)
+    there = tuple(x - u_i for x, u_i in zip(gap.q, poleward * alike, strict=True))
+    near = near & (np.real(spheres_nearest(model.d.spheres, *there)) + e.reach_others[h] > 0.0)
+
+    u = np.where(near, np.sum(shape * q, axis=-1), alike)
+    u_dot, u_chi, u_r = (np.sum(a * b, axis=-1) * near for a, b in ((shape, q_dot), (by_chi, q), (by_r, q)))
     gap.q = tuple(x - u_i for x, u_i in zip(gap.q, poleward * u, strict=True))
     u_chi, u_r = poleward * u_chi, poleward * u_r
     slopes = [u_chi * a + u_r * b for a, b in zip(chi_slope, radius_slope, strict=True)]  # of u, along x, r, t

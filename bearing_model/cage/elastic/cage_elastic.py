@@ -75,9 +75,10 @@ def cage_elastic_kinematics(model, y, w):
     S, D, S_dot, D_dot = (y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     e.q, e.q_dot = ([(s - d)[..., None, :] / ROOT, (s + d)[..., None, :] / ROOT] for s, d in ((S, D), (S_dot, D_dot)))
     others = np.where(half.uniform, 0.0, half.omega)
+    e.reach_others = [np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) for q in map(np.real, e.q)]
     e.reach = [
-        np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) + np.sum(half.widest * np.abs(q), axis=-1)
-        for q in map(np.real, e.q)
+        reach + np.sum(half.widest * np.abs(q), axis=-1)
+        for reach, q in zip(e.reach_others, map(np.real, e.q), strict=True)
     ]
     e.more_J, e.more_J_dot = ([2.0 * np.sum(half.centrifugal * q, axis=-1) for q in both] for both in (e.q, e.q_dot))
     e.pad_out, e.pad_in, e.pad_in_dot = (

@@ -120,7 +120,7 @@ void spheres_rigid(const Model *model, Work *w)
             const wide slack = wide_load(&s->slack[j]);
             SphereContact at;
             bits pressed = {0};
-            if (sphere_reached(slack, &gap, &at.delta)) {
+            if (sphere_reached(s, slack, &gap, &at.delta)) {
                 at = sphere_contact(s, slack, gap.x, gap.r, gap.t);
                 pressed = wide_above(at.Q, LEAST);
             }
@@ -193,33 +193,59 @@ static void sphere_place(const Spheres *s, const ElasticHalf *half, const scalar
     ribbon_wall_nodes(half, at->chi, at->radius, &at->nodes);
 }
 
-// Takes the motions of the walls of a packet, of which the bits in `near` may be reached, from the gap.
-static void move_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
-                       SpherePlace at[LANE_WIDTH])
+// Takes the motion u of the wall from the place q of ball k.
+static void take(ball_array q[3], int k, int side, const scalar u[3])
+{
+    q[0][k] -= side * u[0];
+    q[1][k] -= u[1];
+    q[2][k] -= u[2];
+}
+
+// Takes the motions of the walls of a packet, of which the bits in `near` may be reached, from the gap.  The modes that move all
+// pockets alike cost little and move the walls most: the others are left out where they cannot close the gap.  Returns
+// whether a ball may touch, with the approach.
+static bool move_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
+                       SpherePlace at[LANE_WIDTH], WallShape shape[LANE_WIDTH], wide *delta)
 {
     const int side = 2 * h - 1;
-    ball_array q[3];
-    wide_store(&q[0][j], gap->x);
-    wide_store(&q[1][j], gap->r);
-    wide_store(&q[2][j], gap->t);
+    const Spheres *s = &model->d->spheres;
+    const wide slack = wide_load(&s->slack[j]);
+    ball_array q[3], alike[3];
+    wide_store(&q[0][j], gap->x), wide_store(&q[1][j], gap->r), wide_store(&q[2][j], gap->t);
+    for (int c = 0; c < 3; c++) wide_store(&alike[c][j], wide_load(&q[c][j]));
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(near >> lane & 1)) continue;
         const int k = j + lane;
         const scalar place[3] = {q[0][k], q[1][k], q[2][k]};
         SpherePlace *there = &at[lane];
         scalar u[3];
-        sphere_place(&model->d->spheres, model->modes, place, there);
-        ribbon_wall_moved(model->modes, side, k, there->back, &there->nodes, w->elastic.q[h], u);
-        q[0][k] -= side * u[0];
-        q[1][k] -= u[1];
-        q[2][k] -= u[2];
+        sphere_place(s, model->modes, place, there);
+        ribbon_wall_alike(model->modes, side, there->back, &there->nodes, w->elastic.q[h], u);
+        take(alike, k, side, u);
+    }
+    gap->x = wide_load(&alike[0][j]), gap->r = wide_load(&alike[1][j]), gap->t = wide_load(&alike[2][j]);
+    sphere_reached(s, slack, gap, delta);
+    near &= wide_mask(wide_above(*delta + w->elastic.reach_others[h], 0.0));
+    if (near == 0) return false;
+    for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+        const int k = j + lane;
+        if (!(near >> lane & 1)) {
+            for (int c = 0; c < 3; c++) q[c][k] = alike[c][k];
+            continue;
+        }
+        SpherePlace *there = &at[lane];
+        scalar u[3];
+        ribbon_wall_moved(model->modes, side, k, there->back, &there->nodes, w->elastic.q[h], u,
+                          &shape[lane]);
+        take(q, k, side, u);
     }
     gap->x = wide_load(&q[0][j]), gap->r = wide_load(&q[1][j]), gap->t = wide_load(&q[2][j]);
+    return sphere_reached(s, slack, gap, delta);
 }
 
-// Velocities and slopes of the walls of a packet that are pressed, and their shapes.
+// Velocities and slopes of the walls of a packet that are pressed, of which the shapes are known.
 static void pressed_walls(const Model *model, const Work *w, int h, int j, int mask,
-                          SpherePlace at[LANE_WIDTH], SphereWalls *walls, WallShape shape[LANE_WIDTH])
+                          SpherePlace at[LANE_WIDTH], const WallShape shape[LANE_WIDTH], SphereWalls *walls)
 {
     const int side = 2 * h - 1;
     for (int c = 0; c < 3; c++) {
@@ -231,9 +257,8 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
         const int k = j + lane;
         SpherePlace *there = &at[lane];
         RibbonWall wall;
-        ribbon_wall(model->modes, side, k, there->back, &there->nodes, w->elastic.q[h], w->elastic.q_dot[h],
-                    &wall);
-        shape[lane] = wall.shape;
+        ribbon_wall(model->modes, side, k, there->back, &there->nodes, &shape[lane], w->elastic.q[h],
+                    w->elastic.q_dot[h], &wall);
         for (int c = 0; c < 3; c++) {
             const double poleward = c == 0 ? side : 1.0;
             walls->u_dot[c][k] = wall.u_dot[c];
@@ -263,7 +288,8 @@ static void clear_walls(Work *w, int h, int j)
 
 // Contacts of a packet with the walls, modal forces on them.
 static void press_spheres(const Model *model, Work *w, int h, int j, const SphereGap *gap,
-                          const SphereContact *contact, bits pressed, SpherePlace at[LANE_WIDTH])
+                          const SphereContact *contact, bits pressed, SpherePlace at[LANE_WIDTH],
+                          const WallShape shape[LANE_WIDTH])
 {
     ElasticWork *e = &w->elastic;
     const wide zero = wide_set(0.0), side = wide_set(h == 0 ? -1.0 : 1.0);
@@ -271,8 +297,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     ball_array on_wall[3];
     wide rate;
     SphereWalls walls;
-    WallShape shape[LANE_WIDTH];
-    pressed_walls(model, w, h, j, mask, at, &walls, shape);
+    pressed_walls(model, w, h, j, mask, at, shape, &walls);
     sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &rate);
     const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t}, k = 1.5 * contact->Q;
     const wide stiffness = k / (wide_max(contact->delta, wide_set(1e-30)) + model->modes->compliance * k);
@@ -306,20 +331,18 @@ void spheres_elastic(const Model *model, Work *w)
             SphereGap gap = sphere_gap(model->d, w, h, j);
             const wide slack = wide_load(&s->slack[j]);
             SpherePlace at[LANE_WIDTH];
+            WallShape shape[LANE_WIDTH];
             SphereContact contact;
             bits pressed = {0};
-            sphere_reached(slack, &gap, &contact.delta);
+            sphere_reached(s, slack, &gap, &contact.delta);
             const int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0));
-            if (near != 0) {
-                move_walls(model, w, h, j, near, &gap, at);
-                if (sphere_reached(slack, &gap, &contact.delta)) {
-                    contact = sphere_approach(s, slack, c, &gap);
-                    pressed = wide_above(contact.Q, LEAST);
-                }
+            if (near != 0 && move_walls(model, w, h, j, near, &gap, at, shape, &contact.delta)) {
+                contact = sphere_approach(s, slack, c, &gap);
+                pressed = wide_above(contact.Q, LEAST);
             }
             wide_store(&w->delta_c[h][j], contact.delta);
             if (wide_any(pressed)) {
-                press_spheres(model, w, h, j, &gap, &contact, pressed, at);
+                press_spheres(model, w, h, j, &gap, &contact, pressed, at, shape);
                 touched = true;
             } else
                 clear_walls(w, h, j);

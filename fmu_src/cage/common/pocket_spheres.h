@@ -111,16 +111,26 @@ INLINE RimPair rim_pair(const RimContact *f, const RimContact *e)
 }
 
 // Elastic contact in a packet of pockets: energy, load, direction into the wall along the pocket's axes, approach; of a
-// ball that the sphere does not reach, the sphere's.
+// ball within the sphere, the sphere's.
 typedef struct {
     wide V, Q, n_x, n_r, n_t, delta;
 } SphereContact;
 
-// Whether a ball of the packet may touch: no rim reaches farther than the sphere.
-INLINE bool sphere_reached(wide slack, const SphereGap *gap, wide *delta)
+// The approach of the nearest place of sphere and rims, by which no contact is missed; returns whether a ball of the packet
+// may touch.
+INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, wide *delta)
 {
+    const wide x = gap->x;
     const wide R = wide_sqrt(gap->r * gap->r + TIP * TIP), T = wide_sqrt(gap->t * gap->t + TIP * TIP);
-    *delta = wide_sqrt(gap->x * gap->x + R * R + T * T) - slack;
+    const wide sphere = wide_sqrt(x * x + R * R + T * T) - slack;
+    const wide above = x * s->fillet.cosine - wide_sqrt(T * T + R * R) * s->fillet.sine;
+    const wide below = wide_sqrt(x * x + T * T) * s->edge.sine - R * s->edge.cosine;
+    const wide g = arc_reach(&s->fillet, T, R).g, k = arc_reach(&s->edge, x, T).g;
+    const wide off_g = s->fillet.A - g, off_x = s->fillet.H - x, off_k = s->edge.A - k, off_r = s->edge.H - R;
+    const wide f = s->fillet.reach - slack - wide_sqrt(off_g * off_g + off_x * off_x);
+    const wide e = s->edge.reach - slack - wide_sqrt(off_k * off_k + off_r * off_r);
+    const wide rims = wide_select(wide_above(wide_min(above, below), 0.0), sphere, wide_max(f, e));
+    *delta = wide_select(wide_above(sphere, 0.0), rims, sphere);
     return wide_any(wide_above(*delta, -1e-9));
 }
 
@@ -135,7 +145,8 @@ INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r
     const wide load = s->K * own * (root + s->more * own) / distance;
 
     // rims; the sphere lies above the fillet's seam and below the edge's
-    const wide inv = 1.0 / distance, round_pole = wide_sqrt(T * T + R * R), round_r = wide_sqrt(x * x + T * T);
+    const wide inv = 1.0 / distance, round_pole = wide_sqrt(T * T + R * R),
+               round_r = wide_sqrt(x * x + T * T);
     const wide in_f = (x * s->fillet.cosine - round_pole * s->fillet.sine) * inv;
     const wide in_e = (round_r * s->edge.sine - R * s->edge.cosine) * inv;
     const ArcReach g = arc_reach(&s->fillet, T, R), k = arc_reach(&s->edge, x, T);
@@ -148,7 +159,8 @@ INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r
     // slopes along the approaches of both rims and along both angles; gradient along x, |r|, |t|
     const wide between = f.energy - e.energy;
     const wide of_f = rest * (rims.fillet * f.load + between * rims.by_f) + over * e.share * f.by_delta;
-    const wide of_e = rest * ((1.0 - rims.fillet) * e.load + between * rims.by_e) + over * f.share * e.by_delta;
+    const wide of_e =
+        rest * ((1.0 - rims.fillet) * e.load + between * rims.by_e) + over * f.share * e.by_delta;
     const wide turn_f = over * e.share * f.by_inside * inv, turn_e = over * f.share * e.by_inside * inv;
     const wide out = share * load - (turn_f * in_f + turn_e * in_e) * inv;
     const wide along_g = of_f * f.slope_g, along_k = of_e * e.slope_g;
@@ -160,7 +172,7 @@ INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r
     c.Q = wide_sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60);
     const wide inv_Q = 1.0 / c.Q;
     c.n_x = V_x * inv_Q, c.n_r = V_r * inv_Q, c.n_t = V_t * inv_Q;
-    const wide nearest = share * delta + rest * (rims.fillet * f.delta + (1.0 - rims.fillet) * e.delta);
+    const wide nearest = share * delta + rest * wide_max(f.delta, e.delta);
     c.delta = wide_select(wide_above(delta, 0.0), nearest, delta);
     return c;
 }

@@ -95,8 +95,8 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
             stored[i] = half->weight[i] * w->elastic.q[h][i];
             moved[i] = fabs(scalar_value(w->elastic.q[h][i]));
         }
-        w->elastic.reach[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(stored, w->elastic.q[h]))) +
-                              elastic_dot(half->widest, moved);
+        w->elastic.reach_others[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(stored, w->elastic.q[h])));
+        w->elastic.reach[h] = w->elastic.reach_others[h] + elastic_dot(half->widest, moved);
         w->elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q[h]);
         w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q_dot[h]);
     }

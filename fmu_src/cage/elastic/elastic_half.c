@@ -191,6 +191,7 @@ static void take_modes(const Parameters *p, ElasticHalf *half)
                 take_mode(table, entry, coordinate, unit, half, e++);
                 half->pair[i] = mode->parity == 0;
                 half->uniform[i] = mode->harmonic == 0 && coordinate == 0;
+                if (half->uniform[i]) half->uniform_at[half->uniforms++] = i;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
             }
     }

@@ -46,6 +46,7 @@ struct ElasticHalf {
     double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
     double centrifugal[MODES];                       // modal force per (rad/s)^2
     bool uniform[MODES];                             // moves all joints alike and does not twist them
+    int uniforms, uniform_at[MODES];                 // the coordinates of these
     bool pair[MODES];                                // one of two modes of the same frequency
     _Alignas(64) double out[MODES][8 * OUT_OCTETS];  // motions of the pads against each other by S, in rows
     _Alignas(64) double in[MODES][8 * IN_OCTETS];    // and by D
@@ -141,20 +142,24 @@ typedef struct {
 #define ribbon_wall_nodes FOR_ISA(ribbon_wall_nodes)
 void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, RibbonNodes *nodes);
 
-// Motion (x, r, t) there by the coordinates q, on the side t < 0 (back) or t > 0 of pocket j.
+// Motion (x, r, t) there by those coordinates q that move all pockets alike, on the side t < 0 (back) or t > 0 of a pocket.
+#define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
+void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, RibbonNodes *nodes, const scalar *q,
+                       scalar u[3]);
+
+// Motion there by all coordinates q, in pocket j; shapes for ribbon_wall and elastic_wall_force.
 #define ribbon_wall_moved FOR_ISA(ribbon_wall_moved)
 void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
-                       const scalar *q, scalar u[3]);
+                       const scalar *q, scalar u[3], WallShape *shape);
 
-// Velocity there, slopes of the motion over chi and radius, shapes for elastic_wall_force.
+// Velocity there, slopes of the motion over chi and radius.
 typedef struct {
     scalar u_dot[3], u_chi[3], u_radius[3];
-    WallShape shape;
 } RibbonWall;
 
 #define ribbon_wall FOR_ISA(ribbon_wall)
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes, const scalar *q,
-                 const scalar *q_dot, RibbonWall *wall);
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
+                 const WallShape *shape, const scalar *q, const scalar *q_dot, RibbonWall *wall);
 
 // Motion along n (x, r, t) by each mode at the place (chi, negative where t < 0, radius).
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)

@@ -230,20 +230,41 @@ void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, Ribbo
         }
 }
 
-// Motion of component c by a few a' (part 0) or b' (1) side by side, without its sign.
-INLINE wide ribbon_motion(const ElasticHalf *half, int node, scalar weight[WALL_RADII][4], int c, int part,
-                          int m)
+// Motions (x, r, t) by a few a' (part 0) and b' (1) side by side, without their signs.  radii: that of the half, where it is
+// written as a constant the loops are unrolled.
+INLINE void ribbon_motions(const ElasticHalf *half, int radii, int node, scalar weight[WALL_RADII][4], int m,
+                           wide u[3][2])
 {
-    wide u = wide_set(0.0);
-    for (int a = 0; a < half->radii; a++) {
+    for (int c = 0; c < 3; c++) u[c][0] = u[c][1] = wide_set(0.0);
+    for (int a = 0; a < radii; a++) {
         const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + node];
-        for (int t = 0; t < 4; t++) u = wide_fma(wide_set(weight[a][t]), wide_load(&from[t][c][part][m]), u);
+        for (int t = 0; t < 4; t++) {
+            const wide part = wide_set(weight[a][t]);
+            for (int c = 0; c < 3; c++) {
+                u[c][0] = wide_fma(part, wide_load(&from[t][c][0][m]), u[c][0]);
+                u[c][1] = wide_fma(part, wide_load(&from[t][c][1][m]), u[c][1]);
+            }
+        }
     }
-    return u;
 }
 
-void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
-                       const scalar *q, scalar u[3])
+void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, RibbonNodes *nodes, const scalar *q,
+                       scalar u[3])
+{
+    u[0] = u[1] = u[2] = 0.0;
+    for (int i = 0; i < half->uniforms; i++) {
+        const int m = half->uniform_at[i];
+        for (int a = 0; a < half->radii; a++) {
+            const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
+            for (int t = 0; t < 4; t++)
+                for (int c = 0; c < 3; c++) u[c] += nodes->value[a][t] * from[t][c][0][m] * q[m];
+        }
+    }
+    for (int c = 0; c < 3; c++) u[c] *= wall_sign(back, side, c, 0);
+}
+
+INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool back, RibbonNodes *nodes,
+                     const scalar *q, scalar u[3], WallShape *shape)
 {
     const Turn turn = turn_of(half, j);
     wide sums[3][PARTS];
@@ -253,17 +274,29 @@ void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, Ribb
         for (int i = 0; i < PARTS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            wide by[3][2];
+            ribbon_motions(half, radii, nodes->node, nodes->value, m, by);
             for (int c = 0; c < 3; c++)
-                for (int part = 0; part < 2; part++)
-                    sums[c][i] = wide_fma(wide_set(wall_sign(back, side, c, part)) *
-                                              ribbon_motion(half, nodes->node, nodes->value, c, part, m),
-                                          place[part], sums[c][i]);
+                for (int part = 0; part < 2; part++) {
+                    const wide motion = wide_set(wall_sign(back, side, c, part)) * by[c][part];
+                    wide_store(&shape->motion[c][part][m], motion);
+                    sums[c][i] = wide_fma(motion, place[part], sums[c][i]);
+                }
         }
     for (int c = 0; c < 3; c++) u[c] = all_sums(sums[c]);
 }
 
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes, const scalar *q,
-                 const scalar *q_dot, RibbonWall *wall)
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
+                       const scalar *q, scalar u[3], WallShape *shape)
+{
+    if (half->radii == WALL_RADII)
+        moved_by(half, WALL_RADII, side, j, back, nodes, q, u, shape);
+    else
+        moved_by(half, 1, side, j, back, nodes, q, u, shape);
+}
+
+INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, bool back, RibbonNodes *nodes,
+                          const WallShape *shape, const scalar *q, const scalar *q_dot, RibbonWall *wall)
 {
     enum { RATE, OVER_CHI, OVER_RADIUS, KINDS };
 
@@ -277,25 +310,48 @@ void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNode
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
             const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
+            wide by_chi[3][2], by_radius[3][2];
+            ribbon_motions(half, radii, nodes->node, nodes->over_chi, m, by_chi);
+            if (radii > 1) ribbon_motions(half, radii, nodes->node, nodes->over_radius, m, by_radius);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
                     const wide sign = wide_set(wall_sign(back, side, c, part)), moved = sign * place[part];
-                    const wide motion = sign * ribbon_motion(half, nodes->node, nodes->value, c, part, m);
-                    wide_store(&wall->shape.motion[c][part][m], motion);
-                    sums[RATE][c][i] = wide_fma(motion, rate[part], sums[RATE][c][i]);
-                    sums[OVER_CHI][c][i] =
-                        wide_fma(ribbon_motion(half, nodes->node, nodes->over_chi, c, part, m), moved,
-                                 sums[OVER_CHI][c][i]);
-                    if (half->radii > 1)
+                    sums[RATE][c][i] =
+                        wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], sums[RATE][c][i]);
+                    sums[OVER_CHI][c][i] = wide_fma(by_chi[c][part], moved, sums[OVER_CHI][c][i]);
+                    if (radii > 1)
                         sums[OVER_RADIUS][c][i] =
-                            wide_fma(ribbon_motion(half, nodes->node, nodes->over_radius, c, part, m), moved,
-                                     sums[OVER_RADIUS][c][i]);
+                            wide_fma(by_radius[c][part], moved, sums[OVER_RADIUS][c][i]);
                 }
         }
     for (int c = 0; c < 3; c++) {
         wall->u_dot[c] = all_sums(sums[RATE][c]);
         wall->u_chi[c] = all_sums(sums[OVER_CHI][c]);
         wall->u_radius[c] = all_sums(sums[OVER_RADIUS][c]);
+    }
+}
+
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
+                 const WallShape *shape, const scalar *q, const scalar *q_dot, RibbonWall *wall)
+{
+    if (half->radii == WALL_RADII)
+        wall_of_radii(half, WALL_RADII, side, j, back, nodes, shape, q, q_dot, wall);
+    else
+        wall_of_radii(half, 1, side, j, back, nodes, shape, q, q_dot, wall);
+}
+
+INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn, bool back,
+                           RibbonNodes *nodes, const scalar n[3], scalar *shape, scalar *b)
+{
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
+        wide by[2] = {wide_set(0.0), wide_set(0.0)}, motion[3][2];
+        ribbon_motions(half, radii, nodes->node, nodes->value, m, motion);
+        for (int part = 0; part < 2; part++)
+            for (int c = 0; c < 3; c++)
+                by[part] =
+                    wide_fma(wide_set(wall_sign(back, side, c, part) * n[c]), motion[c][part], by[part]);
+        wide_store(&shape[m], back_to_a(turn, m, by[0], by[1]));
+        wide_store(&b[m], back_to_b(turn, m, by[0], by[1]));
     }
 }
 
@@ -307,14 +363,9 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, sca
     RibbonNodes nodes;
     scalar b[ENTRIES];
     ribbon_wall_nodes(half, back ? -chi : chi, radius, &nodes);
-    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        wide by[2] = {wide_set(0.0), wide_set(0.0)};
-        for (int part = 0; part < 2; part++)
-            for (int c = 0; c < 3; c++)
-                by[part] = wide_fma(wide_set(wall_sign(back, side, c, part) * n[c]),
-                                    ribbon_motion(half, nodes.node, nodes.value, c, part, m), by[part]);
-        wide_store(&shape[m], back_to_a(&turn, m, by[0], by[1]));
-        wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
-    }
+    if (half->radii == WALL_RADII)
+        shape_of_radii(half, WALL_RADII, side, &turn, back, &nodes, n, shape, b);
+    else
+        shape_of_radii(half, 1, side, &turn, back, &nodes, n, shape, b);
     memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }

@@ -27,10 +27,10 @@ typedef struct {
 } ElasticJoints;
 
 typedef struct {
-    // coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have moved [m]; moment of inertia
-    // that the modes add [kg.m2] and its rate (cage_elastic.c)
+    // coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have moved [m], and without the modes that
+    // move all pockets alike; moment of inertia that the modes add [kg.m2] and its rate (cage_elastic.c)
     mode_array q[2], q_dot[2];
-    scalar reach[2], more_J[2], more_J_dot[2];
+    scalar reach[2], reach_others[2], more_J[2], more_J_dot[2];
 
     // elastic part of the pads' motions against each other, out of the plane (x, about r, about t) and in it (r, t)
     // (cage_elastic.c)
