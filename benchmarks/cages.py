@@ -75,7 +75,9 @@ def main():
         if options.over
         else [(b, factor * round(LIMIT / d_m, -1), 0.0) for b, d_m in PITCH.items() for factor in (1, 2)]
     )
-    print("| bearing | r/min | tilt | cage | head mean | head p99.9 | force RMS | force p99.9 | largest | log10 damage/h |")
+    print(
+        "| bearing | r/min | tilt | cage | head mean | head p99.9 | force RMS | force p99.9 | largest | log10 damage/h |"
+    )
     for bearing, rpm, tilt in cases:
         settle = max(900.0 * PITCH[bearing] / 480_000.0, 900.0 / rpm)  # 15 turns at the rule's speed, and at this one
         found = {cage: [] for cage in CAGES}
@@ -86,7 +88,9 @@ def main():
             print(f"| {bearing} | {rpm:g} | {tilt:g} | {cage} | {line(found[cage])} |", flush=True)
         ratios = [a["rtf"] / b["rtf"] for a, b in zip(*(found[cage] for cage in CAGES), strict=True)]
         means = [np.mean([row["rtf"] for row in found[cage]]) for cage in CAGES]
-        print(f"  RTF {means[0]:.2f} and {means[1]:.2f}, ratio {np.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})")
+        print(
+            f"  RTF {means[0]:.2f} and {means[1]:.2f}, ratio {np.median(ratios):.2f} ({min(ratios):.2f} to {max(ratios):.2f})"
+        )
 
 
 if __name__ == "__main__":

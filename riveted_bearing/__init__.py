@@ -86,13 +86,13 @@ def run(
     return simulate(model, load_scene(scene, model, ("run()", changes)), progress)
 
 
-def info(target: str | Path | None = None, fmu: str | Path | None = None) -> "Case":
+def info(target: str | Path | None = None, fmu: str | Path | None = None, *, cage: str | None = None) -> "Case":
     """Geometry, masses, loads and quasi-static equilibrium of a bearing, or of a scene at its start, without a
     simulation.
 
     target: designation (6207, 6008, ...), bearing file, name of a shipped scene or scene file, None for the bearing of
     the FMU, and without an FMU for the 6207; fmu: the FMU whose start values a scene begins from, None for the default
-    one. Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with
+    one; cage: "machined" or "ribbon" of a bearing. Returns a Case: .bearing and .load of the quasi-static model, .values by variable name, .equilibrium() with
     loads, contact angles, pressures, stiffness, life and frequencies.  Raises UserError naming what cannot be used.
 
         >>> import riveted_bearing as rb
@@ -100,7 +100,7 @@ def info(target: str | Path | None = None, fmu: str | Path | None = None) -> "Ca
     """
     from .bearings import case_of
 
-    return case_of(target, fmu)
+    return case_of(target, fmu, cage)
 
 
 def build(
@@ -110,6 +110,7 @@ def build(
     *,
     platforms: Sequence[str] = (),
     table: str | None = None,
+    cage: str | None = None,
     progress: Callable[..., None] | None = None,
 ) -> Path:
     """Build an FMU for a bearing and return its path: needs a C compiler and takes a minute or two.
@@ -119,11 +120,17 @@ def build(
     from my.toml, and RivetedBearing.fmu (in a checkout: in fmus/) from the default; platforms: FMI's names, e.g.
     ["win64"], of the systems to compile for instead of this one (needs ziglang); table: "coarse" finite elements,
     "full" ones in some half an hour, or "closed-form", None for the shipped table if it was made for this rivet, else
-    coarse; progress: called with what is being done and, if known, the share done. Raises UserError with the reason;
-    `out` is then left as it was.
+    coarse; cage: "machined" or "ribbon", None for the bearing file's, else machined; progress: called with what is
+    being done and, if known, the share done. Raises UserError with the reason; `out` is then left as it was.
     """
     from .builder import build_fmu, platform_names
 
     return build_fmu(
-        bearing, rivet, out, progress or (lambda text, share=None: None), platform_names(",".join(platforms)), table
+        bearing,
+        rivet,
+        out,
+        progress or (lambda text, share=None: None),
+        platform_names(",".join(platforms)),
+        table,
+        cage=cage,
     )

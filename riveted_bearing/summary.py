@@ -143,6 +143,7 @@ def assumed_rows(result):
             unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
             factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
             value = factor * result.parameters[name]
+            low = max(low, least_share(name, result.parameters))
             yield name, value, low * value, high * value, unit, stress, source
 
 
@@ -259,6 +260,7 @@ def settled(result):
     return late if has_statistics(result) else np.ones_like(late)
 
 
+DEEPEST = 1.05  # clearance of a ribbon's pocket over that at which its sphere ends in the split
 PLACES = {1: "head", 2: "middle", 3: "by rivet[k].intact = 0"}
 
 
@@ -301,6 +303,14 @@ def length_of(values):
     return np.sqrt((values**2).sum(axis=1))
 
 
+def least_share(name, values):
+    """Least part of a value that the other ones leave room for: a ribbon's pocket is no deeper than its sphere."""
+    if name != "cage.pocket_clearance" or values.get("cage.shape") != "ribbon":
+        return 0.0
+    least = 2.0 * values["cage.pocket_depth"] - values["bearing.D"]
+    return DEEPEST * least / values[name]
+
+
 def assumed_ranges(model, scene=None):
     """Documented ranges of the assumed parameters that follow neither from the bearing's file nor from a scene: {name:
     (lowest, highest)} in SI.
@@ -310,7 +320,7 @@ def assumed_ranges(model, scene=None):
     )
     given = given_names(model, scene)
     return {
-        name: (low * values[name], high * values[name])
+        name: (max(low, least_share(name, values)) * values[name], high * values[name])
         for name, (low, high, *_) in variables.ASSUMPTIONS.items()
         if name in model.parameters and not is_known(name, given, values)
     }

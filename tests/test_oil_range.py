@@ -70,9 +70,11 @@ def test_a_filling_of_its_own_is_refused(model, document):
 
 
 def test_the_filling_is_named(model):
-    assert "is assumed" in oil_in_pockets(mission(model)) and "--oil-range" in oil_in_pockets(mission(model))
+    assert "is assumed" in oil_in_pockets(mission(model), model) and "--oil-range" in oil_in_pockets(
+        mission(model), model
+    )
     given = mission(model, parameters={"start.settle": 0.002, FILLING: 0.3})
-    assert oil_in_pockets(given) == "Oil in the pockets: cage.pocket_filling = 0.3 (0 dry, 1 flooded)."
+    assert oil_in_pockets(given, model) == "Oil in the pockets: cage.pocket_filling = 0.3 (0 dry, 1 flooded)."
 
 
 def test_the_command(tmp_path):

@@ -152,7 +152,12 @@ def run_single(path, document, model, folder, client, found, progress=None):
         if not np.isfinite(first):
             lives[cascade.name] = [[] for _ in range(plain.seeds)]
             continue
-        factor = 2.0 * 3600.0 * first / (plain.scene.t_end - settle)
+        factor, most = 2.0 * 3600.0 * first / (plain.scene.t_end - settle), model.parameters["fatigue.acceleration"].max
+        if most is not None and factor > float(most):
+            raise UserError(
+                f"{path}: {cascade.name}: the first rivet breaks after {hours_text(first)}, so late that --single needs "
+                f"fatigue.acceleration = {factor:.3g}; at most {float(most):g} is allowed: leave --single out, or raise load or speed"
+            )
         own = {"scene.breakage": "on", "fatigue.acceleration": factor}
         bench = Bench(path, common | {"parameters": section | own}, model, folder, client, progress)
         rivets = len(cascade.states[0].rates)

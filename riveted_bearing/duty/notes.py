@@ -47,9 +47,16 @@ def step_text(step):
     return f'"{1e3 * step:.3g} ms"'
 
 
-def oil_in_pockets(mission):
+def is_ribbon(model):
+    """Whether the cage of an FMU is a ribbon, whose pockets have no law of a film."""
+    return "cage.shape" in model.parameters and model.default(model.parameters["cage.shape"]) == "ribbon"
+
+
+def oil_in_pockets(mission, model):
     """A sentence on the oil that the pockets of a mission have, of the FMU's own filling where no case sets one."""
     name = "cage.pocket_filling"
+    if is_ribbon(model):
+        return "Oil in the pockets of a ribbon cage is not computed: a film would take the peaks off the impacts."
     given = sorted({case.scene.parameters[name] for case in mission.cases if name in case.scene.parameters})
     if given:
         texts = " to ".join(f"{value:g}" for value in dict.fromkeys((given[0], given[-1])))
@@ -107,6 +114,6 @@ def notes(life, runs, scatter=None):
             f"Over {len(scatter.lives)} bearings within their tolerances: B10 {hours_text(law.b10)} ({hours_text(low)} to {hours_text(high)} at "
             f"{100 * law.confidence:g} %), Weibull shape {law.beta:.3g}, characteristic life {hours_text(law.eta)}.{noise}"
         )
-    sentences.append(oil_in_pockets(mission))
+    sentences.append(oil_in_pockets(mission, runs.sweep.model))
     sentences.append(f"Processor time of the runs: {sum(runs.cost.values()):.0f} s in {len(runs.cost)} runs.")
     return sentences

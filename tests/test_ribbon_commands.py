@@ -1,0 +1,170 @@
+"""What ribbon cages change in the commands: refusals by key, ranges, words; slow: each command on a 6309 of the catalogue."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+from commands import command
+
+import riveted_bearing as rb
+from riveted_bearing import UserError
+from riveted_bearing.design.cascade import Cascade, State, run_single
+from riveted_bearing.duty.notes import oil_in_pockets
+from riveted_bearing.duty.oil_range import FILLING, plan_ends
+from riveted_bearing.fmu import Model
+from riveted_bearing.summary import assumed_ranges
+
+
+class Ribbon:
+    """A Model whose cage is a ribbon: the 6207's FMU with other start values."""
+
+    def __init__(self, changes):
+        self.model, self.changes = Model(), {"cage.shape": "ribbon"} | changes
+
+    def __getattr__(self, name):
+        return getattr(self.model, name)
+
+    def default(self, variable):
+        return self.changes.get(variable.name, self.model.default(variable))
+
+
+def test_flooded_pockets_are_refused_before_any_run(tmp_path):
+    """--oil-range and the note of a life: a ribbon's pockets have no film."""
+    mission = SimpleNamespace(path=tmp_path / "m.toml", document={}, name="m", cases=())
+    with pytest.raises(UserError, match=rf"--oil-range .*{FILLING} = 1.*ribbon cage \(cage\.shape\).*leave it out"):
+        plan_ends(mission, Ribbon({}))
+    assert "not computed" in oil_in_pockets(mission, Ribbon({}))
+
+
+def test_range_of_the_clearance_leaves_room_for_the_sphere():
+    """D/2 = 8.73125 mm and a depth of 8.80125 mm: below a clearance of 0.14 mm the pocket is deeper than its sphere.
+
+    Half of 0.28 mm would be that; the range begins 5 % above it.
+    """
+    sizes = {"bearing.D": 17.4625e-3, "cage.pocket_depth": 8.80125e-3, "cage.pocket_clearance": 0.28e-3}
+    ranges = assumed_ranges(Ribbon(sizes | {"cage.guidance": "balls"}))
+    assert ranges["cage.pocket_clearance"] == pytest.approx((0.147e-3, 0.56e-3), rel=1e-9)
+    assert "cage.guide_clearance" not in ranges
+    assert assumed_ranges(Model())["cage.pocket_clearance"][0] == pytest.approx(0.1e-3, rel=1e-9)
+
+
+def test_a_break_that_is_too_late_for_one_simulation_is_refused(tmp_path, fmu):
+    """Damage of 1e-18 an hour: it would have to be accelerated beyond what fatigue.acceleration allows."""
+    rates = [[1e-18, 0.0]] * 9
+    state = State((), rates, [1e8] * 9, 1e-6, False, 1e18, 1, "head", 1.0)
+    document = {"scene": "demo", "seeds": 1, "breaks": 1, "simulation": {"t_end": "60 ms"}}
+    with pytest.raises(UserError, match=r"c\.toml: c: .* --single needs fatigue\.acceleration = .*at most 1e\+15"):
+        run_single(tmp_path / "c.toml", document, Model(fmu), tmp_path, lambda: None, [Cascade("c", (state,))])
+
+
+def test_python_interface_knows_the_cage():
+    """rb.info of both cages; a scene has none of its own."""
+    assert rb.info("6309", cage="ribbon").values["cage.guidance"] == "balls"
+    assert rb.info("6309").values["cage.guidance"] == "outer"
+    with pytest.raises(UserError, match="cage is fixed"):
+        rb.info("demo", cage="ribbon")
+
+
+# ---- every command on a ribbon of the catalogue -------------------------------------------------------------------------
+
+COMMON = 'simulation.t_end = "0.2 s"\n'
+POINTS = '[[point]]\nname = "a"\nhours = 30\ninputs.shaft.omega = "9460 rev/min"\n'
+FILES = {
+    "sweep.toml": 'repeats = 2\n[simulation]\nt_end = 0.2\n[[vary]]\nscene.cage = ["elastic", "two_half"]\n'
+    '[[vary]]\nshaft.tilt_z = ["0 deg", "0.2 deg"]\n',
+    "mission.toml": COMMON + POINTS + "[life]\nmax_seeds = 3\nmin_seeds = 3\n",
+    "decides.toml": 'seeds = 1\nresponses = ["stress"]\n' + COMMON + "[morris]\ntrajectories = 2\n[sobol]\nfactors = 0\n",
+    "choose.toml": 'seeds = 1\nobjectives = ["stress", "dislocation"]\ntrials = 4\nbatch = 2\ncheck_seeds = 2\n'
+    "candidates = 1\n" + COMMON + '[between]\njoint.preload = ["5 N", "60 N"]\n',
+    "rivets.toml": 'seeds = 1\nbreaks = 2\ninputs.shaft.omega = "15000 rev/min"\n' + COMMON,
+    "rig.toml": 'seeds = 1\ncheck_seeds = 2\nsimulation.t_end = "0.16 s"\n[parameter]\noil.eta = ["2 mPa.s", "20 mPa.s"]\n'
+    '[screen]\ncount = 8\n[search]\nrounds = 1\npoints = 2\n[[target]]\nmeasure = "friction"\nvalue = "140 N.mm"\n'
+    'uncertainty = "5 %"\n',
+    "spalls.toml": '[parameters]\nouter.spall_length = "2 mm"\nouter.spall_width = "3 mm"\nouter.spall_depth = "50 um"\n'
+    'housing.motion = "supported"\n"ball[1].spall_length" = "2 mm"\n"ball[1].spall_width" = "3 mm"\n'
+    '"ball[1].spall_depth" = "50 um"\n"inner.waviness[9]" = "1 um"\n',
+}
+RUNS = {  # what is asked for -> arguments, and a file that it leaves
+    "spalls and waves": ("run spalls.toml --t-end 0.2 --out results/spalls.parquet", "results/spalls.parquet"),
+    "rigid halves": ("run --set scene.cage=two_half --t-end 0.2 --out results/two.parquet", "results/two.parquet"),
+    "sweep": ("sweep sweep.toml --report", "results/sweep/sweep.html"),
+    "life": ("life mission.toml", "results/mission/life.html"),
+    "summary": ("summary mission.toml", "results/mission/summary.html"),
+    "sensitivity": ("sensitivity decides.toml", "results/decides/sensitivity.json"),
+    "optimize": ("optimize choose.toml", "results/choose/optimize.json"),
+    "cascade": ("cascade rivets.toml --single", "results/rivets/cascade.json"),
+    "identify": ("identify rig.toml", "results/rig/identify.html"),
+    "compare": ("compare --long 0 --out results/compare.png", None),
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """A folder with the FMU of a 6309 with a ribbon cage, built as a user builds it, and the files of the studies."""
+    where = tmp_path_factory.mktemp("ribbon")
+    done = command("build", "--bearing", "6309", "--cage", "ribbon", folder=where)
+    assert done.returncode == 0, done.stderr
+    for name, text in FILES.items():
+        (where / name).write_text(text, encoding="utf-8")
+    return where
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("what", RUNS)
+def test_commands(folder, what):
+    """Each command ends well and leaves its file."""
+    arguments, file = RUNS[what]
+    done = command(*arguments.split(), "--fmu", "6309-ribbon.fmu", folder=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert file is None or (folder / file).is_file()
+    assert "nan" not in done.stdout.lower()
+
+
+@pytest.mark.slow
+def test_report_and_spectrum(folder):
+    """Page and spectrum of a run with spalls; the page has the ribbon's sizes."""
+    for arguments in ("report results/spalls.parquet", "spectrum results/spalls.parquet"):
+        done = command(*arguments.split(), folder=folder)
+        assert done.returncode == 0, done.stderr
+    assert "cage.sheet" in (folder / "results" / "spalls.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+def test_rivets_break_one_after_the_other(folder):
+    """The cascade of the restarted runs names two rivets, those of one simulation the same first one or a neighbour."""
+    found = json.loads((folder / "results" / "rivets" / "cascade.json").read_text(encoding="utf-8"))["rivets"]
+    assert len(found["order"]) == 2 and all(1 <= each["rivet"] <= 8 for each in found["order"])
+    assert found["single"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ("life mission.toml --oil-range", "cage.pocket_filling"),
+        ("run --set cage.pocket_filling=1", "cage.pocket_filling"),
+        ("run --set cage.guidance=outer", "cage.guidance"),
+        ("run --set cage.shape=machined", "cage.shape"),
+        ("run R", "cage.pocket_clearance"),
+    ],
+)
+def test_refusals(folder, arguments, words):
+    """What a ribbon cannot have is refused by its key, with exit code 2."""
+    done = command(*arguments.split(), "--fmu", "6309-ribbon.fmu", folder=folder)
+    assert done.returncode == 2 and words in done.stderr + done.stdout, done.stdout + done.stderr
+
+
+@pytest.mark.slow
+def test_narrow_pockets_keep_their_forces(folder):
+    """With a clearance of 0.2 mm in place of 0.28 mm balls reach the corners of fillet and edge.
+
+    Forces stay within ten times their 99.9 % quantile; a law with steps of the energy there gave 1e4 times.
+    """
+    for cage in ("elastic", "two_half"):
+        found = rb.run(
+            fmu=folder / "6309-ribbon.fmu",
+            parameters={"scene.cage": cage, "cage.pocket_clearance": "0.2 mm"},
+            t_end=0.3,
+            outputs=["cage.F_pocket_peak"],
+        )
+        assert found.summary["stat.Q_c_max"] < 10.0 * found.summary["stat.Q_c_p999"]
