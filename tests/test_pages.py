@@ -20,7 +20,7 @@ LIMITS = {  # words of a page
     "README.md": 800,
     "docs/api.md": 50,
     "docs/browser.md": 250,
-    "docs/cages.md": 1450,
+    "docs/cages.md": 1420,
     "docs/cookbook.md": 470,
     "docs/coupling.md": 1550,
     "docs/developing.md": 1400,
@@ -40,6 +40,7 @@ LIMITS = {  # words of a page
     "docs/validation.md": 2400,
 }
 LATER = {  # pages beside those, which together have a limit
+    "docs/cages_in_motion.md": 1100,
     "docs/real_time.md": 1300,
     "docs/changing.md": 900,
     "docs/recipes.md": 1500,

@@ -73,7 +73,9 @@ FILES = {
     "sweep.toml": 'repeats = 2\n[simulation]\nt_end = 0.2\n[[vary]]\nscene.cage = ["elastic", "two_half"]\n'
     '[[vary]]\nshaft.tilt_z = ["0 deg", "0.2 deg"]\n',
     "mission.toml": COMMON + POINTS + "[life]\nmax_seeds = 3\nmin_seeds = 3\n",
-    "decides.toml": 'seeds = 1\nresponses = ["stress"]\n' + COMMON + "[morris]\ntrajectories = 2\n[sobol]\nfactors = 0\n",
+    "decides.toml": 'seeds = 1\nresponses = ["stress"]\n'
+    + COMMON
+    + "[morris]\ntrajectories = 2\n[sobol]\nfactors = 0\n",
     "choose.toml": 'seeds = 1\nobjectives = ["stress", "dislocation"]\ntrials = 4\nbatch = 2\ncheck_seeds = 2\n'
     "candidates = 1\n" + COMMON + '[between]\njoint.preload = ["5 N", "60 N"]\n',
     "rivets.toml": 'seeds = 1\nbreaks = 2\ninputs.shaft.omega = "15000 rev/min"\n' + COMMON,
