@@ -40,7 +40,7 @@ LIMITS = {  # words of a page
     "docs/validation.md": 2400,
 }
 LATER = {  # pages beside those, which together have a limit
-    "docs/cages_in_motion.md": 1100,
+    "docs/cages_in_motion.md": 1250,
     "docs/real_time.md": 1300,
     "docs/changing.md": 900,
     "docs/recipes.md": 1500,
