@@ -1,6 +1,10 @@
 """What ribbon cages change in the commands: refusals by key, ranges, words; slow: each command on a 6309 of the catalogue."""
 
 import json
+import os
+import subprocess
+import sys
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -13,6 +17,8 @@ from riveted_bearing.duty.notes import oil_in_pockets
 from riveted_bearing.duty.oil_range import FILLING, plan_ends
 from riveted_bearing.fmu import Model
 from riveted_bearing.summary import assumed_ranges
+
+ROOT = Path(__file__).resolve().parents[1]
 
 
 class Ribbon:
@@ -170,3 +176,21 @@ def test_narrow_pockets_keep_their_forces(folder):
             outputs=["cage.F_pocket_peak"],
         )
         assert found.summary["stat.Q_c_max"] < 10.0 * found.summary["stat.Q_c_p999"]
+
+
+@pytest.mark.slow
+def test_twins_on_the_ribbons_own_table(folder):
+    """Rates, steps and derivatives of both twins on the table of a ribbon, whose walls have three radii (the other tests of both twins have
+    the machined cage's).
+    """
+    build = ROOT / "build" / "bearings" / "6309-ribbon"
+    subprocess.run(
+        ["cmake", "--build", str(build), "--target", "bearing_test"], check=True, capture_output=True, timeout=1800
+    )
+    names = ["twins_are_equal[0", "dense_step[0", "dense_step[2", "derivatives[machined", "energy_of_a_run[machined"]
+    file = str(ROOT / "tests" / "test_cage_elastic.py")
+    tests = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", file, "-k", " or ".join(names)]
+    done = subprocess.run(
+        tests, env=os.environ | {"BEARING_BUILD": str(build)}, capture_output=True, text=True, timeout=1800, check=False
+    )
+    assert done.returncode == 0 and "passed" in done.stdout, done.stdout[-3000:]

@@ -45,9 +45,9 @@
 static const double LEAST = 1e-12;  // load of a pocket that counts as touched [N]
 
 // The walls of a packet: velocity along the pocket's axes; force on the ball beside the contact's by the place's motion with
-// it, per load and unit of n, slope[i][c] of the motion c toward the pole, r, t over the ball's place i.
+// it, per load: slope of the motion along n over the ball's place, toward the pole, r, t.
 typedef struct {
-    ball_array u_dot[3], slope[3][3];
+    ball_array u_dot[3], slope[3];
 } SphereWalls;
 
 // Forces in a packet of pockets, stored for the half and added to the balls.  walls: of an elastic half, or NULL; their
@@ -84,10 +84,7 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     vec F = vec_axpy(-Q, n, F_s);
     if (walls) {
         wide tilt[3];
-        for (int i = 0; i < 3; i++)
-            tilt[i] = at->Q * (at->n_x * wide_load(&walls->slope[i][0][j]) +
-                               at->n_r * wide_load(&walls->slope[i][1][j]) +
-                               at->n_t * wide_load(&walls->slope[i][2][j]));
+        for (int i = 0; i < 3; i++) tilt[i] = at->Q * wide_load(&walls->slope[i][j]);
         const vec along = vec_axpy((h == 0 ? -1.0 : 1.0) * tilt[0], gap->a, vec_scale(tilt[2], gap->e_t));
         F = vec_add(F, vec_axpy(tilt[1], gap->b, along));
         wide_store(&on_wall[0][j], Q * n_x - vec_dot(F_s, gap->a));
@@ -245,26 +242,29 @@ static bool move_walls(const Model *model, const Work *w, int h, int j, int near
 
 // Velocities and slopes of the walls of a packet that are pressed, of which the shapes are known.
 static void pressed_walls(const Model *model, const Work *w, int h, int j, int mask,
-                          SpherePlace at[LANE_WIDTH], const WallShape shape[LANE_WIDTH], SphereWalls *walls)
+                          const SphereContact *contact, const SpherePlace at[LANE_WIDTH],
+                          const WallShape shape[LANE_WIDTH], SphereWalls *walls)
 {
     const int side = 2 * h - 1;
-    for (int c = 0; c < 3; c++) {
-        wide_store(&walls->u_dot[c][j], wide_set(0.0));
-        for (int i = 0; i < 3; i++) wide_store(&walls->slope[i][c][j], wide_set(0.0));
+    ball_array n[3];
+    wide_store(&n[0][j], contact->n_x), wide_store(&n[1][j], contact->n_r),
+        wide_store(&n[2][j], contact->n_t);
+    for (int i = 0; i < 3; i++) {
+        wide_store(&walls->u_dot[i][j], wide_set(0.0));
+        wide_store(&walls->slope[i][j], wide_set(0.0));
     }
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(mask >> lane & 1)) continue;
         const int k = j + lane;
-        SpherePlace *there = &at[lane];
+        const SpherePlace *there = &at[lane];
+        const scalar along[3] = {side * n[0][k], n[1][k], n[2][k]};
         RibbonWall wall;
-        ribbon_wall(model->modes, side, k, there->back, &there->nodes, &shape[lane], w->elastic.q[h],
+        ribbon_wall(model->modes, side, k, there->back, &there->nodes, &shape[lane], along, w->elastic.q[h],
                     w->elastic.q_dot[h], &wall);
-        for (int c = 0; c < 3; c++) {
-            const double poleward = c == 0 ? side : 1.0;
-            walls->u_dot[c][k] = wall.u_dot[c];
-            for (int i = 0; i < 3; i++)
-                walls->slope[i][c][k] = poleward * (wall.u_chi[c] * there->chi_slope[i] +
-                                                    wall.u_radius[c] * there->radius_slope[i]);
+        for (int i = 0; i < 3; i++) {
+            walls->u_dot[i][k] = wall.u_dot[i];
+            walls->slope[i][k] =
+                wall.over_chi * there->chi_slope[i] + wall.over_radius * there->radius_slope[i];
         }
     }
 }
@@ -297,7 +297,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     ball_array on_wall[3];
     wide rate;
     SphereWalls walls;
-    pressed_walls(model, w, h, j, mask, at, shape, &walls);
+    pressed_walls(model, w, h, j, mask, contact, at, shape, &walls);
     sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &rate);
     const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t}, k = 1.5 * contact->Q;
     const wide stiffness = k / (wide_max(contact->delta, wide_set(1e-30)) + model->modes->compliance * k);

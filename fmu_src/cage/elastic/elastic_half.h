@@ -152,14 +152,15 @@ void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, RibbonNodes
 void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
                        const scalar *q, scalar u[3], WallShape *shape);
 
-// Velocity there, slopes of the motion over chi and radius.
+// Velocity there, slopes of the motion along n (x, r, t) over chi and radius.
 typedef struct {
-    scalar u_dot[3], u_chi[3], u_radius[3];
+    scalar u_dot[3], over_chi, over_radius;
 } RibbonWall;
 
 #define ribbon_wall FOR_ISA(ribbon_wall)
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
-                 const WallShape *shape, const scalar *q, const scalar *q_dot, RibbonWall *wall);
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+                 const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
+                 RibbonWall *wall);
 
 // Motion along n (x, r, t) by each mode at the place (chi, negative where t < 0, radius).
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)

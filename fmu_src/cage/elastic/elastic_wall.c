@@ -295,49 +295,58 @@ void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, Ribb
         moved_by(half, 1, side, j, back, nodes, q, u, shape);
 }
 
-INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, bool back, RibbonNodes *nodes,
-                          const WallShape *shape, const scalar *q, const scalar *q_dot, RibbonWall *wall)
+// The slopes by the rows of the table: each row's motion along n, once for both.
+INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, bool back,
+                          const RibbonNodes *nodes, const WallShape *shape, const scalar n[3],
+                          const scalar *q, const scalar *q_dot, RibbonWall *wall)
 {
-    enum { RATE, OVER_CHI, OVER_RADIUS, KINDS };
-
     const Turn turn = turn_of(half, j);
-    wide sums[KINDS][3][PARTS];
-    for (int k = 0; k < KINDS; k++)
-        for (int c = 0; c < 3; c++)
-            for (int i = 0; i < PARTS; i++) sums[k][c][i] = wide_set(0.0);
+    wide rates[3][PARTS], rows[WALL_RADII][4][PARTS];
+    for (int i = 0; i < PARTS; i++) {
+        for (int c = 0; c < 3; c++) rates[c][i] = wide_set(0.0);
+        for (int a = 0; a < radii; a++)
+            for (int t = 0; t < 4; t++) rows[a][t][i] = wide_set(0.0);
+    }
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < PARTS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
             const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
-            wide by_chi[3][2], by_radius[3][2];
-            ribbon_motions(half, radii, nodes->node, nodes->over_chi, m, by_chi);
-            if (radii > 1) ribbon_motions(half, radii, nodes->node, nodes->over_radius, m, by_radius);
+            wide along[3][2];
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    const wide sign = wide_set(wall_sign(back, side, c, part)), moved = sign * place[part];
-                    sums[RATE][c][i] =
-                        wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], sums[RATE][c][i]);
-                    sums[OVER_CHI][c][i] = wide_fma(by_chi[c][part], moved, sums[OVER_CHI][c][i]);
-                    if (radii > 1)
-                        sums[OVER_RADIUS][c][i] =
-                            wide_fma(by_radius[c][part], moved, sums[OVER_RADIUS][c][i]);
+                    along[c][part] = wide_set(wall_sign(back, side, c, part) * n[c]) * place[part];
+                    rates[c][i] = wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], rates[c][i]);
                 }
+            for (int a = 0; a < radii; a++) {
+                const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
+                for (int t = 0; t < 4; t++) {
+                    wide row = rows[a][t][i];
+                    for (int c = 0; c < 3; c++)
+                        for (int part = 0; part < 2; part++)
+                            row = wide_fma(along[c][part], wide_load(&from[t][c][part][m]), row);
+                    rows[a][t][i] = row;
+                }
+            }
         }
-    for (int c = 0; c < 3; c++) {
-        wall->u_dot[c] = all_sums(sums[RATE][c]);
-        wall->u_chi[c] = all_sums(sums[OVER_CHI][c]);
-        wall->u_radius[c] = all_sums(sums[OVER_RADIUS][c]);
-    }
+    for (int c = 0; c < 3; c++) wall->u_dot[c] = all_sums(rates[c]);
+    wall->over_chi = wall->over_radius = 0.0;
+    for (int a = 0; a < radii; a++)
+        for (int t = 0; t < 4; t++) {
+            const scalar row = all_sums(rows[a][t]);
+            wall->over_chi += nodes->over_chi[a][t] * row;
+            wall->over_radius += nodes->over_radius[a][t] * row;
+        }
 }
 
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
-                 const WallShape *shape, const scalar *q, const scalar *q_dot, RibbonWall *wall)
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+                 const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
+                 RibbonWall *wall)
 {
     if (half->radii == WALL_RADII)
-        wall_of_radii(half, WALL_RADII, side, j, back, nodes, shape, q, q_dot, wall);
+        wall_of_radii(half, WALL_RADII, side, j, back, nodes, shape, n, q, q_dot, wall);
     else
-        wall_of_radii(half, 1, side, j, back, nodes, shape, q, q_dot, wall);
+        wall_of_radii(half, 1, side, j, back, nodes, shape, n, q, q_dot, wall);
 }
 
 INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn, bool back,
