@@ -114,9 +114,9 @@ def _half_source(half):
     """C text of the arrays of the cage half, and the initialiser of its CageHalfData."""
     law = half.law
     felt = [k for k in range(1, law.Z) if np.any(law.others[k])]
-    radii, size, of_path, spin = len(half.radii), "2", "", ""
+    radii, size, of_path, spin = len(half.radii), "2", "0, NULL", ""
     if radii:  # a ribbon
-        size, of_path = f"2 * {radii}", f", {radii}, path_radius"
+        size, of_path = f"2 * {radii}", f"{radii}, path_radius"
         spin = f".spin_steps = {len(half.spin_preload)}, .spin_preload = spin_preload, .yield_force = {float(half.yield_force)!r}, "
     arrays = [
         _array("path_chi", half.chi),
@@ -131,7 +131,7 @@ def _half_source(half):
         f"static const double law_uniform[{len(law.uniform.x)}][UNIFORM_WIDTH] = {_braces(uniform_rows(law.uniform))};\n",
     ]
     text = f"""{{
-        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows{of_path}}}, .spin = {_braces(half.spin)},
+        .m = {float(half.m)!r}, .x_c = {float(half.x_c)!r}, .path = {{{len(half.chi)}, path_chi, path_rows, {of_path}}}, .spin = {_braces(half.spin)},
         {spin}.land = land_rows, .growth = {_braces(half.growth)},
         .law = {{.length = {float(law.length)!r}, .cells = {_braces(law_cells(law))}, .sheet = {law_sheets(law, "law_coefficients")},
                 .K_0 = {_braces(law.stiffness[0])}, .K_others = {_braces(law.others.sum(axis=0))},

@@ -3,6 +3,8 @@ all pitches, modes of the table beside its static load path, rivets of elastic h
 the halves.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -14,7 +16,7 @@ from whole_half import SMALL, whole
 from bearing_model.cage.cage import cage_kinematics
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_preload, cage_elastic_speed_2
 from bearing_model.cage.elastic.elastic_half import ROOT, joints_out, mode_order
-from bearing_model.cage.elastic.elastic_lands import answers, static_changes
+from bearing_model.cage.elastic.elastic_lands import answers, felt_part, static_changes
 from bearing_model.cage.elastic.half_modes import EVEN, OUT, land_shapes
 from bearing_model.cage.two_half.half_path import at_rivets, by_waves, land_harmonics, land_path_rows
 from bearing_model.generated.variables import STATE_SLICES, CageModel, Switch, Z
@@ -250,6 +252,21 @@ def test_no_film_changes_no_load():
     load = rng.standard_normal((Z, 3)) * [20.0, 0.05, 0.1]
     changes = static_changes(model, trial, load, np.zeros((Z, 3)), np.full(Z, 20.0), 0.0)
     assert not np.any(changes)
+
+
+def test_faint_films_are_left_out():
+    """Below 1 % of the preloads nothing, from 2 % on all, halfway between them a half; no jump and no kink at both ends."""
+    P = np.full(Z, 40.0)
+
+    def part(percent):
+        load = percent * 1e-2 * P.sum()
+        return float(
+            felt_part(SimpleNamespace(force=np.array([1.5, 0.3]) * load, dry=np.array([0.0, 0.2]) * load), P)[0]
+        )
+
+    assert [part(x) for x in (0.0, 0.99, 1.0, 1.5, 2.0, 30.0)] == pytest.approx([0, 0, 0, 0.5, 1, 1], abs=1e-12)
+    assert part(1.0 + 1e-4) < 1e-7 and 1.0 - part(2.0 - 1e-4) < 1e-7
+    assert felt_part(SimpleNamespace(force=np.ones(2), dry=np.zeros(2)), 0.0 * P)[0] == 1.0  # loose joints
 
 
 def film_on_spinning_joints(part):

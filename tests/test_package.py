@@ -387,6 +387,24 @@ def test_sources_compile_for_other_systems(folder, tmp_path, target):
     assert {"fmi2Instantiate", "fmi2DoStep"} <= {name.removeprefix("RivetedBearing_") for name in exported}
 
 
+@pytest.mark.slow  # half a minute of compilation
+def test_clang_has_nothing_to_warn_of(folder, tmp_path):
+    """A build with CC=clang, macOS's compiler, makes warnings errors as gcc's does."""
+    pytest.importorskip("ziglang", reason='pip install -e ".[cross]"')
+    ours = {"rivet_table.c", *(path.name for path in (ROOT / "fmu_src").rglob("*.c"))}
+    sources = [str(path) for path in sorted((folder / "sources").glob("*.c")) if path.name in ours]
+    options = ["-target", "x86_64-linux-musl", "-std=c17", "-O0", "-c", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
+    done = subprocess.run(
+        [sys.executable, "-m", "ziglang", "cc", *options, f"-I{FMI_HEADERS}", *sources],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert len(sources) > 40
+
+
 @pytest.mark.slow  # 20 s of compilation
 def test_sources_compile_with_fmpy(folder, tmp_path, monkeypatch):
     from fmpy.build import build_platform_binary

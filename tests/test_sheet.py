@@ -97,6 +97,15 @@ def test_limits_are_told(result):
     )
 
 
+def test_changes_in_the_run_are_told(result):
+    """As in the report: a sheet of a run whose preload rose is not that of its first preload."""
+    late = replace(result, about=result.about | {"changes": {"0.01 s": {"joint.preload": 35.0}}})
+    path = Path(__file__)
+    told = sheet.result_sheet(late, path).remarks
+    assert "Changed at 10 ms: joint.preload 35 N" in told
+    assert sheet.result_sheet(result, path).remarks == told[:-1]
+
+
 def test_a_mission_at_its_own_life_has_utilisation_one(tmp_path):
     """With the target set to the mission's own life the worse of both places is at 1; x = 1 gives the life itself, as
     damages are scaled to the FMU's count; 1.2 times the stress shortens it by a power between both slopes, more by the

@@ -46,10 +46,10 @@ def is_written(way):
     for outer in reversed(way[:-1]):
         kind = outer.kind
         if kind == KIND.UNARY_OPERATOR:
-            sign = next(outer.get_tokens()).spelling
-            if sign in ("++", "--") or list(outer.get_tokens())[-1].spelling in ("++", "--"):
+            signs = [one.spelling for one in outer.get_tokens()] or ["*"]  # none of one that a macro makes
+            if {signs[0], signs[-1]} & {"++", "--"}:
                 return True
-            if sign not in ("&", "*"):
+            if signs[0] not in ("&", "*"):
                 return False
         elif kind in (KIND.BINARY_OPERATOR, KIND.COMPOUND_ASSIGNMENT_OPERATOR):
             end = inner.extent.end.offset
@@ -68,25 +68,28 @@ def is_written(way):
 
 
 def written_in(path, arguments):
-    """Members of the owners' structs that a file writes; and all that these structs have."""
+    """Members of the owners' structs that are written by a source file and the inline functions of the headers it includes:
+    {file name: members}.
+    """
     unit = cindex.Index.create().parse(str(path), args=arguments)
     errors = [str(one) for one in unit.diagnostics if one.severity >= cindex.Diagnostic.Error]
     assert not errors, errors
-    written, way = set(), []
+    written, way = defaultdict(set), []
 
-    def visit(cursor):
+    def visit(cursor, file):
         way.append(cursor)
         if cursor.kind == KIND.MEMBER_REF_EXPR and cursor.referenced is not None:
             owner, kind = cursor.referenced.semantic_parent.spelling, cursor.type.get_canonical().spelling
             if owner in OWNERS and kind not in OWNERS and is_written(way):
-                written.add(f"{owner}.{cursor.spelling}")
+                written[file].add(f"{owner}.{cursor.spelling}")
         for child in cursor.get_children():
-            visit(child)
+            visit(child, file)
         way.pop()
 
     for top in unit.cursor.get_children():
-        if top.location.file and Path(top.location.file.name) == path:
-            visit(top)
+        file = Path(top.location.file.name) if top.location.file else SOURCES.parent
+        if file == path or SOURCES in file.parents:
+            visit(top, file.name)
     return written
 
 
@@ -108,8 +111,9 @@ def writers():
     arguments, found = clang_arguments(), defaultdict(set)
     for path in sorted(SOURCES.rglob("*.c")):
         if path.name not in FIRST_VALUES and not {"generated", "host"} & set(path.parts):
-            for name in written_in(path, arguments):
-                found[name].add(ONE_TASK.get(path.name, path.name))
+            for file, names in written_in(path, arguments).items():
+                for name in names:
+                    found[name].add(ONE_TASK.get(file, file))
     return found
 
 
@@ -138,4 +142,4 @@ def test_each_member_has_one_writer(writers):
 def test_reading_of_the_sources(tmp_path, line, written):
     path = tmp_path / "one.c"
     path.write_text(f'#include "physics/model.h"\n#include <string.h>\nvoid one(Work *w) {{ {line} }}\n')
-    assert written_in(path, clang_arguments()) == written
+    assert written_in(path, clang_arguments()).get("one.c", set()) == written

@@ -166,15 +166,14 @@ class LandPressure:
     cap: np.ndarray  # limiter of the eccentricity over the clearance [1/m]
     q2: np.ndarray  # gap function
     kappa: np.ndarray  # [N.s/m]
+    force: np.ndarray  # size of the film's force [N]
     dry: np.ndarray  # load of the dry contact [N]
 
 
 def land_film_loads(w):
     """Harmonics of the loads on the rims [N] by the pressure, two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
     on = w.pressure
-    F_y, F_z = journal_film(on.e, on.V, on.cap, on.q2, on.kappa).force(*on.V)
-    force = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
-    return land_load(on.e, on.V, on.q2 + 0.0 * force, force, on.dry)
+    return land_load(on.e, on.V, on.q2 + 0.0 * on.force, on.force, on.dry)
 
 
 def no_land(w):
@@ -254,7 +253,7 @@ def land_film_force(model, w):
     e_h, V_h = (
         [vec_dot(y * outer.b_y + z * outer.b_z, axis_of) for axis_of in axes] for y, z in ((e_y, e_z), (V_y, V_z))
     )
-    w.pressure = LandPressure(np.array(e_h), np.array(V_h), cap, q2, kappa, N)
+    w.pressure = LandPressure(np.array(e_h), np.array(V_h), cap, q2, kappa, force, N)
     w.land = None if model.modes else land_load(e_h, V_h, q2 + 0.0 * e, force, N)
 
     F = F_y * outer.b_y + F_z * outer.b_z

@@ -200,11 +200,10 @@ INLINE scalar sum_points(wide sum[LAND_PARTS][LAND_HARMONICS], int p)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-// Harmonics of the load on a rim.  e, V: eccentricity and squeeze velocity along the half's axes; force: of the film;
-// dry: of the contact.
-INLINE void land_load(const Derived *d, const scalar e[2], const scalar V[2], scalar q2, scalar force,
-                      scalar dry, LandLoad *load)
+// Harmonics of the load on a rim.
+INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
 {
+    const scalar *e = on->e, *V = on->V, q2 = on->q2, force = on->force, dry = on->dry;
     const scalar inv_e = 1.0 / scalar_sqrt(e[0] * e[0] + e[1] * e[1] + 1e-30);
     const scalar inv_V = 1.0 / scalar_sqrt(V[0] * V[0] + V[1] * V[1] + 1e-30);
     const scalar u[2] = {e[0] * inv_e, e[1] * inv_e}, n[2] = {V[0] * inv_V, V[1] * inv_V};
@@ -328,9 +327,8 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
         land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
         on->cap = wide_lane(cap, i), on->q2 = wide_lane(q2, i), on->kappa = wide_lane(eta, i);
-        on->dry = wide_lane(N, i);
-        if (model->modes == NULL)
-            land_load(d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &w->land[h]);
+        on->force = wide_lane(force, i), on->dry = wide_lane(N, i);
+        if (model->modes == NULL) land_load(d, on, &w->land[h]);
         w->land_elastic += wide_lane(elastic, i);
         w->land_growth[h] = wide_lane(N_0, i) * land_growth_rate(d, spin[i]);
         w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
@@ -380,24 +378,16 @@ void land_film_arrive(const Model *model, const double *change, Work *w)
         solved.z -= rates.yz * by_y + rates.zz * by_z;
         for (int i = 0; i < HALVES; i++) on[i]->V[0] += by[i][0], on[i]->V[1] += by[i][1];
         pressure_film(on[0], on[1], &law);
-        const wide size = law.y * law.y + law.z * law.z, along = solved.y * law.y + solved.z * law.z;
-        for (int i = 0; i < HALVES; i++)
-            if (wide_lane(size, i) > 0.0) on[i]->kappa *= fmax(wide_lane(along, i) / wide_lane(size, i), 0.0);
+        const wide along = solved.y * law.y + solved.z * law.z;
+        const wide force = wide_max(along, wide_set(0.0)) / wide_sqrt(law.y * law.y + law.z * law.z + 1e-30);
+        for (int i = 0; i < HALVES; i++) on[i]->force = wide_lane(force, i);
     }
 }
 #endif
 
 void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
 {
-    for (int first = 0; first < 2; first += HALVES) {
-        JournalForce F;
-        pressure_film(&w->pressure[first], &w->pressure[first + HALVES - 1], &F);
-        const wide force = wide_sqrt(F.y * F.y + F.z * F.z + 1e-30);
-        for (int i = 0; i < HALVES; i++) {
-            const LandPressure *on = &w->pressure[first + i];
-            land_load(model->d, on->e, on->V, on->q2, wide_lane(force, i), on->dry, &load[first + i]);
-        }
-    }
+    for (int h = 0; h < 2; h++) land_load(model->d, &w->pressure[h], &load[h]);
 }
 
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot)

@@ -246,10 +246,10 @@ typedef struct {
 } LandFilm;
 
 // ---- what decides the pressure on one rim, along the half's axes; written by land_film.c: eccentricity [m], pure squeeze
-// velocity [m/s], limiter of the eccentricity over the clearance [1/m], gap function q^2, kappa [N.s/m], load of the dry
-// contact [N] ----
+// velocity [m/s], limiter of the eccentricity over the clearance [1/m], gap function q^2, kappa [N.s/m], sizes of the
+// film's force and of the dry contact's [N] ----
 typedef struct {
-    scalar e[2], V[2], cap, q2, kappa, dry;
+    scalar e[2], V[2], cap, q2, kappa, force, dry;
 } LandPressure;
 
 // ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----

@@ -24,6 +24,7 @@ from bearing_model.instance.fatigue import fully_reversed
 from .. import charts
 from ..design.bench import display_of
 from ..errors import UserError, shortlist
+from ..in_run import alone_note, change_lines
 from ..life import CHANNELS, cycle_damages, fatigue_law_at
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
@@ -610,5 +611,6 @@ def result_sheet(result, path, fmu=None, target=None, decides=None):
         evidence,
         target,
         decides,
+        remarks=[*filter(None, [alone_note(result)]), *(f"Changed {line}" for line in change_lines(result))],
         files=[*filter(None, [fmu]), path],
     )

@@ -12,6 +12,9 @@ change, two leave 1.3 %.  A film whose Delta L is less than 0.5 % of the joints'
 smooth part of the second.  In the plane friction and play that the motion leaves over carry Delta V, as between rigid halves
 (joint_slip.py).
 
+A film that presses on the rims with less than 1 % of the sum of the preloads is left out, from 2 % on it counts in full, between
+them a smooth part of the change.
+
 One-way forces of a film on the modes have no damping by it and are unsound (docs/notes/lands_that_bend.md).
 Smoothness: that of the law, C1.
 """
@@ -27,6 +30,19 @@ from bearing_model.numbers.lanes import maximum, minimum
 from bearing_model.physics.land_film import land_film_loads
 
 LITTLE = 0.005  # Delta L over the loads of the joints, root mean square, that one sweep is for
+FAINT = 0.01  # mean load on a rim over the sum of the preloads that is left out
+
+
+def smooth_part(x):
+    """0 up to x = 0, 1 from x = 1 on, smooth between them."""
+    x = minimum(maximum(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)
+
+
+def felt_part(on, P):
+    """Part of the films that counts [..., 1]; on: LandPressure."""
+    load = 0.5 * np.sum(on.force + on.dry, axis=-1, keepdims=True)
+    return smooth_part(load / (FAINT * (np.sum(P, axis=-1, keepdims=True) + 1e-30)) - 1.0)
 
 
 def answers(law, intact, L_0, P):
@@ -41,8 +57,7 @@ def second_part(length, start, bonded, P):
     per = np.array([1.0, 1.0 / length, 1.0 / length])
     film, load = (np.sum((x * per) ** 2, axis=(-2, -1)) for x in (bonded, start))
     ratio = film / (load + np.sum(P * P, axis=-1) + 1e-30)
-    x = minimum(maximum((ratio - LITTLE**2) / (3.0 * LITTLE**2), 0.0), 1.0)
-    return (x * x * (3.0 - 2.0 * x))[..., None, None]
+    return smooth_part((ratio - LITTLE**2) / (3.0 * LITTLE**2))[..., None, None]
 
 
 def static_changes(model, trial, load, bonded, P, more_P):
@@ -72,9 +87,10 @@ def elastic_lands(model, w, P, shear):
         np.moveaxis(change, -1, 0)
         for change in static_changes(model, trial, load, rows[..., [0, 3, 4]], P, rows[..., 5])
     )
-    load = j.load + load
-    rivet = j.rivet + rivet + d.intact * np.moveaxis(rows[..., 5:] * [0.0, 1.0, 1.0], -1, 0)
+    felt = felt_part(w.pressure, P)
+    load = j.load + felt * load
+    rivet = j.rivet + felt * (rivet + d.intact * np.moveaxis(rows[..., 5:] * [0.0, 1.0, 1.0], -1, 0))
     rivet[0] = maximum(rivet[0], 0.0)
     N_plate = maximum(rivet[0] - load[0], 0.0)
-    joint_slip_add(model, w, j.u, rivet[0], N_plate, np.moveaxis(rows[..., 1:3], -1, 0), shear)
+    joint_slip_add(model, w, j.u, rivet[0], N_plate, felt * np.moveaxis(rows[..., 1:3], -1, 0), shear)
     return SimpleNamespace(load=load, rivet=rivet)

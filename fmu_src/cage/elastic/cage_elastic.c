@@ -318,15 +318,13 @@ void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)
 {
     const ElasticJoints *joints = &w->elastic.joints;
     JointShear shear;
-    cage_joint_carried(model, w, &shear);
-    if (!model->d->guided) {
-        cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
-        return;
-    }
     ball_array P;
     LandedJoints landed;
     const LandedJoints *found = &landed;
+    cage_joint_carried(model, w, &shear);
     cage_elastic_preload(model, cage_elastic_speed_2(w), P);
-    elastic_lands(model, w, P, &landed, &shear);
-    cage_joint_loads(model, found->load, found->rivet, &shear, load);
+    if (model->d->guided && elastic_lands(model, w, P, &landed, &shear))
+        cage_joint_loads(model, found->load, found->rivet, &shear, load);
+    else
+        cage_joint_loads(model, joints->load, joints->rivet, &shear, load);
 }

@@ -13,6 +13,9 @@
 // 1 % on two, between them a smooth part of the second.  In the plane friction and play that the motion leaves over carry
 // Delta V, as between rigid halves (joint_slip.h).
 //
+// A film that presses on the rims with less than 1 % of the sum of the preloads is left out, from 2 % on it counts in full,
+// between them a smooth part of the change.
+//
 // One-way forces of a film on the modes have no damping by it and are unsound (docs/notes/lands_that_bend.md).
 // Smoothness: that of the law, C1.
 #include "cage/elastic/elastic_lands.h"
@@ -22,8 +25,16 @@
 #include "physics/land_film.h"
 #include "rivet/rivet_rom.h"
 
-static const double LITTLE =
-    0.005;  // Delta L over the loads of the joints, root mean square, that one sweep is for
+// Delta L over the loads of the joints, root mean square, that one sweep is for; mean load on a rim over the sum of the preloads
+// that is left out.
+static const double LITTLE = 0.005, FAINT = 0.01;
+
+// 0 up to x = 0, 1 from x = 1 on, smooth between them.
+static scalar smooth_part(scalar x)
+{
+    x = scalar_min(scalar_max(x, 0.0), 1.0);
+    return x * x * (3.0 - 2.0 * x);
+}
 
 // Loads L_0, moves of the pads and loads of the rivets by them.
 typedef struct {
@@ -70,8 +81,15 @@ static scalar second_part(const Answers *before, const Answers *first, const bal
     }
     const double little_2 = LITTLE * LITTLE;
     const scalar ratio_2 = ball_array_sum(by_film) / (ball_array_sum(all) + 1e-30);
-    const scalar x = scalar_min(scalar_max((ratio_2 - little_2) / (3.0 * little_2), 0.0), 1.0);
-    return x * x * (3.0 - 2.0 * x);
+    return smooth_part((ratio_2 - little_2) / (3.0 * little_2));
+}
+
+// Part of the films that counts.
+static scalar felt_part(const Work *w, const ball_array P)
+{
+    scalar load = 0.0;
+    for (int h = 0; h < 2; h++) load += 0.5 * (w->pressure[h].force + w->pressure[h].dry);
+    return smooth_part(load / (FAINT * (ball_array_sum(P) + 1e-30)) - 1.0);
 }
 
 // L_0 of the joints by the modes.
@@ -128,9 +146,11 @@ static void find_rows(const Model *model, const Work *w, PathRows *rows)
     half_path_add_lands(&model->d->land_path, re, im, rows);
 }
 
-void elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
+bool elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
                    JointShear *shear)
 {
+    const scalar felt = felt_part(w, P);
+    if (scalar_value(felt) == 0.0) return false;
     const Derived *d = model->d;
     const JointLaw *law = &rivet_table.half.law;
     const ElasticJoints *by_modes = &w->elastic.joints;
@@ -158,13 +178,16 @@ void elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
                 load -= law->K_0[i][n] * (wide_load(&now.move[n][k]) - wide_load(&before.move[n][k]));
             wide rivet = wide_load(&now.rivet[i][k]) - wide_load(&before.rivet[i][k]);
             if (i > 0) rivet += wide_load(&d->intact[k]) * wide_load(&rows.row[ROW_DP + i][k]);
-            rivet += wide_load(&by_modes->rivet[i][k]);
-            wide_store(&joints->load[i][k], wide_load(&by_modes->load[i][k]) + load);
+            rivet = felt * rivet + wide_load(&by_modes->rivet[i][k]);
+            wide_store(&joints->load[i][k], wide_load(&by_modes->load[i][k]) + felt * load);
             wide_store(&joints->rivet[i][k], i == 0 ? wide_max(rivet, zero) : rivet);
         }
         const wide T = wide_load(&joints->rivet[0][k]);
         wide_store(&N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
+        for (int row = ROW_V_R; row <= ROW_V_T; row++)
+            wide_store(&rows.row[row][k], felt * wide_load(&rows.row[row][k]));
     }
     const SlipState at = {by_modes->u_y, by_modes->u_z, joints->rivet[0], N_plate};
     joint_slip_add(model, w, &at, rows.row[ROW_V_R], rows.row[ROW_V_T], shear);
+    return true;
 }

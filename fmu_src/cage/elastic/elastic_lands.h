@@ -10,8 +10,8 @@ typedef struct {
     ball_array load[3], rivet[3];
 } LandedJoints;
 
-// Sets those with the films; adds the shear loads that the films put on plates, heads and shanks.  P: preloads with the
-// centrifugal load.
+// Whether the rivets feel the films.  If so, sets the loads with the films and adds the shear loads that the films put on plates,
+// heads and shanks.  P: preloads with the centrifugal load.
 #define elastic_lands FOR_ISA(elastic_lands)
-void elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
+bool elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
                    JointShear *shear);
