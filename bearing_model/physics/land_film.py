@@ -35,7 +35,7 @@ the film's force; Sommerfeld's substitution from the narrowest gap,
     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 
 spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the narrowest
-gap. The gap is that of round lands: the bending does not change the film.
+gap. The gap is that of round lands: the bending does not change the film (docs/notes/bent_rims.md).
 """
 
 from dataclasses import dataclass
