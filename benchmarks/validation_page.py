@@ -33,7 +33,7 @@ OBSERVED = {
     ),
     "the same of elastic halves": ("invariance", ("turn_of_elastic_halves", "mirror_of_elastic_halves"), ()),
     "1 ms turned, mirrored": ("invariance", ("trajectory_of_the_image",), ()),
-    "drift of 26.5 J without losses [J]": ("energy", ("lossless_energy_stays",), ("J at 1e-7",)),
+    "drift of 26.5 J without losses [J]": ("energy", ("lossless_energy_converges",), ("J at 1e-7",)),
     "energy balance of 10 ms": ("energy", ("energy_balance_of_a_run",), ("of what is dissipated",)),
     "moment about the axis [N·m]": ("conservation", ("angular_momentum_about_the_axis",), ("difference",)),
     "drift of 0.4 N·m·s, Runge–Kutta, Verlet": (
@@ -358,9 +358,10 @@ def cage_forces(data):
         "All but bore and speed is assumed, and their cage is guided by the inner ring. Their part of the cage hardly follows pulses of 0.1 ms, so\n"
         "their largest force compares with sustained forces here, not with peaks."
     )
+    softest = found["soft"][-1]["12000"][0]
     softness = (
-        "With the whole cage softer (modulus divided by 10 and 100, radial load), the impacts at 12,000 r/min fall to a"
-        " quarter,\ntwice the measured force."
+        "Softer cages (modulus divided by 10 and 100, radial load): the 99.9 % quantile at 12,000 r/min falls to"
+        f" {softest:.0f} N,\n{softest / 25.0:.1f} times the measured force."
     )
     columns = ("r/min", "load", "mean", "99.9 %", "largest")
     second = ("cage", "99.9 %", "largest")
@@ -396,13 +397,13 @@ def heat(data):
         f" Each point is within a factor of {max((total / measured).max(), (measured / total).max()):.2f}.\n"
         f"Exponent over speed: {own:.2f}, measured {exponents['measured']:.2f}; lands {exponents['land']:.2f}, all else {exponents['rest']:.2f}."
         " The lands' loss depends on the assumed guide clearance\n(0.2 % of the diameter). Computed oil has one viscosity; measured outer rings are 19 to 49 K"
-        " warmer than the oil supply, and their cage is one\npiece. `inlets` is part of `races`. Changes of at most 0.05 are left out."
+        " warmer than the oil supply, and their cage is one\npiece. `inlets` is part of `races`. Changes up to 0.06 are left out."
     )
     first = table(("r/min", "measured [W]", "computed", "ratio", *parts.values()), rows)
     ends, usual = (found["rows"][0], found["rows"][-1]), np.array(found["changed"][0]["ratio"])
 
     def shown(row):
-        return row is found["changed"][0] or np.abs(np.array(row["ratio"]) - usual).max() > 0.0501  # two digits
+        return row is found["changed"][0] or np.abs(np.array(row["ratio"]) - usual).max() > 0.0601  # two digits
 
     varied = [
         (row["change"], *(f"{row['ratio'][i]:.2f}" for i in (0, -1)), f"{row['exponent']:.2f}")
