@@ -125,8 +125,9 @@ void cage_correct(const Model *model, const Work *w, double gamma, const CageSte
     if (!model->modes) two_half_correct(model, w, gamma, step->axial, step->shear, delta, y);
 }
 
-void cage_remember(const Model *model, const CageStep *step, double h, double h_0, const double *f,
-                   const double *jerk, double *y, double *f_end, double *jerk_end, double *error)
+void cage_remember(const Model *model, const CageStep *step, double h, double h_0, const double *restrict f,
+                   const double *restrict jerk, double *restrict y, double *restrict f_end,
+                   double *restrict jerk_end, double *restrict error)
 {
     if (!model->modes) return;
     const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
