@@ -31,7 +31,7 @@ from riveted_bearing.fmu import Model
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
 Z = 9
-NO_RUNS = SimpleNamespace(cost={})
+NO_RUNS = SimpleNamespace(cost={}, sweep=SimpleNamespace(model=SimpleNamespace(parameters={})))
 
 
 @pytest.fixture(scope="module")
