@@ -140,16 +140,17 @@ SCENES = {
     "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_free": (OTHER | FREE | MIXED, SLOW),
     "balls": (BALLS | UNBALANCE, LOADS),
-    "ribbon": (RIBBON | UNBALANCE, LOADS),
-    "ribbon_mixed": (RIBBON | MIXED | SUPPORTED | DIFFER, HOT),
     "surfaces": (SURFACES | MIXED | SLICED | SUPPORTED, LOADS | HOUSING),
     "ball_spalls": (SURFACES | BALL_SPALLS | MIXED | SLICED | SUPPORTED, LOADS | HOUSING),
 }
-ELASTIC_SCENES = {"ribbon_elastic": (RIBBON | ELASTIC | UNBALANCE, LOADS)}
-SCENES |= ELASTIC_SCENES
 if default_table().modes is None:  # of a table by closed forms
-    for name in ("elastic", *ELASTIC_SCENES):
-        del SCENES[name]
+    del SCENES["elastic"]
+if not BUILD:  # of the 6207's balls
+    SCENES |= {
+        "ribbon": (RIBBON | UNBALANCE, LOADS),
+        "ribbon_mixed": (RIBBON | MIXED | SUPPORTED | DIFFER, HOT),
+        "ribbon_elastic": (RIBBON | ELASTIC | UNBALANCE, LOADS),
+    }
 SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
 PER_SCENE = 120  # 2400 states in all
 
