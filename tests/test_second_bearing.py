@@ -24,7 +24,10 @@ TESTS = "derivatives or jacobian or start or outputs or power_is_rate"
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("Z", "sizes"),
-    [(16, "bearing.D = 6.35e-3\nbearing.d_m = 0.0535"), (32, "bearing.D = 5.5e-3\nbearing.d_m = 0.08\ncage.D_o = 0.0836\ncage.D_i = 0.0772")],
+    [
+        (16, "bearing.D = 6.35e-3\nbearing.d_m = 0.0535"),
+        (32, "bearing.D = 5.5e-3\nbearing.d_m = 0.08\ncage.D_o = 0.0836\ncage.D_i = 0.0772"),
+    ],
 )
 def test_elastic_halves_of_many_balls(tmp_path, Z, sizes):
     """Elastic halves with as many modes a ball as the 6207: 10 ms at its speed, as many steps as rigid halves take to a
