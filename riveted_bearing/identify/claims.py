@@ -398,9 +398,9 @@ def claim_notes(found, fitted, held):
     else:
         yield "Sets that fit better do not meet more of the claims that they have not seen: the fit predicts nothing."
     kept = np.array([one["held_out"] for one in found.verified])
-    own = found.untuned["held_out"]
+    own, best = found.untuned["held_out"], "best set meets" if len(kept) == 1 else f"best {len(kept)} sets meet"
     yield (
-        f"Verified with fresh seeds, the best {len(kept)} sets meet {np.mean([one['fit'] for one in found.verified]):.1f} of {fitted} fitted "
+        f"Verified with fresh seeds, the {best} {np.mean([one['fit'] for one in found.verified]):.1f} of {fitted} fitted "
         f"and {kept.mean():.1f} of {held} held-out conditions, the scene's own values {found.untuned['fit']} and {own}."
     )
 
