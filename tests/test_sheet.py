@@ -99,10 +99,12 @@ def test_limits_are_told(result):
 
 def test_changes_in_the_run_are_told(result):
     """As in the report: a sheet of a run whose preload rose is not that of its first preload."""
-    late = replace(result, about=result.about | {"changes": {"0.01 s": {"joint.preload": 35.0}}})
+    late = replace(
+        result, about=result.about | {"changes": {"0.01 s": {"joint.preload": 35.0}, "0.011 s": {"joint.mu": 0.3}}}
+    )
     path = Path(__file__)
     told = sheet.result_sheet(late, path).remarks
-    assert "Changed at 10 ms: joint.preload 35 N" in told
+    assert told[-1] == "Changed at 10 ms: joint.preload 35 N; at 11 ms: joint.mu 0.3"
     assert sheet.result_sheet(result, path).remarks == told[:-1]
 
 

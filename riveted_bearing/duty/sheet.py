@@ -603,7 +603,9 @@ def result_sheet(result, path, fmu=None, target=None, decides=None):
     basis = dict(about.get("basis", {}))
     if "S-N curve" not in basis:
         basis["S-N curve"] = curve(result)
-    evidence = of_result(result, path)
+    evidence, changed = of_result(result, path), "; ".join(change_lines(result))
+    if changed:
+        changed = f"Changed {changed}"
     return make_sheet(
         about.get("scene") or Path(path).stem,
         about.get("description", ""),
@@ -611,6 +613,6 @@ def result_sheet(result, path, fmu=None, target=None, decides=None):
         evidence,
         target,
         decides,
-        remarks=[*filter(None, [alone_note(result)]), *(f"Changed {line}" for line in change_lines(result))],
+        remarks=[note for note in (alone_note(result), changed) if note],
         files=[*filter(None, [fmu]), path],
     )
