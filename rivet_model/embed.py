@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from bearing_model.cage.common import joint_law
+from bearing_model.cage.elastic.half_modes import rim_amplitudes
 from bearing_model.cage.two_half import half_path
 from bearing_model.rivet import rivet_splines, rivet_table
 
@@ -88,7 +89,9 @@ def uniform_coefficients(law):
         for k, weight in enumerate((0.5 * (1 - up) ** 2, 0.5 + up - up**2, 0.5 * up**2)):
             uniform[np.arange(len(at)), cell + k] = weight
         clamped = splines.collocation(knots, knots[0] + (knots[-1] - knots[0]) * at / cells)
-        values = np.moveaxis(np.tensordot(np.linalg.solve(uniform, clamped), values, axes=(1, axis)), 0, axis)
+        # a product by BLAS would have other last digits with another number of threads
+        turned = np.moveaxis(values, axis, 0)
+        values = np.moveaxis(np.einsum("ij,j...->i...", np.linalg.solve(uniform, clamped), turned), 0, axis)
     return np.append(values, np.zeros((*values.shape[:-1], 1)), axis=-1)
 
 
@@ -146,14 +149,15 @@ def _modes_source(t):
     if modes is None:
         return [], "{0}"
     entries = [
-        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {spin!r}}}"
-        for omega, n, parity, count, at, spin in zip(
+        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {spin!r}, {_braces(rim)}}}"
+        for omega, n, parity, count, at, spin, rim in zip(
             modes.omega.tolist(),
             modes.harmonic.tolist(),
             modes.parity.tolist(),
             modes.count.tolist(),
             modes.pad,
             modes.spin.tolist(),
+            rim_amplitudes(modes),
             strict=True,
         )
     ]

@@ -9,6 +9,8 @@
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
 
+static const double ROOT_HALF = 0.7071067811865476;  // of 1/2
+
 void cage_kinematics(const Model *model, const scalar *y, Work *w)
 {
     halves_kinematics(model, y, w);
@@ -45,12 +47,53 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
 }
 
 #ifndef DUAL
+// Motions of both rims' shapes by coordinates S and D.
+static void rim_motions(const Model *model, const double *modes, double rim[2][RIM])
+{
+    double S[RIM], D[RIM];
+    elastic_rim(model->modes, modes, S);
+    elastic_rim(model->modes, modes + N_MODES, D);
+    for (int i = 0; i < RIM; i++) rim[0][i] = ROOT_HALF * (S[i] - D[i]), rim[1][i] = ROOT_HALF * (S[i] + D[i]);
+}
+
+// Adds a part of impulses on the rims' shapes to velocities of S and D.
+static void push_rims(const Model *model, double part, const double *impulse, double *modes)
+{
+    const double scale = part * ROOT_HALF / model->p->cage.m;
+    for (int c = 0; c < RIM; c++) {
+        const double S = scale * (impulse[RIM + c] + impulse[c]), D = scale * (impulse[RIM + c] - impulse[c]);
+        if (S == 0.0 && D == 0.0) continue;
+        for (int i = 0; i < N_MODES; i++) {
+            modes[i] += S * model->modes->rim[c][i];
+            modes[N_MODES + i] += D * model->modes->rim[c][i];
+        }
+    }
+}
+
+// v = (1 + gamma A)^-1 v of a half with its film and of its rim's shapes; impulse on these, 0 where its rim is round.
+static void film_solve(const Model *model, const HalfFilm *f, const LandFilm *film, double gamma,
+                       HalfVelocity *half, double rim[RIM], double impulse[RIM])
+{
+    double all[SQUEEZE];
+    if (film->bent) {
+        half_bent_solve(f, film, gamma, model->modes->mobility, half, rim, all);
+        memcpy(impulse, &all[2], RIM * sizeof *impulse);
+    } else {
+        half_film_solve(f, half);
+        memset(impulse, 0, RIM * sizeof *impulse);
+    }
+}
+
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
-    if (model->modes)
-        cage_substeps_split(model, y, w, f, &memory->fast);
-    else
+    if (!model->modes) {
         two_half_remember(w, &memory->path);
+        return;
+    }
+    cage_substeps_split(model, y, w, f, &memory->fast);
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < RIM; i++) memory->rim[h][i] = w->film[h].bent ? w->pressure[h].rim_force[i] : 0.0;
+    push_rims(model, -1.0, memory->rim[0], &f[Y_MODE_S_DOT]);
 }
 
 void cage_advance(const Model *model, double h, const double *y_0, const double *f, const CageMemory *memory,
@@ -60,12 +103,15 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     for (int i = 0; i < 2; i++)
         y[Y_CAGE_PSI + i] = y_0[Y_CAGE_PSI + i] + h * (w->half[i].s - rotor_roll(&w->half[i]));
     cage_joint_kinematics(model, w);
+    step->gamma = 0.5 * h;
     step->substep = step->axial = step->shear = 0.0;
+    memset(step->rim_lack, 0, sizeof step->rim_lack);
     if (!model->modes) {
         two_half_advance(model, h, &memory->path, w, y);
         return;
     }
     memcpy(&y[Y_MODE_S], &y_0[Y_MODE_S], (N_ALL_STATES - Y_MODE_S) * sizeof *y);
+    push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
     step->substep = cage_substeps_advance(model, h, &memory->fast, f, y, &step->foreseen, w);
 }
 
@@ -76,13 +122,26 @@ void cage_predict(const Model *model, const Work *w, const CageStep *step, const
     for (int i = 0; i < 2 * N_MODES; i++)
         y[Y_MODE_S_DOT + i] += 0.5 * step->substep * step->foreseen.modes[i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, NULL, y);
+    push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
+    push_rims(model, -1.0, step->rim_removed[0], &y[Y_MODE_S_DOT]);
 }
 
-void cage_arrive(const Model *model, const Work *w, const CageStep *step, const CageMemory *before, double *y,
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
                  double *f, CageMemory *memory)
 {
     cage_split(model, y, w, f, memory);
-    if (model->modes) cage_substeps_finish(model, w, step->substep, &memory->fast, &before->fast, y);
+    if (!model->modes) return;
+    cage_substeps_finish(model, w, step->substep, &memory->fast, &before->fast, y);
+    if (!w->film[0].bent && !w->film[1].bent) return;
+    double lack[2 * N_MODES];
+    const double last = 0.5 * step->substep / step->gamma;
+    for (int i = 0; i < 2 * N_MODES; i++)
+        lack[i] = f[Y_MODE_S_DOT + i] - step->foreseen.modes[i] +
+                  last * (memory->fast.modes[i] - before->fast.modes[i]);
+    rim_motions(model, lack, step->rim_lack);
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < RIM; i++)
+            step->rim_lack[h][i] += model->modes->mobility[i] * (memory->rim[h][i] - before->rim[h][i]);
 }
 
 void cage_foreseen(const Model *model, const CageStep *step, double gamma, double *v)
@@ -91,14 +150,37 @@ void cage_foreseen(const Model *model, const CageStep *step, double gamma, doubl
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) v[Y_CAGE_V_X + i] += gamma * step->foreseen.halves[i];
 }
 
-void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v)
+void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v, double rim[2][RIM])
 {
     for (int h = 0; h < 2; h++) {
         HalfVelocity half = half_velocity_load(v, h);
         const HalfFilm f = half_film(model, &film[h], h, gamma);
-        half_film_solve(&f, &half);
+        film_solve(model, &f, &film[h], gamma, &half, rim[h], rim[h]);
         half_velocity_store(&half, v, h);
     }
+}
+
+void cage_rim_new(const Model *model, double h, const double *f, const double *jerk, double h_0,
+                  const CageMemory *memory, double rim[2][RIM])
+{
+    double now[2][RIM], change[2][RIM];
+    rim_motions(model, &f[Y_MODE_S_DOT], now);
+    rim_motions(model, &jerk[Y_MODE_S_DOT], change);
+    for (int half = 0; half < 2; half++)
+        for (int i = 0; i < RIM; i++) {
+            const double mobility = model->modes->mobility[i], a = now[half][i] + mobility * memory->rim[half][i];
+            const double before = a - h_0 * (change[half][i] + mobility * memory->rim_jerk[half][i]);
+            rim[half][i] = h * (a - (a * before <= 0.0 ? 0.0 : fabs(a) < fabs(before) ? a : before));
+        }
+}
+
+double cage_rim_power(const Model *model, const Work *w, double gamma, const CageStep *step)
+{
+    double power = 0.0;
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < RIM && w->film[h].bent; i++)
+            power += step->rim_change[h][i] * step->rim_impulse[h][i];
+    return model->modes ? power / gamma : 0.0;
 }
 
 void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step, double *v)
@@ -113,10 +195,70 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
     for (int h = 0; h < 2; h++) {
         half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
-        half_film_solve(&f[h], &half[h]);
+        if (model->modes) {
+            const double *mobility = model->modes->mobility;
+            for (int i = 0; i < RIM; i++)
+                step->rim_change[h][i] =
+                    gamma * step->rim_lack[h][i] + mobility[i] * step->rim_removed[h][i];
+            film_solve(model, &f[h], &w->film[h], gamma, &half[h], step->rim_change[h], step->rim_impulse[h]);
+        } else
+            half_film_solve(&f[h], &half[h]);
     }
     if (!model->modes) step->axial = two_half_solve(model, w, gamma, f, half);
     for (int h = 0; h < 2; h++) half_velocity_store(&half[h], v, h);
+}
+
+void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
+                 const double *f_end, CageMemory *memory)
+{
+    if (!model->modes) return;
+    const double gamma = step->gamma;
+    double change[2][RIM];
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < RIM; i++) {
+            memory->rim[h][i] -= step->rim_impulse[h][i] / gamma;
+            change[h][i] = memory->rim[h][i] - before->rim[h][i];
+            memory->rim_jerk[h][i] = change[h][i] / (2.0 * gamma);
+        }
+    for (int i = 0; i < 2 * N_MODES; i++)
+        y[Y_MODE_S_DOT + i] += gamma * (f_end[Y_MODE_S_DOT + i] - step->foreseen.modes[i]);
+    push_rims(model, gamma, change[0], &y[Y_MODE_S_DOT]);
+    push_rims(model, 1.0, step->rim_removed[0], &y[Y_MODE_S_DOT]);
+}
+
+// h^2 G'' of the forces on the rims' shapes over two steps that may differ in length; second: h^2 over their mean.
+static void rim_forces_bend(const CageMemory *before, const CageMemory *memory, double second,
+                            double rim[2][RIM])
+{
+    for (int h = 0; h < 2; h++)
+        for (int i = 0; i < RIM; i++) rim[h][i] = second * (memory->rim_jerk[h][i] - before->rim_jerk[h][i]);
+}
+
+void cage_rim_second(const Model *model, const Work *w, double h, double h_0, const double *f,
+                     const double *jerk, const CageMemory *before, const double *f_end,
+                     const CageMemory *memory, double rim[2][RIM])
+{
+    memset(rim, 0, 2 * RIM * sizeof(double));
+    if (!w->film[0].bent && !w->film[1].bent) return;
+    const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
+    double difference[2 * N_MODES], forces[2][RIM];
+    for (int i = 0; i < 2 * N_MODES; i++) {
+        const int k = Y_MODE_S_DOT + i;
+        difference[i] = second * ((f_end[k] - f[k]) * inv_h - jerk[k]);
+    }
+    rim_motions(model, difference, rim);
+    rim_forces_bend(before, memory, second, forces);
+    for (int half = 0; half < 2; half++)
+        for (int i = 0; i < RIM; i++) rim[half][i] += model->modes->mobility[i] * forces[half][i];
+}
+
+void cage_smooth(double part, double h, double rim[2][RIM], CageMemory *memory)
+{
+    for (int half = 0; half < 2; half++)
+        for (int i = 0; i < RIM; i++) {
+            memory->rim[half][i] -= part * rim[half][i];
+            memory->rim_jerk[half][i] -= part * rim[half][i] / h;
+        }
 }
 
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
@@ -125,18 +267,21 @@ void cage_correct(const Model *model, const Work *w, double gamma, const CageSte
     if (!model->modes) two_half_correct(model, w, gamma, step->axial, step->shear, delta, y);
 }
 
-void cage_remember(const Model *model, const CageStep *step, double h, double h_0, const double *restrict f,
-                   const double *restrict jerk, double *restrict y, double *restrict f_end,
-                   double *restrict jerk_end, double *restrict error)
+void cage_remember(const Model *model, double h, double h_0, const double *restrict f,
+                   const double *restrict jerk, const CageMemory *before, const double *restrict y,
+                   double *restrict f_end, double *restrict jerk_end, const CageMemory *memory,
+                   double *restrict error)
 {
     if (!model->modes) return;
-    const double gamma = 0.5 * h, inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
+    const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
     for (int i = Y_MODE_S_DOT; i < N_ALL_STATES; i++) {
         const double change = f_end[i] - f[i];
-        y[i] += gamma * (f_end[i] - step->foreseen.modes[i - Y_MODE_S_DOT]);
         jerk_end[i] = change * inv_h;
         error[i] = (h / 12.0) * (second * (jerk_end[i] - jerk[i]));
     }
+    double rim[2][RIM];
+    rim_forces_bend(before, memory, second, rim);
+    push_rims(model, h / 12.0, rim[0], &error[Y_MODE_S_DOT]);
     memcpy(&f_end[Y_MODE_S], &y[Y_MODE_S_DOT], 2 * N_MODES * sizeof *error);
     memset(&jerk_end[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);
     memset(&error[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);

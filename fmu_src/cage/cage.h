@@ -22,6 +22,8 @@
 typedef struct {
     TwoHalfMemory path;
     FastState fast;
+    // forces on the shapes of both bent rims by their films [N] and the change of these over the last step / its length
+    double rim[2][RIM], rim_jerk[2][RIM];
 } CageMemory;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------
@@ -72,8 +74,12 @@ void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_d
 // Between the stages of a step: what the halves' own substeps foresee, weights of the position corrections.
 typedef struct {
     Foreseen foreseen;  // slow accelerations at the end
+    double gamma;       // half of the step [s]
     double substep;     // length of the substeps [s], 0 without any
     double axial, shear;
+    // bent rims, by half: impulses on their shapes that the predictor leaves out and that the solve finds [N.s]; what the
+    // accelerations foreseen lack at the end [m/s2], and the change of the velocities by the solve [m/s]
+    double rim_removed[2][RIM], rim_impulse[2][RIM], rim_lack[2][RIM], rim_change[2][RIM];
 } CageStep;
 
 // Separates what the cage advances by itself from the rates f at the state y, where w was evaluated.
@@ -94,16 +100,26 @@ void cage_predict(const Model *model, const Work *w, const CageStep *step, const
 // After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
 // the last substep.
 #define cage_arrive FOR_ISA(cage_arrive)
-void cage_arrive(const Model *model, const Work *w, const CageStep *step, const CageMemory *before, double *y,
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
                  double *f, CageMemory *memory);
 
 // Adds gamma times what was foreseen of the halves' accelerations to the rows of their velocities, with a sign.
 #define cage_foreseen FOR_ISA(cage_foreseen)
 void cage_foreseen(const Model *model, const CageStep *step, double gamma, double *v);
 
-// v = (1 + gamma A)^-1 v of the halves' velocities by films of the given rates alone.
+// v = (1 + gamma A)^-1 v of the halves' velocities by films of the given rates alone.  rim: likewise the velocities of the rims'
+// shapes; on return the impulses on them.
 #define cage_films FOR_ISA(cage_films)
-void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v);
+void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v, double rim[2][RIM]);
+
+// What is new of the change of the shapes' velocities of bent rims over a step h, by their rates at its start and before.
+#define cage_rim_new FOR_ISA(cage_rim_new)
+void cage_rim_new(const Model *model, double h, const double *f, const double *jerk, double h_0,
+                  const CageMemory *memory, double rim[2][RIM]);
+
+// Power of the films on the change of the shapes' velocities by the solve.
+#define cage_rim_power FOR_ISA(cage_rim_power)
+double cage_rim_power(const Model *model, const Work *w, double gamma, const CageStep *step);
 
 // v = (1 + gamma^2 K)^-1 v with the joints' stiffness across the axis, a factor of the matrix of its own.
 #define cage_shear FOR_ISA(cage_shear)
@@ -118,17 +134,33 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
                   double *y);
 
+// Velocities of the modes at the end, in y, and their rates there with what the solve takes from the rims.
+#define cage_finish FOR_ISA(cage_finish)
+void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
+                 const double *f_end, CageMemory *memory);
+
 // Rates of the modes at the end, their history and their error; f, jerk and h_0 are those of the step's start and of
 // the step before.
 #define cage_remember FOR_ISA(cage_remember)
-void cage_remember(const Model *model, const CageStep *step, double h, double h_0, const double *f,
-                   const double *jerk, double *y, double *f_end, double *jerk_end, double *error);
+void cage_remember(const Model *model, double h, double h_0, const double *f, const double *jerk,
+                   const CageMemory *before, const double *y, double *f_end, double *jerk_end,
+                   const CageMemory *memory, double *error);
+
+// Second difference of the accelerations of the rims' shapes.
+#define cage_rim_second FOR_ISA(cage_rim_second)
+void cage_rim_second(const Model *model, const Work *w, double h, double h_0, const double *f,
+                     const double *jerk, const CageMemory *before, const double *f_end,
+                     const CageMemory *memory, double rim[2][RIM]);
+
+// Takes a part of forces on the rims' shapes from those of the films and their history.
+#define cage_smooth FOR_ISA(cage_smooth)
+void cage_smooth(double part, double h, double rim[2][RIM], CageMemory *memory);
 
 // The longest step that the cage bears from a state with these films and of this mass [s].
-double cage_longest_step(const Model *model, double film[2][3]);
+double cage_longest_step(const Model *model, double film[2][SQUEEZE_TERMS]);
 
 // The step of a fixed length [s]: of elastic halves the longest one, with the films of the start.
-double cage_fixed_step(const Model *model, double film[2][3]);
+double cage_fixed_step(const Model *model, double film[2][SQUEEZE_TERMS]);
 
 // Whether steps can have made the memory.
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p);

@@ -308,14 +308,23 @@ static void derive_lands(const Parameters *p, Derived *d)
         d->land_cos[i] = portable_cos(psi);
         d->land_sin[i] = portable_sin(psi);
     }
+    for (int i = 0; i < BENT_POINTS; i++) {
+        const double psi = 2.0 * PI * i / BENT_POINTS;
+        d->bent_cos[i] = portable_cos(psi);
+        d->bent_sin[i] = portable_sin(psi);
+    }
     const bool odd[ROWS] = {[ROW_V_T] = true, [ROW_M_R] = true, [ROW_DM_R] = true};
     const bool opposed[ROWS] = {[ROW_V_R] = true, [ROW_V_T] = true};
     const double *from = rivet_table.half.land;
     for (int n = 0; n < LAND_WAVES; n++) {
-        for (int each = 0; each < LAND_EACH; each++, from += 2 * ROWS)
-            for (int i = 0; i < ROWS; i++)
+        for (int each = 0; each < LAND_EACH; each++, from += 2 * ROWS) {
+            // the modes of elastic halves carry the loads of the joints by the shapes that they bend
+            const int harmonic = land_harmonic(n, each);
+            const bool bent = p->scene.cage == CAGE_MODEL_ELASTIC && (n == 2 || n == 3) && abs(harmonic) == n;
+            for (int i = bent ? ROW_DP : 0; i < ROWS; i++)
                 d->land_path.row[n][each][2 * odd[i] + opposed[i]][i] =
                     from[i] + p->cage.land_x * from[ROWS + i];
+        }
         for (int k = 0; k < Z; k++) {
             const double angle = 2.0 * PI * n * (k + 0.5) / Z;
             d->land_path.wave[n][0][k] = portable_cos(angle);

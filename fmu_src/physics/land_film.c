@@ -43,7 +43,9 @@
 // narrowest gap.  The gap is that of round lands: the bending does not change the film (docs/notes/bent_rims.md).
 #include "physics/land_film.h"
 
+#include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
+#include "physics/land_bent.h"
 #include "physics/outer_ring.h"
 #include "physics/traction.h"
 
@@ -200,7 +202,7 @@ INLINE scalar sum_points(wide sum[LAND_PARTS][LAND_HARMONICS], int p)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-// Harmonics of the load on a rim.
+// Harmonics of the load on a round rim.
 INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
 {
     const scalar *e = on->e, *V = on->V, q2 = on->q2, force = on->force, dry = on->dry;
@@ -242,6 +244,35 @@ INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
     }
 }
 
+// Harmonics of the load on a bent rim: the film's with the size of its force along its direction, the dry contact's by the bedding.
+INLINE void bent_load(const Model *model, const LandPressure *on, LandLoad *load)
+{
+    const Derived *d = model->d;
+    const BentPoints points = bent_points(on);
+    const wide inv_C = wide_set(1.0 / on->C), none = wide_set(0.0);
+    wide re[2][LAND_PARTS][LAND_HARMONICS], im[2][LAND_PARTS][LAND_HARMONICS];  // film, dry contact
+    memset(re, 0, sizeof re);
+    memset(im, 0, sizeof im);
+    for (int first = 0; first < BENT_POINTS; first += 8)
+        for (int i = 0; i < LAND_PARTS; i++) {
+            wide b[SQUEEZE];
+            const wide weight = bent_shapes(d, &points, first + i * LANE_WIDTH, b);
+            const wide gap = (wide_set(on->C) - bent_dot(on->e, on->rim, b)) * inv_C;
+            const wide open = bent_gap(gap, model->p->cage.g_0), W = bent_dot(on->V, on->rim_V, b);
+            const wide film = weight * wide_max(W, none) / (open * open * open);
+            const wide dry = weight * wide_max(-gap, none);
+            if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, re[0][i], im[0][i]);
+            if (wide_any(wide_above(dry, 0.0))) add_harmonics(b[0], b[1], dry, re[1][i], im[1][i]);
+        }
+    const scalar F_y = sum_points(re[0], 1), F_z = sum_points(im[0], 1), F_2 = F_y * F_y + F_z * F_z + 1e-30;
+    const scalar film = on->part * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) / F_2;
+    const scalar dry = on->part * on->dry / (sum_points(re[1], 0) + 1e-30);
+    for (int p = 0; p < LAND_HARMONICS; p++) {
+        load->re[p] = -film * sum_points(re[0], p) - dry * sum_points(re[1], p);
+        load->im[p] = -film * sum_points(im[0], p) - dry * sum_points(im[1], p);
+    }
+}
+
 // A vector (y, z) across the outer ring's axis along the axes of a half.
 INLINE void land_turn(const Rotor *outer, const Rotor *half, scalar y, scalar z, scalar along[2])
 {
@@ -249,6 +280,102 @@ INLINE void land_turn(const Rotor *outer, const Rotor *half, scalar y, scalar z,
                          outer ? y * outer->b_y[1] + z * outer->b_z[1] : y,
                          outer ? y * outer->b_y[2] + z * outer->b_z[2] : z};
     along[0] = dot3(F, half->b_y), along[1] = dot3(F, half->b_z);
+}
+
+// What a land does to its half: force along the outer ring's axes, moment about its axis, load of the dry contact without
+// damping, rate -dM/domega, energy of the dry contact and its rate.
+typedef struct {
+    scalar F[2], M_x, N_0, spin, stored, stored_rate;
+} LandForce;
+
+// x becomes that of the bent rim by the part.
+INLINE void bend_one(scalar part, scalar bent, scalar *x)
+{
+    *x += part * (bent - *x);
+}
+
+// Motion of the land against the outer ring: velocity along its axes, speed.
+typedef struct {
+    scalar v[2], omega;
+} LandRates;
+
+// Friction of dry contact and asperities, in a direction as that of a round land: adds to the force (y, z) and sets the moment
+// and its rate.  along: int of the load times n, all: int of the load.
+INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar along[2], scalar all,
+                          LandForce *force)
+{
+    const scalar size = scalar_sqrt(along[0] * along[0] + along[1] * along[1] + 1e-30), R = 0.5 * p->cage.D_o;
+    const scalar u[2] = {along[0] / size, along[1] / size};
+    const scalar slip = at->v[1] * u[0] - at->v[0] * u[1] + at->omega * R;
+    const scalar g = p->cage.mu_land / scalar_sqrt(slip * slip + p->cage.v_c * p->cage.v_c), F_t = -g * slip * size;
+    force->F[0] -= F_t * u[1];
+    force->F[1] += F_t * u[0];
+    force->M_x = -R * g * slip * all;
+    force->spin = R * R * g * all;
+}
+
+// The film of half h becomes, by on->part, that of its bent rim; on entry `force`, w->film and w->pressure are those of the round
+// land.
+INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at, scalar couette,
+                      LandForce *force)
+{
+    const Rotor *half = &w->half[h];
+    LandPressure *on = &w->pressure[h];
+    LandFilm *film = &w->film[h];
+    const scalar part = on->part;
+    scalar T[2][2], column[2], sum[BENT_SUMS];  // T: from the outer ring's axes to the half's
+    for (int k = 0; k < 2; k++) {
+        land_turn(outer, half, k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0, column);
+        T[0][k] = column[0], T[1][k] = column[1];
+    }
+    for (int i = 0; i < 2; i++) on->v[i] = T[i][0] * at->v[0] + T[i][1] * at->v[1];
+    elastic_rim(model->modes, w->elastic.q[h], on->rim);
+    elastic_rim(model->modes, w->elastic.q_dot[h], on->rim_v);
+    for (int i = 0; i < RIM; i += 2) {
+        const scalar turn = 0.5 * (2 + i / 2) * at->omega;
+        on->rim_V[i] = on->rim_v[i] - turn * on->rim[i + 1];
+        on->rim_V[i + 1] = on->rim_v[i + 1] + turn * on->rim[i];
+    }
+    bent_sums(model, on, sum);
+
+    // forces and friction
+    LandForce bent = {.N_0 = sum[BENT_N_0], .stored = sum[BENT_STORED], .stored_rate = sum[BENT_STORED_RATE]};
+    scalar along[2];
+    for (int k = 0; k < 2; k++) {
+        bent.F[k] = along[k] = 0.0;
+        for (int i = 0; i < 2; i++) {
+            bent.F[k] -= T[i][k] * (sum[BENT_FILM + i] + sum[BENT_DRY + i]);
+            along[k] += T[i][k] * (sum[BENT_DRY + i] + sum[BENT_ROUGH + 1 + i]);
+        }
+    }
+    bent_friction(model->p, at, along, sum[BENT_N] + sum[BENT_ROUGH], &bent);
+    const scalar torque = couette * model->d->C_land * (0.5 / PI) * sum[BENT_COUETTE];
+    bent.M_x -= torque * at->omega;
+    bent.spin += torque;
+    scalar *to = (scalar *)force;
+    const scalar *from = (const scalar *)&bent;
+    for (size_t i = 0; i < sizeof bent / sizeof *to; i++) bend_one(part, from[i], &to[i]);
+    for (int i = 0; i < 2; i++) bend_one(part, -sum[BENT_FILM + i], &on->film[i]);
+    for (int i = 0; i < RIM; i++) {
+        on->film[2 + i] = -part * sum[BENT_FILM + 2 + i];
+        on->rim_force[i] = on->film[2 + i] - part * sum[BENT_DRY + 2 + i];
+    }
+    bend_one(part, sum[BENT_N], &on->dry);
+
+    // rates, y and z along the outer ring's axes
+    const scalar *D = &sum[BENT_RATES];
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k <= i; k++)
+            bend_one(part,
+                     T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]),
+                     &film->rate[SQUEEZE_AT(i, k)]);
+    for (int i = 2; i < SQUEEZE; i++) {
+        for (int k = 0; k < 2; k++)
+            film->rate[SQUEEZE_AT(i, k)] =
+                part * (D[SQUEEZE_AT(i, 0)] * T[0][k] + D[SQUEEZE_AT(i, 1)] * T[1][k]);
+        for (int k = 2; k <= i; k++) film->rate[SQUEEZE_AT(i, k)] = part * D[SQUEEZE_AT(i, k)];
+    }
+    film->bent = true;
 }
 
 // The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
@@ -279,7 +406,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const JournalRates rates = journal_rates(&film);
     wide F_y = by_film.y, F_z = by_film.z;
     const wide couette = d->couette * heated * (1.0 / wide_sqrt(q2)) * narrow;
-    const wide force = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
+    const wide size = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
 
     // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
     // share of the film force
@@ -302,48 +429,57 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     F_z += -N * u_z + F_t * u_y;
     const wide M_x = R * F_t - couette * omega;
 
-    // power of the forces, of which the dry contact stores a part
-    const wide power = F_y * v_y + F_z * v_z + M_x * omega;
-    const wide elastic = hertz_energy(wide_set(p->cage.K_land), pen), elastic_rate = N_0 * pen_dot;
+    // the dry contact stores a part of the power
+    const wide stored = hertz_energy(wide_set(p->cage.K_land), pen), stored_rate = N_0 * pen_dot;
 
     // wrench on each half about its geometric centre
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         Rotor *half = &w->half[h];
         const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i);
-        const scalar F[3] = {0.0, wide_lane(F_y, i), wide_lane(F_z, i)};
+        const LandRates at = {{wide_lane(v_y, i), wide_lane(v_z, i)}, wide_lane(omega, i)};
+        LandForce force = {{wide_lane(F_y, i), wide_lane(F_z, i)},
+                           wide_lane(M_x, i),
+                           wide_lane(N_0, i),
+                           wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
+                           wide_lane(stored, i),
+                           wide_lane(stored_rate, i)};
+        w->film[h] = (LandFilm){.rate = {wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i)}};
+        LandPressure *on = &w->pressure[h];
+        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
+        land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
+        land_turn(outer, half, wide_lane(by_film.y, i), wide_lane(by_film.z, i), on->film);
+        on->cap = wide_lane(cap, i), on->q2 = wide_lane(q2, i), on->kappa = wide_lane(eta, i);
+        on->force = wide_lane(size, i), on->dry = wide_lane(N, i);
+        on->part = 0.0;
+        scalar on_rim = 0.0;  // power
+        if (model->modes) {
+            const scalar C_h = wide_lane(C, i);
+            on->C = C_h, on->kappa_C3 = on->kappa * (C_h * C_h * C_h);
+            on->part = bent_part(d, on->force + on->dry);
+            if (scalar_value(on->part) > 0.0) {
+                land_bend(model, w, h, outer, &at, wide_lane(heated, i) * d->couette, &force);
+                for (int n = 0; n < RIM; n++) on_rim += on->rim_force[n] * on->rim_v[n];
+            }
+        } else
+            land_load(d, on, &w->land[h]);
+        w->film[h].spin = force.spin;
+
+        const scalar F[3] = {0.0, force.F[0], force.F[1]};
         const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
         if (outer == NULL) {
             half->F[1] += F[1];
             half->F[2] += F[2];
-            half->M[0] += wide_lane(M_x, i) + arm[1] * F[2] - arm[2] * F[1];
+            half->M[0] += force.M_x + arm[1] * F[2] - arm[2] * F[1];
             half->M[1] += -arm[0] * F[2];
             half->M[2] += arm[0] * F[1];
         } else
-            add_wrench_along(outer, x, F[1], F[2], wide_lane(M_x, i), half);
-        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i),
-                                wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h};
-        LandPressure *on = &w->pressure[h];
-        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
-        land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
-        on->cap = wide_lane(cap, i), on->q2 = wide_lane(q2, i), on->kappa = wide_lane(eta, i);
-        on->force = wide_lane(force, i), on->dry = wide_lane(N, i);
-        if (model->modes == NULL) land_load(d, on, &w->land[h]);
-        w->land_elastic += wide_lane(elastic, i);
-        w->land_growth[h] = wide_lane(N_0, i) * land_growth_rate(d, spin[i]);
-        w->cage_dissipated -= wide_lane(power, i) + wide_lane(elastic_rate, i);
+            add_wrench_along(outer, x, F[1], F[2], force.M_x, half);
+        w->land_elastic += force.stored;
+        w->land_growth[h] = force.N_0 * land_growth_rate(d, spin[i]);
+        w->cage_dissipated -=
+            F[1] * at.v[0] + F[2] * at.v[1] + force.M_x * at.omega + on_rim + force.stored_rate;
     }
-}
-
-// The film by the pressures of HALVES halves side by side.
-INLINE JournalFilm pressure_film(const LandPressure *p0, const LandPressure *p1, JournalForce *F)
-{
-    const wide V_y = wide_pair(p0->V[0], p1->V[0]), V_z = wide_pair(p0->V[1], p1->V[1]);
-    const JournalFilm film =
-        journal_film(wide_pair(p0->e[0], p1->e[0]), wide_pair(p0->e[1], p1->e[1]), V_y, V_z,
-                     wide_pair(p0->cap, p1->cap), wide_pair(p0->q2, p1->q2), wide_pair(p0->kappa, p1->kappa));
-    *F = journal_force(&film, V_y, V_z);
-    return film;
 }
 
 #ifndef DUAL
@@ -360,34 +496,50 @@ INLINE void squeeze_change(const Model *model, const Work *w, const double *chan
     by[1] = half->b_z[1] * u_y + half->b_z[2] * u_z - turn * e[0];
 }
 
+// The velocities of a bent rim and its land become those of the step's end; the film's force is that of the step, linear in
+// their changes.
+INLINE void bent_arrive(const Model *model, const Work *w, const double *change, const double rim[RIM], int h,
+                        LandPressure *on)
+{
+    const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
+    const double *v = change + h, *D = w->film[h].rate;
+    const Rotor *half = &w->half[h];
+    double by[2], resisted[SQUEEZE];
+    double u[SQUEEZE] = {v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x,
+                         v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x};
+    memcpy(&u[2], rim, RIM * sizeof *rim);
+    for (int i = 0; i < SQUEEZE; i++) {
+        resisted[i] = 0.0;
+        for (int k = 0; k < SQUEEZE; k++) resisted[i] += D[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * u[k];
+    }
+    squeeze_change(model, w, change, h, by);
+    for (int i = 0; i < 2; i++) {
+        const double *axis = i == 0 ? half->b_y : half->b_z;
+        on->V[i] += by[i];
+        on->film[i] -= axis[1] * resisted[0] + axis[2] * resisted[1];
+    }
+    for (int i = 0; i < RIM; i++) on->rim_V[i] += rim[i], on->film[2 + i] -= resisted[2 + i];
+}
+
 // The velocities become those of the step's end.  The law is steep there: the size of the film's force becomes that of the
 // step, whose solve has the force at the velocities of the evaluation and its rates.
-void land_film_arrive(const Model *model, const double *change, Work *w)
+void land_film_arrive(const Model *model, const double *change, double rim[2][RIM], Work *w)
 {
     if (!model->d->guided || model->modes == NULL) return;
-    for (int first = 0; first < 2; first += HALVES) {
-        LandPressure *on[2] = {&w->pressure[first], &w->pressure[first + HALVES - 1]};
-        JournalForce solved, law;
-        double by[2][2] = {{0.0}};
-        for (int i = 0; i < HALVES; i++) squeeze_change(model, w, change, first + i, by[i]);
-        const JournalFilm film = pressure_film(on[0], on[1], &solved);
-        const JournalRates rates = journal_rates(&film);
-        const wide by_y = wide_pair(by[0][0], by[HALVES - 1][0]),
-                   by_z = wide_pair(by[0][1], by[HALVES - 1][1]);
-        solved.y -= rates.yy * by_y + rates.yz * by_z;
-        solved.z -= rates.yz * by_y + rates.zz * by_z;
-        for (int i = 0; i < HALVES; i++) on[i]->V[0] += by[i][0], on[i]->V[1] += by[i][1];
-        pressure_film(on[0], on[1], &law);
-        const wide along = solved.y * law.y + solved.z * law.z;
-        const wide force = wide_max(along, wide_set(0.0)) / wide_sqrt(law.y * law.y + law.z * law.z + 1e-30);
-        for (int i = 0; i < HALVES; i++) on[i]->force = wide_lane(force, i);
-    }
+    for (int h = 0; h < 2; h++)
+        if (w->film[h].bent) bent_arrive(model, w, change, rim[h], h, &w->pressure[h]);
 }
 #endif
 
 void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
 {
-    for (int h = 0; h < 2; h++) land_load(model->d, &w->pressure[h], &load[h]);
+    for (int h = 0; h < 2; h++) {
+        const LandPressure *on = &w->pressure[h];
+        if (w->film[h].bent)
+            bent_load(model, on, &load[h]);
+        else
+            memset(&load[h], 0, sizeof load[h]);
+    }
 }
 
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot)

@@ -24,13 +24,13 @@ INLINE scalar land_growth_rate(const Derived *d, scalar omega)
 // Power that the growth of halves whose speed changes puts into the lands' dry contacts.
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot);
 
-// Harmonics of the loads on the rims by the pressure in Work.
+// Harmonics of the loads on bent rims by the pressure in Work, 0 of others.
 void land_film_loads(const Model *model, const Work *w, LandLoad load[2]);
 
 // The pressures become those of a step's end: squeeze velocities follow the changes of the halves' velocities, in the order of the
-// state, and the size of the force is that of the step's solve, linear in these changes.  The Python reference has no twin of
+// state, and of their rims' shapes, and the size of the force is that of the step's solve, linear in these changes.  The Python reference has no twin of
 // this: its lands follow the law at the given velocities.
-void land_film_arrive(const Model *model, const double *change, Work *w);
+void land_film_arrive(const Model *model, const double *change, double rim[2][RIM], Work *w);
 
 // Adds force and moment to both halves (Rotor F, M); sets their film rates, the pressures and loads on their rims, the dissipated power
 // and the elastic energy.

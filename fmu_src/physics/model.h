@@ -16,7 +16,13 @@
 
 typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
-enum { LAND_POINTS = 24 };  // of the sum over a land's film
+enum { LAND_POINTS = 24, BENT_POINTS = 48 };  // of the sums over a land's film, over that of a bent rim
+
+// What a land's film resists: motion of the land along y and z, and of its rim by cos 2, sin 2, cos 3 and sin 3 theta of the
+// modes that bend it (land_bent.h); place of row i, column k <= i of a symmetric matrix that is stored as its lower triangle.
+enum { RIM = 4, SQUEEZE = 2 + RIM, SQUEEZE_TERMS = SQUEEZE * (SQUEEZE + 1) / 2 };
+
+#define SQUEEZE_AT(i, k) ((i) * ((i) + 1) / 2 + (k))
 
 // ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
@@ -156,6 +162,7 @@ typedef struct {
     double ln_land;          // ln Lambda of a land film of thickness C
     // points of the sum over a film: cos and sin of their angle psi (land_film.c)
     double land_cos[LAND_POINTS], land_sin[LAND_POINTS];
+    double bent_cos[BENT_POINTS], bent_sin[BENT_POINTS];
     LandPath land_path;                                 // rows by the load on a rim, at the land's place
     double disk_laminar, disk_turbulent;                // end-face drag moment / |omega|^1.5, |omega|^1.8
     double cylinder_laminar, cylinder_vortex;           // cylinder drag moment / |omega|, |omega|^1.539
@@ -240,16 +247,21 @@ typedef struct {
     scalar F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
-// ---- rates of the film of one land, -dF/dv [N.s/m] and -dM/domega [N.m.s]; written by land_film_force --------
+// ---- rates of the film of one land, -dF/dv [N.s/m], y and z along the outer ring's axes, the rim's shapes in the half's
+// frame, and -dM/domega [N.m.s]; bent: whether the rim's rows are not 0; written by land_film_force ---------------------
 typedef struct {
-    scalar yy, yz, zz, spin;
+    scalar rate[SQUEEZE_TERMS], spin;
+    bool bent;
 } LandFilm;
 
 // ---- what decides the pressure on one rim, along the half's axes; written by land_film.c: eccentricity [m], pure squeeze
 // velocity [m/s], limiter of the eccentricity over the clearance [1/m], gap function q^2, kappa [N.s/m], sizes of the
-// film's force and of the dry contact's [N] ----
+// film's force and of the dry contact's [N]; of elastic halves the part of the film that bends the rim; where it is not 0, the
+// clearance [m], kappa C^3 [N.s.m2], the rim's motion [m], its velocity and squeeze velocity [m/s], forces on the rim's
+// shapes and, by the film alone, on land and rim [N] ----
 typedef struct {
     scalar e[2], V[2], cap, q2, kappa, force, dry;
+    scalar part, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM], film[SQUEEZE];
 } LandPressure;
 
 // ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----

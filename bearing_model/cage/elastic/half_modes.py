@@ -39,6 +39,7 @@ RIVET = ("dP", "dm_r", "dm_t")
 EVEN = np.array([1.0, 1.0, -1.0, -1.0, -1.0, 1.0, 1.0, -1.0, 1.0])
 MIRROR = np.array([1.0, 1.0, -1.0])  # of x, r, t
 OUT = [0, 4, 5]  # of PAD: relative motions of two pads out of the plane of the split
+RIM_WAVES = (2, 3)  # of a rim's bending at the land that changes its film (land_bent.py)
 OTHER_HALF = np.array([-1.0, 1.0, 1.0, 1.0, -1.0, -1.0])  # of PAD: the other half is the mirror image in the split
 
 
@@ -119,6 +120,25 @@ def land_shapes(modes, x):
         for part, sign in ((0, 1.0), (1, np.sign(p[:, i]))):
             np.add.at(both[part], (np.arange(len(p)), np.abs(p[:, i])), W * sign)
     return coordinates(modes, *both)
+
+
+def rim_amplitudes(modes):
+    """Radial displacement of the rim at the land by cos p theta of the a and sin p theta of the b, p of RIM_WAVES:
+    [entries, a and b, p, 1 and x]; 0 of a wave that Z pitches do not have by itself.
+    """
+    P, result = land_harmonics(modes.Z)[modes.harmonic], np.zeros((len(modes.omega), 2, len(RIM_WAVES), 2))
+    for k, p in enumerate(RIM_WAVES):
+        here = (np.abs(P) == p) & (modes.harmonic == p)[:, None]
+        for part, sign in ((0, np.ones_like(P)), (1, np.sign(P))):
+            result[:, part, k] = np.sum((here * sign)[..., None] * modes.land, axis=1)
+    return result
+
+
+def rim_shapes(modes, x):
+    """The same of all coordinates at the land x [n, cos 2, sin 2, cos 3, sin 3 theta]."""
+    a, b = np.moveaxis(rim_amplitudes(modes) @ np.array([1.0, x]), 1, 0)
+    cosine, sine = np.stack([a, 0.0 * a], axis=-1), np.stack([0.0 * b, b], axis=-1)
+    return coordinates(modes, cosine.reshape(len(a), -1), sine.reshape(len(b), -1))
 
 
 def phases(modes, shift):

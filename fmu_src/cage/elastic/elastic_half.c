@@ -193,8 +193,14 @@ static void take_modes(const Parameters *p, ElasticHalf *half)
                 half->uniform[i] = mode->harmonic == 0 && coordinate == 0;
                 if (half->uniform[i]) half->uniform_at[half->uniforms++] = i;
                 half->omega_2[i] = mode->omega * mode->omega / denser;
+                for (int wave = 0; wave < RIM / 2; wave++) {
+                    const double *rim = mode->rim[coordinate][wave];
+                    half->rim[2 * wave + coordinate][i] = unit * (rim[0] + p->cage.land_x * rim[1]);
+                }
             }
     }
+    for (int c = 0; c < RIM; c++)
+        for (int i = 0; i < half->n; i++) half->mobility[c] += half->rim[c][i] * half->rim[c][i] / p->cage.m;
 }
 
 // Damping ratio at omega^2: zeta at the lowest mode, zeta_high at the highest one, linear in ln omega between them.

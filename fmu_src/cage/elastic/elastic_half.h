@@ -45,6 +45,8 @@ struct ElasticHalf {
     int entry[MODES];                                // of the table, of each coordinate
     double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
     double centrifugal[MODES];                       // modal force per (rad/s)^2
+    double rim[RIM][MODES];                          // of the rim's shapes at the land (land_bent.h)
+    double mobility[RIM];                            // velocity of a shape by an impulse on it [1/kg]
     bool uniform[MODES];                             // moves all joints alike and does not twist them
     int uniforms, uniform_at[MODES];                 // the coordinates of these
     bool pair[MODES];                                // one of two modes of the same frequency
@@ -169,6 +171,18 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, sca
 
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);
+
+// Motions of the rim's shapes by coordinates or their rates.
+INLINE void elastic_rim(const ElasticHalf *half, const scalar *q, scalar motion[RIM])
+{
+    for (int c = 0; c < RIM; c++) {
+        scalar part[8] = {0};
+        for (int i = 0; i < N_MODES; i += 8)
+            for (int k = 0; k < 8; k++) part[k] += half->rim[c][i + k] * q[i + k];
+        motion[c] =
+            ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    }
+}
 
 // Sum over the modes in one order for every lane width.
 INLINE scalar elastic_sum(const scalar *x, const scalar *y)

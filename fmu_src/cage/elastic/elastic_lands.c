@@ -23,18 +23,11 @@
 #include "cage/common/joint_slip.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/land_film.h"
+#include "physics/land_bent.h"
 #include "rivet/rivet_rom.h"
 
-// Delta L over the loads of the joints, root mean square, that one sweep is for; mean load on a rim over the sum of the preloads
-// that is left out.
-static const double LITTLE = 0.005, FAINT = 0.01;
-
-// 0 up to x = 0, 1 from x = 1 on, smooth between them.
-static scalar smooth_part(scalar x)
-{
-    x = scalar_min(scalar_max(x, 0.0), 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
+// Delta L over the loads of the joints, root mean square, that one sweep is for.
+static const double LITTLE = 0.005;
 
 // Loads L_0, moves of the pads and loads of the rivets by them.
 typedef struct {
@@ -82,14 +75,6 @@ static scalar second_part(const Answers *before, const Answers *first, const bal
     const double little_2 = LITTLE * LITTLE;
     const scalar ratio_2 = ball_array_sum(by_film) / (ball_array_sum(all) + 1e-30);
     return smooth_part((ratio_2 - little_2) / (3.0 * little_2));
-}
-
-// Part of the films that counts.
-static scalar felt_part(const Work *w, const ball_array P)
-{
-    scalar load = 0.0;
-    for (int h = 0; h < 2; h++) load += 0.5 * (w->pressure[h].force + w->pressure[h].dry);
-    return smooth_part(load / (FAINT * (ball_array_sum(P) + 1e-30)) - 1.0);
 }
 
 // L_0 of the joints by the modes.
@@ -149,8 +134,7 @@ static void find_rows(const Model *model, const Work *w, PathRows *rows)
 bool elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
                    JointShear *shear)
 {
-    const scalar felt = felt_part(w, P);
-    if (scalar_value(felt) == 0.0) return false;
+    if (!w->film[0].bent && !w->film[1].bent) return false;
     const Derived *d = model->d;
     const JointLaw *law = &rivet_table.half.law;
     const ElasticJoints *by_modes = &w->elastic.joints;
@@ -178,14 +162,12 @@ bool elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
                 load -= law->K_0[i][n] * (wide_load(&now.move[n][k]) - wide_load(&before.move[n][k]));
             wide rivet = wide_load(&now.rivet[i][k]) - wide_load(&before.rivet[i][k]);
             if (i > 0) rivet += wide_load(&d->intact[k]) * wide_load(&rows.row[ROW_DP + i][k]);
-            rivet = felt * rivet + wide_load(&by_modes->rivet[i][k]);
-            wide_store(&joints->load[i][k], wide_load(&by_modes->load[i][k]) + felt * load);
+            rivet += wide_load(&by_modes->rivet[i][k]);
+            wide_store(&joints->load[i][k], wide_load(&by_modes->load[i][k]) + load);
             wide_store(&joints->rivet[i][k], i == 0 ? wide_max(rivet, zero) : rivet);
         }
         const wide T = wide_load(&joints->rivet[0][k]);
         wide_store(&N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
-        for (int row = ROW_V_R; row <= ROW_V_T; row++)
-            wide_store(&rows.row[row][k], felt * wide_load(&rows.row[row][k]));
     }
     const SlipState at = {by_modes->u_y, by_modes->u_z, joints->rivet[0], N_plate};
     joint_slip_add(model, w, &at, rows.row[ROW_V_R], rows.row[ROW_V_T], shear);

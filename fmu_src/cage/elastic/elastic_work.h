@@ -36,7 +36,7 @@ typedef struct {
     // (cage_elastic.c)
     ball_array pad_out[3], pad_in[2], pad_in_dot[2];
 
-    // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c and pocket_spheres.c)
+    // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c and pocket_spheres.c) and on the rims
     mode_array wall_force[2];
 
     // contacts with the walls (pocket.c, pocket_spheres.c): direction (x, t) from the pocket's axis to the ball, stiffness along it [N/m],

@@ -22,6 +22,8 @@ typedef struct {
     int modes;        // 2 of a pair, else 1
     double at[PADS];  // amplitudes at the pad
     double spin;      // modal force per (rad/s)^2
+    // of the rim's radial displacement at the land: cos p theta of a, sin p theta of b, p = 2 and 3, by 1 and x
+    double rim[2][2][2];
 } HalfMode;
 
 typedef struct {
