@@ -70,20 +70,6 @@ static void push_rims(const Model *model, double part, const double *impulse, do
     }
 }
 
-// v = (1 + gamma A)^-1 v of a half with its film and of its rim's shapes; impulse on these, 0 where its rim is round.
-static void film_solve(const Model *model, const HalfFilm *f, const LandFilm *film, double gamma,
-                       HalfVelocity *half, double rim[RIM], double impulse[RIM])
-{
-    double all[SQUEEZE];
-    if (film->bent) {
-        half_bent_solve(f, film, gamma, model->modes->mobility, half, rim, all);
-        memcpy(impulse, &all[2], RIM * sizeof *impulse);
-    } else {
-        half_film_solve(f, half);
-        memset(impulse, 0, RIM * sizeof *impulse);
-    }
-}
-
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
     if (!model->modes) {
@@ -106,6 +92,7 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     step->gamma = 0.5 * h;
     step->substep = step->axial = step->shear = 0.0;
     memset(step->rim_lack, 0, sizeof step->rim_lack);
+    memset(step->bent, 0, sizeof step->bent);
     if (!model->modes) {
         two_half_advance(model, h, &memory->path, w, y);
         return;
@@ -155,7 +142,12 @@ void cage_films(const Model *model, const LandFilm film[2], double gamma, double
     for (int h = 0; h < 2; h++) {
         HalfVelocity half = half_velocity_load(v, h);
         const HalfFilm f = half_film(model, &film[h], h, gamma);
-        film_solve(model, &f, &film[h], gamma, &half, rim[h], rim[h]);
+        if (film[h].bent)
+            half_bent_solve(&f, &film[h], gamma, model->modes->mobility, &half, rim[h]);
+        else {
+            half_film_solve(&f, &half);
+            memset(rim[h], 0, sizeof rim[h]);
+        }
         half_velocity_store(&half, v, h);
     }
 }
@@ -174,18 +166,25 @@ void cage_rim_new(const Model *model, double h, const double *f, const double *j
         }
 }
 
-double cage_rim_power(const Model *model, const Work *w, double gamma, const CageStep *step)
-{
-    double power = 0.0;
-    for (int h = 0; h < 2; h++)
-        for (int i = 0; i < RIM && w->film[h].bent; i++)
-            power += step->rim_change[h][i] * step->rim_impulse[h][i];
-    return model->modes ? power / gamma : 0.0;
-}
-
 void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step, double *v)
 {
     if (!model->modes) step->shear = two_half_shear(model, w, gamma, v);
+}
+
+// The same of a half and its bent rim.
+static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm *f, CageStep *step,
+                       HalfVelocity *half)
+{
+    const double *mobility = model->modes->mobility, gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
+    const double u_y = half->y + half->gamma * f->x, u_z = half->z - half->beta * f->x;
+    double root[SQUEEZE], residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
+    for (int i = 0; i < RIM; i++)
+        residual[2 + i] = gamma * step->rim_lack[h][i] + mobility[i] * step->rim_removed[h][i];
+    squeeze_roots(f, mobility, root);
+    land_film_solve(model, w, h, gamma, root, residual, &step->bent[h]);
+    const double *impulse = step->bent[h].impulse;
+    half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1], half);
+    half->s /= 1.0 + f->spin;
 }
 
 void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v)
@@ -195,13 +194,9 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
     for (int h = 0; h < 2; h++) {
         half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
-        if (model->modes) {
-            const double *mobility = model->modes->mobility;
-            for (int i = 0; i < RIM; i++)
-                step->rim_change[h][i] =
-                    gamma * step->rim_lack[h][i] + mobility[i] * step->rim_removed[h][i];
-            film_solve(model, &f[h], &w->film[h], gamma, &half[h], step->rim_change[h], step->rim_impulse[h]);
-        } else
+        if (w->film[h].bent)
+            bent_solve(model, w, h, &f[h], step, &half[h]);
+        else
             half_film_solve(&f[h], &half[h]);
     }
     if (!model->modes) step->axial = two_half_solve(model, w, gamma, f, half);
@@ -216,7 +211,7 @@ void cage_finish(const Model *model, const CageStep *step, const CageMemory *bef
     double change[2][RIM];
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++) {
-            memory->rim[h][i] -= step->rim_impulse[h][i] / gamma;
+            memory->rim[h][i] -= step->bent[h].impulse[2 + i] / gamma;
             change[h][i] = memory->rim[h][i] - before->rim[h][i];
             memory->rim_jerk[h][i] = change[h][i] / (2.0 * gamma);
         }

@@ -14,6 +14,7 @@
 #include "cage/elastic/cage_substeps.h"
 #include "cage/two_half/two_half.h"
 #include "numbers/isa.h"
+#include "physics/land_film.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
@@ -77,9 +78,10 @@ typedef struct {
     double gamma;       // half of the step [s]
     double substep;     // length of the substeps [s], 0 without any
     double axial, shear;
-    // bent rims, by half: impulses on their shapes that the predictor leaves out and that the solve finds [N.s]; what the
-    // accelerations foreseen lack at the end [m/s2], and the change of the velocities by the solve [m/s]
-    double rim_removed[2][RIM], rim_impulse[2][RIM], rim_lack[2][RIM], rim_change[2][RIM];
+    // bent rims, by half: impulses on their shapes that the predictor leaves out [N.s]; what the accelerations foreseen lack
+    // at the end [m/s2]; the solution
+    double rim_removed[2][RIM], rim_lack[2][RIM];
+    BentSolution bent[2];
 } CageStep;
 
 // Separates what the cage advances by itself from the rates f at the state y, where w was evaluated.
@@ -116,10 +118,6 @@ void cage_films(const Model *model, const LandFilm film[2], double gamma, double
 #define cage_rim_new FOR_ISA(cage_rim_new)
 void cage_rim_new(const Model *model, double h, const double *f, const double *jerk, double h_0,
                   const CageMemory *memory, double rim[2][RIM]);
-
-// Power of the films on the change of the shapes' velocities by the solve.
-#define cage_rim_power FOR_ISA(cage_rim_power)
-double cage_rim_power(const Model *model, const Work *w, double gamma, const CageStep *step);
 
 // v = (1 + gamma^2 K)^-1 v with the joints' stiffness across the axis, a factor of the matrix of its own.
 #define cage_shear FOR_ISA(cage_shear)

@@ -16,6 +16,7 @@
 #define land_film_loads FOR_ISA(land_film_loads)
 #define land_film_arrive FOR_ISA(land_film_arrive)
 #define land_growth_power FOR_ISA(land_growth_power)
+#define land_film_solve FOR_ISA(land_film_solve)
 #define ring_acceleration FOR_ISA(ring_acceleration)
 #define rhs FOR_ISA(rhs)
 #define verlet_evaluate FOR_ISA(verlet_evaluate)

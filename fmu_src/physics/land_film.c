@@ -43,6 +43,7 @@
 // narrowest gap.  The gap is that of round lands: the bending does not change the film (docs/notes/bent_rims.md).
 #include "physics/land_film.h"
 
+#include "cage/common/films.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 #include "physics/land_bent.h"
@@ -336,6 +337,13 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
         on->rim_V[i] = on->rim_v[i] - turn * on->rim[i + 1];
         on->rim_V[i + 1] = on->rim_v[i + 1] + turn * on->rim[i];
     }
+    for (int i = 0; i < 2; i++) {
+        on->round_film[i] = on->film[i];
+        for (int k = 0; k <= i; k++)
+            on->round_rate[SQUEEZE_AT(i, k)] =
+                T[i][0] * (film->rate[0] * T[k][0] + film->rate[1] * T[k][1]) +
+                T[i][1] * (film->rate[1] * T[k][0] + film->rate[2] * T[k][1]);
+    }
     bent_sums(model, on, sum);
 
     // forces and friction
@@ -483,51 +491,143 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
 }
 
 #ifndef DUAL
-// Change of a half's squeeze velocity, along its axes.
-INLINE void squeeze_change(const Model *model, const Work *w, const double *change, int h, double by[2])
+// The bent film over the step's end: points that stay, their stiffness kappa C^3/h^3 dtheta.
+typedef struct {
+    wide b[BENT_POINTS / LANE_WIDTH][SQUEEZE], stiff[BENT_POINTS / LANE_WIDTH];
+} BentGrid;
+
+static void bent_grid(const Model *model, const LandPressure *on, BentGrid *grid)
 {
-    const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
-    const double *v = change + h, turn = 0.5 * v[Y_CAGE_S - Y_CAGE_V_X];
-    const double u_y = v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x;
-    const double u_z = v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x;
-    const Rotor *half = &w->half[h];
-    const double *e = w->pressure[h].e;
-    by[0] = half->b_y[1] * u_y + half->b_y[2] * u_z + turn * e[1];
-    by[1] = half->b_z[1] * u_y + half->b_z[2] * u_z - turn * e[0];
+    const BentPoints points = bent_points(on);
+    const wide inv_C = wide_set(1.0 / on->C),
+               kappa = wide_set(2.0 * PI / BENT_POINTS * on->kappa_C3 / (on->C * on->C * on->C));
+    for (int n = 0; n < BENT_POINTS / LANE_WIDTH; n++) {
+        const wide weight = bent_shapes(model->d, &points, n * LANE_WIDTH, grid->b[n]);
+        const wide gap = wide_set(on->C) - bent_dot(on->e, on->rim, grid->b[n]);
+        const wide open = bent_gap(gap * inv_C, model->p->cage.g_0);
+        grid->stiff[n] = kappa * weight / (open * open * open);
+    }
 }
 
-// The velocities of a bent rim and its land become those of the step's end; the film's force is that of the step, linear in
-// their changes.
-INLINE void bent_arrive(const Model *model, const Work *w, const double *change, const double rim[RIM], int h,
-                        LandPressure *on)
+// Forces and rates of the film at the squeeze velocities V, along the half's axes.
+static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQUEEZE], double D[SQUEEZE_TERMS])
 {
-    const double x = (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
-    const double *v = change + h, *D = w->film[h].rate;
-    const Rotor *half = &w->half[h];
-    double by[2], resisted[SQUEEZE];
-    double u[SQUEEZE] = {v[Y_CAGE_V_Y - Y_CAGE_V_X] + v[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * x,
-                         v[Y_CAGE_V_Z - Y_CAGE_V_X] - v[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * x};
-    memcpy(&u[2], rim, RIM * sizeof *rim);
+    enum { FORCES = 0, RATES = SQUEEZE, ALL = SQUEEZE + SQUEEZE_TERMS };
+
+    wide sum[BENT_PARTS][ALL];
+    for (int i = 0; i < BENT_PARTS; i++)
+        for (int n = 0; n < ALL; n++) sum[i][n] = wide_set(0.0);
+    for (int n = 0; n < BENT_POINTS / LANE_WIDTH; n++) {
+        const wide *b = grid->b[n], W = bent_dot(V, V + 2, b);
+        wide *to = sum[n % BENT_PARTS];
+        if (!wide_any(wide_above(W, 0.0))) continue;
+        const wide rate = wide_select(wide_above(W, 0.0), grid->stiff[n], wide_set(0.0)), load = rate * W;
+        for (int i = 0; i < SQUEEZE; i++) {
+            const wide by = rate * b[i];
+            to[FORCES + i] += load * b[i];
+            for (int k = 0; k <= i; k++)
+                to[RATES + SQUEEZE_AT(i, k)] = wide_fma(by, b[k], to[RATES + SQUEEZE_AT(i, k)]);
+        }
+    }
+    for (int n = 0; n < ALL; n++) {
+        double part[8];
+        for (int i = 0; i < BENT_PARTS; i++) wide_store(&part[i * LANE_WIDTH], sum[i][n]);
+        const double all =
+            ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+        if (n < RATES)
+            F[n] = -all;
+        else
+            D[n - RATES] = all;
+    }
+}
+
+// y = D x of a symmetric matrix.
+INLINE void squeeze_times(const double D[SQUEEZE_TERMS], const double x[SQUEEZE], double y[SQUEEZE])
+{
     for (int i = 0; i < SQUEEZE; i++) {
-        resisted[i] = 0.0;
-        for (int k = 0; k < SQUEEZE; k++) resisted[i] += D[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * u[k];
+        y[i] = 0.0;
+        for (int k = 0; k < SQUEEZE; k++) y[i] += D[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * x[k];
     }
-    squeeze_change(model, w, change, h, by);
-    for (int i = 0; i < 2; i++) {
-        const double *axis = i == 0 ? half->b_y : half->b_z;
-        on->V[i] += by[i];
-        on->film[i] -= axis[1] * resisted[0] + axis[2] * resisted[1];
-    }
-    for (int i = 0; i < RIM; i++) on->rim_V[i] += rim[i], on->film[2 + i] -= resisted[2 + i];
 }
 
-// The velocities become those of the step's end.  The law is steep there: the size of the film's force becomes that of the
-// step, whose solve has the force at the velocities of the evaluation and its rates.
-void land_film_arrive(const Model *model, const double *change, double rim[2][RIM], Work *w)
+static const int MOST_ITERATIONS = 8;      // of Newton's method on a film that is linear but for its ends
+static const double CONVERGED = 1e-3;      // difference of law and solution, part of the force
+
+void land_film_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
+                     const double residual[SQUEEZE], BentSolution *to)
 {
-    if (!model->d->guided || model->modes == NULL) return;
-    for (int h = 0; h < 2; h++)
-        if (w->film[h].bent) bent_arrive(model, w, change, rim[h], h, &w->pressure[h]);
+    const LandPressure *on = &w->pressure[h];
+    BentGrid grid;
+    bent_grid(model, on, &grid);
+    double V[SQUEEZE], D[SQUEEZE_TERMS], F[SQUEEZE], free[SQUEEZE], round[SQUEEZE_TERMS] = {0.0};
+    memcpy(V, on->V, sizeof on->V);
+    memcpy(&V[2], on->rim_V, sizeof on->rim_V);
+    for (int i = 0; i < 3; i++) round[i] = (1.0 - on->part) * on->round_rate[i];
+    for (int i = 0; i < SQUEEZE; i++) {
+        free[i] = residual[i] - gamma * root[i] * root[i] * on->film[i];
+        to->change[i] = 0.0;
+        to->film[i] = on->film[i];
+    }
+    for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
+        // the law at the present velocities
+        double at[SQUEEZE], by_round[SQUEEZE], off = 0.0, size = 0.0;
+        for (int i = 0; i < SQUEEZE; i++) at[i] = V[i] + to->change[i];
+        bent_law(&grid, at, F, D);
+        squeeze_times(round, to->change, by_round);
+        for (int i = 0; i < SQUEEZE; i++) {
+            F[i] = on->part * F[i] + (1.0 - on->part) * (i < 2 ? on->round_film[i] : 0.0) - by_round[i];
+            off += fabs(F[i] - to->film[i]);
+            size += fabs(F[i]);
+        }
+        for (int i = 0; i < SQUEEZE_TERMS; i++) to->rate[i] = on->part * D[i] + round[i];
+        if (iteration > 0 && off <= CONVERGED * size) break;
+
+        // Newton's step
+        double rest[SQUEEZE], impulse[SQUEEZE], step[SQUEEZE], resisted[SQUEEZE];
+        for (int i = 0; i < SQUEEZE; i++)
+            rest[i] = free[i] + gamma * root[i] * root[i] * F[i] - to->change[i];
+        squeeze_impulse(to->rate, gamma, root, rest, impulse);
+        for (int i = 0; i < SQUEEZE; i++) step[i] = rest[i] - root[i] * root[i] * impulse[i];
+        squeeze_times(to->rate, step, resisted);
+        for (int i = 0; i < SQUEEZE; i++) {
+            to->change[i] += step[i];
+            to->film[i] = F[i] - resisted[i];
+        }
+    }
+    for (int i = 0; i < SQUEEZE; i++) to->impulse[i] = gamma * (on->film[i] - to->film[i]);
+}
+
+double land_film_arrive(double gamma, const BentSolution solved[2], Work *w)
+{
+    double power = 0.0;
+    for (int h = 0; h < 2; h++) {
+        if (!w->film[h].bent) continue;
+        const Rotor *half = &w->half[h];
+        LandPressure *on = &w->pressure[h];
+        LandFilm *film = &w->film[h];
+        const double *change = solved[h].change, *D = solved[h].rate;
+        const double T[2][2] = {{half->b_y[1], half->b_y[2]}, {half->b_z[1], half->b_z[2]}};
+        for (int i = 0; i < SQUEEZE; i++) {
+            const double v = i < 2 ? on->v[i] : on->rim_v[i - 2];
+            power += solved[h].film[i] * (v + change[i]) - on->film[i] * v;
+            on->film[i] = solved[h].film[i];
+        }
+        for (int i = 0; i < 2; i++) {
+            power -= change[i] * solved[h].impulse[i] / gamma;
+            on->V[i] += change[i];
+        }
+        for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];
+        for (int i = 0; i < 2; i++)
+            for (int k = 0; k <= i; k++)
+                film->rate[SQUEEZE_AT(i, k)] =
+                    T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
+        for (int i = 2; i < SQUEEZE; i++) {
+            for (int k = 0; k < 2; k++)
+                film->rate[SQUEEZE_AT(i, k)] = D[SQUEEZE_AT(i, 0)] * T[0][k] + D[SQUEEZE_AT(i, 1)] * T[1][k];
+            for (int k = 2; k <= i; k++) film->rate[SQUEEZE_AT(i, k)] = D[SQUEEZE_AT(i, k)];
+        }
+    }
+    return power;
 }
 #endif
 

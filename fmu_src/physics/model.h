@@ -262,6 +262,7 @@ typedef struct {
 typedef struct {
     scalar e[2], V[2], cap, q2, kappa, force, dry;
     scalar part, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM], film[SQUEEZE];
+    scalar round_film[2], round_rate[3];  // of the round land, forces and rates along the half's axes
 } LandPressure;
 
 // ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----

@@ -231,7 +231,6 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     const double gamma = 0.5 * h, *f = from->f;
     CageStep cage;
     double removed[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES], *y = to->y;
-    double evaluated[CAGE_END - CAGE];  // velocities of the cage at which the forces are evaluated
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     advance_positions(model, h, from, y, &cage, w);
@@ -239,14 +238,12 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
     cage_predict(model, w, &cage, &from->cage, y);
-    memcpy(evaluated, &y[CAGE], sizeof evaluated);
     to->housing = from->housing, to->turn = from->turn;
     if (model->housing) housing_predict(h, &from->housing, &to->housing);
     if (model->turn) ball_turn_predict(h, &to->turn);
     rhs_now(model, t + h, to, w);
     if (model->housing) housing_correct(gamma, &from->housing, &to->housing);
     if (model->turn) ball_turn_correct(gamma, &from->turn, &to->turn);
-    remember_films(w, to);
     cage_arrive(model, w, &cage, &from->cage, y, to->f, &to->cage);
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
@@ -256,8 +253,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     cage_shear(model, w, gamma, &cage, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
     implicit_solve(model, w, gamma, &cage, delta);
-    to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta) +
-                     cage_rim_power(model, w, gamma, &cage);
+    to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
+    to->f[Y_WORK] += land_film_arrive(gamma, cage.bent, w);
+    remember_films(w, to);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
     for (int i = CAGE; i < CAGE_END; i++) {
@@ -280,8 +278,6 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_velocities(model, w, h, from, delta, to, error, rim);
     remember_friction(h, from, to, error);
     to->h = h;
-    for (int i = CAGE; i < CAGE_END; i++) evaluated[i - CAGE] = y[i] - evaluated[i - CAGE];
-    land_film_arrive(model, evaluated, cage.rim_change, w);
     cage_remember(model, h, from->h, f, from->jerk, &from->cage, y, to->f, to->jerk, &to->cage, error);
     cage_smooth(SMOOTHING, h, rim, &to->cage);
     const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;

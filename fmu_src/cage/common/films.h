@@ -41,33 +41,36 @@ INLINE HalfFilm half_film(const Model *model, const LandFilm *film, int h, doubl
     return (HalfFilm){m, J_p, J_t, x, impulse_yy, impulse_yz, impulse_zz, gamma * film->spin / J_p};
 }
 
+// Takes an impulse (y, z) on the land from the half's velocities.
+INLINE void half_push_land(const HalfFilm *f, double I_y, double I_z, HalfVelocity *v)
+{
+    v->y -= I_y / f->m;
+    v->z -= I_z / f->m;
+    v->gamma -= f->x * I_y / f->J_t;
+    v->beta += f->x * I_z / f->J_t;
+}
+
 // v = (1 + gamma A)^-1 v, A of this film.
 INLINE void half_film_solve(const HalfFilm *f, HalfVelocity *v)
 {
     const double u_y = v->y + v->gamma * f->x, u_z = v->z - v->beta * f->x;
     const double I_y = f->yy * u_y + f->yz * u_z, I_z = f->yz * u_y + f->zz * u_z;
-    v->y -= I_y / f->m;
-    v->z -= I_z / f->m;
-    v->gamma -= f->x * I_y / f->J_t;
-    v->beta += f->x * I_z / f->J_t;
+    half_push_land(f, I_y, I_z, v);
     v->s /= 1.0 + f->spin;
 }
 
-// The same of a film on a bent rim: v and the velocities of its shapes, whose mobilities are given; impulse: on land and shapes.
-INLINE void half_bent_solve(const HalfFilm *f, const LandFilm *film, double gamma, const double mobility[RIM],
-                            HalfVelocity *v, double rim[RIM], double impulse[SQUEEZE])
+// Impulse gamma C S (1 + gamma S C S)^-1 S^-1 u of a film of the rates C on land and rim, S^2 their mobilities.
+INLINE void squeeze_impulse(const double rate[SQUEEZE_TERMS], double gamma, const double root[SQUEEZE],
+                            const double u[SQUEEZE], double impulse[SQUEEZE])
 {
-    double root[SQUEEZE], A[SQUEEZE_TERMS], x[SQUEEZE];
-    root[0] = root[1] = sqrt(1.0 / f->m + f->x * f->x / f->J_t);
-    for (int i = 0; i < RIM; i++) root[2 + i] = sqrt(mobility[i]);
-    x[0] = (v->y + v->gamma * f->x) / root[0], x[1] = (v->z - v->beta * f->x) / root[1];
-    for (int i = 2; i < SQUEEZE; i++) x[i] = root[i] > 0.0 ? rim[i - 2] / root[i] : 0.0;
-    for (int i = 0; i < SQUEEZE; i++)
+    double A[SQUEEZE_TERMS], x[SQUEEZE], inv_D[SQUEEZE];
+    for (int i = 0; i < SQUEEZE; i++) {
+        x[i] = root[i] > 0.0 ? u[i] / root[i] : 0.0;
         for (int k = 0; k <= i; k++)
-            A[SQUEEZE_AT(i, k)] = gamma * root[i] * root[k] * film->rate[SQUEEZE_AT(i, k)] + (i == k);
+            A[SQUEEZE_AT(i, k)] = gamma * root[i] * root[k] * rate[SQUEEZE_AT(i, k)] + (i == k);
+    }
 
     // A = L D L^T, x = A^-1 x
-    double inv_D[SQUEEZE];
     for (int i = 0; i < SQUEEZE; i++) {
         for (int k = 1; k < i; k++)
             for (int q = 0; q < k; q++) A[SQUEEZE_AT(i, k)] -= A[SQUEEZE_AT(i, q)] * A[SQUEEZE_AT(k, q)];
@@ -83,17 +86,31 @@ INLINE void half_bent_solve(const HalfFilm *f, const LandFilm *film, double gamm
         x[i] *= inv_D[i];
         for (int k = i + 1; k < SQUEEZE; k++) x[i] -= A[SQUEEZE_AT(k, i)] * x[k];
     }
-
     for (int i = 0; i < SQUEEZE; i++) {
         impulse[i] = 0.0;
         for (int k = 0; k < SQUEEZE; k++)
-            impulse[i] += gamma * film->rate[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * root[k] * x[k];
+            impulse[i] += gamma * rate[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * root[k] * x[k];
     }
-    v->y -= impulse[0] / f->m;
-    v->z -= impulse[1] / f->m;
-    v->gamma -= f->x * impulse[0] / f->J_t;
-    v->beta += f->x * impulse[1] / f->J_t;
-    for (int i = 0; i < RIM; i++) rim[i] -= mobility[i] * impulse[2 + i];
+}
+
+// S of a half's land and rim.
+INLINE void squeeze_roots(const HalfFilm *f, const double mobility[RIM], double root[SQUEEZE])
+{
+    root[0] = root[1] = sqrt(1.0 / f->m + f->x * f->x / f->J_t);
+    for (int i = 0; i < RIM; i++) root[2 + i] = sqrt(mobility[i]);
+}
+
+// The same of a film on a bent rim: v and the velocities of its shapes, whose mobilities are given; on return the impulses on
+// these.
+INLINE void half_bent_solve(const HalfFilm *f, const LandFilm *film, double gamma, const double mobility[RIM],
+                            HalfVelocity *v, double rim[RIM])
+{
+    double root[SQUEEZE], impulse[SQUEEZE], u[SQUEEZE] = {v->y + v->gamma * f->x, v->z - v->beta * f->x};
+    memcpy(&u[2], rim, RIM * sizeof *rim);
+    squeeze_roots(f, mobility, root);
+    squeeze_impulse(film->rate, gamma, root, u, impulse);
+    half_push_land(f, impulse[0], impulse[1], v);
+    memcpy(rim, &impulse[2], RIM * sizeof *rim);
     v->s /= 1.0 + f->spin;
 }
 
