@@ -110,7 +110,6 @@ void cage_predict(const Model *model, const Work *w, const CageStep *step, const
         y[Y_MODE_S_DOT + i] += 0.5 * step->substep * step->foreseen.modes[i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, NULL, y);
     push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
-    push_rims(model, -1.0, step->rim_removed[0], &y[Y_MODE_S_DOT]);
 }
 
 void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
@@ -137,33 +136,14 @@ void cage_foreseen(const Model *model, const CageStep *step, double gamma, doubl
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) v[Y_CAGE_V_X + i] += gamma * step->foreseen.halves[i];
 }
 
-void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v, double rim[2][RIM])
+void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v)
 {
     for (int h = 0; h < 2; h++) {
         HalfVelocity half = half_velocity_load(v, h);
         const HalfFilm f = half_film(model, &film[h], h, gamma);
-        if (film[h].bent)
-            half_bent_solve(&f, &film[h], gamma, model->modes->mobility, &half, rim[h]);
-        else {
-            half_film_solve(&f, &half);
-            memset(rim[h], 0, sizeof rim[h]);
-        }
+        half_film_solve(&f, &half);
         half_velocity_store(&half, v, h);
     }
-}
-
-void cage_rim_new(const Model *model, double h, const double *f, const double *jerk, double h_0,
-                  const CageMemory *memory, double rim[2][RIM])
-{
-    double now[2][RIM], change[2][RIM];
-    rim_motions(model, &f[Y_MODE_S_DOT], now);
-    rim_motions(model, &jerk[Y_MODE_S_DOT], change);
-    for (int half = 0; half < 2; half++)
-        for (int i = 0; i < RIM; i++) {
-            const double mobility = model->modes->mobility[i], a = now[half][i] + mobility * memory->rim[half][i];
-            const double before = a - h_0 * (change[half][i] + mobility * memory->rim_jerk[half][i]);
-            rim[half][i] = h * (a - (a * before <= 0.0 ? 0.0 : fabs(a) < fabs(before) ? a : before));
-        }
 }
 
 void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step, double *v)
@@ -178,9 +158,11 @@ static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm 
     const double *mobility = model->modes->mobility, gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
     const double u_y = half->y + half->gamma * f->x, u_z = half->z - half->beta * f->x;
     double root[SQUEEZE], residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
-    for (int i = 0; i < RIM; i++)
-        residual[2 + i] = gamma * step->rim_lack[h][i] + mobility[i] * step->rim_removed[h][i];
-    squeeze_roots(f, mobility, root);
+    root[0] = root[1] = sqrt(1.0 / f->m + f->x * f->x / f->J_t);
+    for (int i = 0; i < RIM; i++) {
+        root[2 + i] = sqrt(mobility[i]);
+        residual[2 + i] = gamma * step->rim_lack[h][i];
+    }
     land_film_solve(model, w, h, gamma, root, residual, &step->bent[h]);
     const double *impulse = step->bent[h].impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1], half);
@@ -218,7 +200,6 @@ void cage_finish(const Model *model, const CageStep *step, const CageMemory *bef
     for (int i = 0; i < 2 * N_MODES; i++)
         y[Y_MODE_S_DOT + i] += gamma * (f_end[Y_MODE_S_DOT + i] - step->foreseen.modes[i]);
     push_rims(model, gamma, change[0], &y[Y_MODE_S_DOT]);
-    push_rims(model, 1.0, step->rim_removed[0], &y[Y_MODE_S_DOT]);
 }
 
 // h^2 G'' of the forces on the rims' shapes over two steps that may differ in length; second: h^2 over their mean.
@@ -227,33 +208,6 @@ static void rim_forces_bend(const CageMemory *before, const CageMemory *memory, 
 {
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++) rim[h][i] = second * (memory->rim_jerk[h][i] - before->rim_jerk[h][i]);
-}
-
-void cage_rim_second(const Model *model, const Work *w, double h, double h_0, const double *f,
-                     const double *jerk, const CageMemory *before, const double *f_end,
-                     const CageMemory *memory, double rim[2][RIM])
-{
-    memset(rim, 0, 2 * RIM * sizeof(double));
-    if (!w->film[0].bent && !w->film[1].bent) return;
-    const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
-    double difference[2 * N_MODES], forces[2][RIM];
-    for (int i = 0; i < 2 * N_MODES; i++) {
-        const int k = Y_MODE_S_DOT + i;
-        difference[i] = second * ((f_end[k] - f[k]) * inv_h - jerk[k]);
-    }
-    rim_motions(model, difference, rim);
-    rim_forces_bend(before, memory, second, forces);
-    for (int half = 0; half < 2; half++)
-        for (int i = 0; i < RIM; i++) rim[half][i] += model->modes->mobility[i] * forces[half][i];
-}
-
-void cage_smooth(double part, double h, double rim[2][RIM], CageMemory *memory)
-{
-    for (int half = 0; half < 2; half++)
-        for (int i = 0; i < RIM; i++) {
-            memory->rim[half][i] -= part * rim[half][i];
-            memory->rim_jerk[half][i] -= part * rim[half][i] / h;
-        }
 }
 
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,

@@ -78,9 +78,8 @@ typedef struct {
     double gamma;       // half of the step [s]
     double substep;     // length of the substeps [s], 0 without any
     double axial, shear;
-    // bent rims, by half: impulses on their shapes that the predictor leaves out [N.s]; what the accelerations foreseen lack
-    // at the end [m/s2]; the solution
-    double rim_removed[2][RIM], rim_lack[2][RIM];
+    // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2]; the solution there
+    double rim_lack[2][RIM];
     BentSolution bent[2];
 } CageStep;
 
@@ -109,15 +108,9 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
 #define cage_foreseen FOR_ISA(cage_foreseen)
 void cage_foreseen(const Model *model, const CageStep *step, double gamma, double *v);
 
-// v = (1 + gamma A)^-1 v of the halves' velocities by films of the given rates alone.  rim: likewise the velocities of the rims'
-// shapes; on return the impulses on them.
+// v = (1 + gamma A)^-1 v of the halves' velocities by films of the given rates alone.
 #define cage_films FOR_ISA(cage_films)
-void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v, double rim[2][RIM]);
-
-// What is new of the change of the shapes' velocities of bent rims over a step h, by their rates at its start and before.
-#define cage_rim_new FOR_ISA(cage_rim_new)
-void cage_rim_new(const Model *model, double h, const double *f, const double *jerk, double h_0,
-                  const CageMemory *memory, double rim[2][RIM]);
+void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v);
 
 // v = (1 + gamma^2 K)^-1 v with the joints' stiffness across the axis, a factor of the matrix of its own.
 #define cage_shear FOR_ISA(cage_shear)
@@ -144,21 +137,11 @@ void cage_remember(const Model *model, double h, double h_0, const double *f, co
                    const CageMemory *before, const double *y, double *f_end, double *jerk_end,
                    const CageMemory *memory, double *error);
 
-// Second difference of the accelerations of the rims' shapes.
-#define cage_rim_second FOR_ISA(cage_rim_second)
-void cage_rim_second(const Model *model, const Work *w, double h, double h_0, const double *f,
-                     const double *jerk, const CageMemory *before, const double *f_end,
-                     const CageMemory *memory, double rim[2][RIM]);
-
-// Takes a part of forces on the rims' shapes from those of the films and their history.
-#define cage_smooth FOR_ISA(cage_smooth)
-void cage_smooth(double part, double h, double rim[2][RIM], CageMemory *memory);
-
 // The longest step that the cage bears from a state with these films and of this mass [s].
-double cage_longest_step(const Model *model, double film[2][SQUEEZE_TERMS]);
+double cage_longest_step(const Model *model, double film[2][3]);
 
 // The step of a fixed length [s]: of elastic halves the longest one, with the films of the start.
-double cage_fixed_step(const Model *model, double film[2][SQUEEZE_TERMS]);
+double cage_fixed_step(const Model *model, double film[2][3]);
 
 // Whether steps can have made the memory.
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p);

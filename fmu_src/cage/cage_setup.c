@@ -53,7 +53,7 @@ void cage_rest(const Model *model, double omega, double *y)
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
 // that it has three substeps at most.  Films of the rate A, which the substeps leave out, allow 1/A, or two substeps,
 // which are always stable.
-double cage_longest_step(const Model *model, double film[2][SQUEEZE_TERMS])
+double cage_longest_step(const Model *model, double film[2][3])
 {
     if (!model->modes) return INFINITY;
     const double d = model->modes->substep;
@@ -64,7 +64,7 @@ double cage_longest_step(const Model *model, double film[2][SQUEEZE_TERMS])
 // A ball touches its pocket for 70 to 100 us; a tenth of that resolves the pulse.
 static const double TENTH_OF_A_PULSE = 1e-5;
 
-double cage_fixed_step(const Model *model, double film[2][SQUEEZE_TERMS])
+double cage_fixed_step(const Model *model, double film[2][3])
 {
     return fmin(cage_longest_step(model, film), TENTH_OF_A_PULSE);
 }

@@ -113,8 +113,12 @@ static void clearance(const Model *model, Event *event)
 // Equal steps beyond the length that the films of the present state allow; their own length may differ by rounding.
 static void steps(const Model *model, const Work *w, double step, Event *event)
 {
-    double film[2][SQUEEZE_TERMS];
-    for (int land = 0; land < 2; land++) memcpy(film[land], w->film[land].rate, sizeof film[land]);
+    double film[2][3];
+    for (int land = 0; land < 2; land++) {
+        film[land][0] = w->film[land].yy;
+        film[land][1] = w->film[land].yz;
+        film[land][2] = w->film[land].zz;
+    }
     add(event, 0, step * (1.0 - 1e-9), cage_longest_step(model, film));
 }
 

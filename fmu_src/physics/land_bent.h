@@ -85,8 +85,8 @@ INLINE wide bent_gap(wide x, double g_0)
 // Sums over the points.  Forces are those that close, -F.
 enum {
     BENT_FILM,
-    BENT_RATES = BENT_FILM + SQUEEZE,
-    BENT_COUETTE = BENT_RATES + SQUEEZE_TERMS,  // int dtheta/h
+    BENT_RATES = BENT_FILM + SQUEEZE,  // yy, yz, zz
+    BENT_COUETTE = BENT_RATES + 3,     // int dtheta/h
     BENT_ROUGH,                                 // int of the load of asperities, and times n
     BENT_DRY = BENT_ROUGH + 3,                  // of the dry contact: forces, loads without and with damping,
     BENT_N_0 = BENT_DRY + SQUEEZE,
@@ -122,12 +122,11 @@ INLINE void bent_film(const Model *model, const LandPressure *on, wide gap, wide
     sum[BENT_COUETTE] += per_C;
     if (!wide_any(wide_above(W, 0.0))) return;
     const wide rate = wide_select(wide_above(W, 0.0), stiff, zero), load = rate * W;
-    for (int i = 0; i < SQUEEZE; i++) {
-        const wide by = rate * b[i];
-        sum[BENT_FILM + i] += load * b[i];
-        for (int k = 0; k <= i; k++)
-            sum[BENT_RATES + SQUEEZE_AT(i, k)] = wide_fma(by, b[k], sum[BENT_RATES + SQUEEZE_AT(i, k)]);
-    }
+    for (int i = 0; i < SQUEEZE; i++) sum[BENT_FILM + i] += load * b[i];
+    const wide by_y = rate * b[0];
+    sum[BENT_RATES] += by_y * b[0];
+    sum[BENT_RATES + 1] += by_y * b[1];
+    sum[BENT_RATES + 2] += rate * b[1] * b[1];
     if (p->scene.lubrication != LUBRICATION_MIXED) return;
     const wide thin = wide_set(on->C / model->d->C_land) * open;
     const wide rough = load * traction_asperity_share(model->d->ln_land + wide_log(thin));

@@ -43,7 +43,6 @@
 // narrowest gap.  The gap is that of round lands: the bending does not change the film (docs/notes/bent_rims.md).
 #include "physics/land_film.h"
 
-#include "cage/common/films.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 #include "physics/land_bent.h"
@@ -315,6 +314,14 @@ INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar
     force->spin = R * R * g * all;
 }
 
+// Rates yy, yz, zz along other axes: T^T D T.
+INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
+{
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k <= i; k++)
+            to[i + k] = T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
+}
+
 // The film of half h becomes, by on->part, that of its bent rim; on entry `force`, w->film and w->pressure are those of the round
 // land.
 INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at, scalar couette,
@@ -337,13 +344,10 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
         on->rim_V[i] = on->rim_v[i] - turn * on->rim[i + 1];
         on->rim_V[i + 1] = on->rim_v[i + 1] + turn * on->rim[i];
     }
-    for (int i = 0; i < 2; i++) {
-        on->round_film[i] = on->film[i];
-        for (int k = 0; k <= i; k++)
-            on->round_rate[SQUEEZE_AT(i, k)] =
-                T[i][0] * (film->rate[0] * T[k][0] + film->rate[1] * T[k][1]) +
-                T[i][1] * (film->rate[1] * T[k][0] + film->rate[2] * T[k][1]);
-    }
+    const scalar round[3] = {film->yy, film->yz, film->zz};
+    scalar back[2][2] = {{T[0][0], T[1][0]}, {T[0][1], T[1][1]}};
+    turn_rates(back, round, on->round_rate);
+    for (int i = 0; i < 2; i++) on->round_film[i] = on->film[i];
     bent_sums(model, on, sum);
 
     // forces and friction
@@ -370,19 +374,11 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
     }
     bend_one(part, sum[BENT_N], &on->dry);
 
-    // rates, y and z along the outer ring's axes
-    const scalar *D = &sum[BENT_RATES];
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k <= i; k++)
-            bend_one(part,
-                     T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]),
-                     &film->rate[SQUEEZE_AT(i, k)]);
-    for (int i = 2; i < SQUEEZE; i++) {
-        for (int k = 0; k < 2; k++)
-            film->rate[SQUEEZE_AT(i, k)] =
-                part * (D[SQUEEZE_AT(i, 0)] * T[0][k] + D[SQUEEZE_AT(i, 1)] * T[1][k]);
-        for (int k = 2; k <= i; k++) film->rate[SQUEEZE_AT(i, k)] = part * D[SQUEEZE_AT(i, k)];
-    }
+    scalar rate[3];
+    turn_rates(T, &sum[BENT_RATES], rate);
+    bend_one(part, rate[0], &film->yy);
+    bend_one(part, rate[1], &film->yz);
+    bend_one(part, rate[2], &film->zz);
     film->bent = true;
 }
 
@@ -452,7 +448,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
                            wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
                            wide_lane(stored, i),
                            wide_lane(stored_rate, i)};
-        w->film[h] = (LandFilm){.rate = {wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i)}};
+        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0, false};
         LandPressure *on = &w->pressure[h];
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
         land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
@@ -550,6 +546,40 @@ INLINE void squeeze_times(const double D[SQUEEZE_TERMS], const double x[SQUEEZE]
     }
 }
 
+// Impulse gamma C S (1 + gamma S C S)^-1 S^-1 u of a film of the rates C on land and rim, S^2 their mobilities.
+static void squeeze_impulse(const double rate[SQUEEZE_TERMS], double gamma, const double root[SQUEEZE],
+                            const double u[SQUEEZE], double impulse[SQUEEZE])
+{
+    double A[SQUEEZE_TERMS], x[SQUEEZE], inv_D[SQUEEZE];
+    for (int i = 0; i < SQUEEZE; i++) {
+        x[i] = root[i] > 0.0 ? u[i] / root[i] : 0.0;
+        for (int k = 0; k <= i; k++)
+            A[SQUEEZE_AT(i, k)] = gamma * root[i] * root[k] * rate[SQUEEZE_AT(i, k)] + (i == k);
+    }
+
+    // A = L D L^T, x = A^-1 x
+    for (int i = 0; i < SQUEEZE; i++) {
+        for (int k = 1; k < i; k++)
+            for (int q = 0; q < k; q++) A[SQUEEZE_AT(i, k)] -= A[SQUEEZE_AT(i, q)] * A[SQUEEZE_AT(k, q)];
+        for (int k = 0; k < i; k++) {
+            const double l = A[SQUEEZE_AT(i, k)] * inv_D[k];
+            A[SQUEEZE_AT(i, i)] -= l * A[SQUEEZE_AT(i, k)];
+            A[SQUEEZE_AT(i, k)] = l;
+            x[i] -= l * x[k];
+        }
+        inv_D[i] = 1.0 / A[SQUEEZE_AT(i, i)];
+    }
+    for (int i = SQUEEZE - 1; i >= 0; i--) {
+        x[i] *= inv_D[i];
+        for (int k = i + 1; k < SQUEEZE; k++) x[i] -= A[SQUEEZE_AT(k, i)] * x[k];
+    }
+    for (int i = 0; i < SQUEEZE; i++) {
+        impulse[i] = 0.0;
+        for (int k = 0; k < SQUEEZE; k++)
+            impulse[i] += gamma * rate[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * root[k] * x[k];
+    }
+}
+
 static const int MOST_ITERATIONS = 8;      // of Newton's method on a film that is linear but for its ends
 static const double CONVERGED = 1e-3;      // difference of law and solution, part of the force
 
@@ -605,8 +635,8 @@ double land_film_arrive(double gamma, const BentSolution solved[2], Work *w)
         const Rotor *half = &w->half[h];
         LandPressure *on = &w->pressure[h];
         LandFilm *film = &w->film[h];
-        const double *change = solved[h].change, *D = solved[h].rate;
-        const double T[2][2] = {{half->b_y[1], half->b_y[2]}, {half->b_z[1], half->b_z[2]}};
+        const double *change = solved[h].change;
+        double T[2][2] = {{half->b_y[1], half->b_y[2]}, {half->b_z[1], half->b_z[2]}};
         for (int i = 0; i < SQUEEZE; i++) {
             const double v = i < 2 ? on->v[i] : on->rim_v[i - 2];
             power += solved[h].film[i] * (v + change[i]) - on->film[i] * v;
@@ -617,15 +647,9 @@ double land_film_arrive(double gamma, const BentSolution solved[2], Work *w)
             on->V[i] += change[i];
         }
         for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];
-        for (int i = 0; i < 2; i++)
-            for (int k = 0; k <= i; k++)
-                film->rate[SQUEEZE_AT(i, k)] =
-                    T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
-        for (int i = 2; i < SQUEEZE; i++) {
-            for (int k = 0; k < 2; k++)
-                film->rate[SQUEEZE_AT(i, k)] = D[SQUEEZE_AT(i, 0)] * T[0][k] + D[SQUEEZE_AT(i, 1)] * T[1][k];
-            for (int k = 2; k <= i; k++) film->rate[SQUEEZE_AT(i, k)] = D[SQUEEZE_AT(i, k)];
-        }
+        double rate[3];
+        turn_rates(T, solved[h].rate, rate);
+        film->yy = rate[0], film->yz = rate[1], film->zz = rate[2];
     }
     return power;
 }

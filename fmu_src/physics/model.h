@@ -247,10 +247,10 @@ typedef struct {
     scalar F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
-// ---- rates of the film of one land, -dF/dv [N.s/m], y and z along the outer ring's axes, the rim's shapes in the half's
-// frame, and -dM/domega [N.m.s]; bent: whether the rim's rows are not 0; written by land_film_force ---------------------
+// ---- rates of the film of one land, -dF/dv [N.s/m] and -dM/domega [N.m.s]; whether it bends the rim; written by
+// land_film_force ---------------------------------------------------------------------------------------------
 typedef struct {
-    scalar rate[SQUEEZE_TERMS], spin;
+    scalar yy, yz, zz, spin;
     bool bent;
 } LandFilm;
 

@@ -329,12 +329,11 @@ double implicit_spring_power(const Work *w, double gamma, const double *v)
 
 // ---- cage halves ------------------------------------------------------------------------------------------
 
-static void stiff_part_of_halves(const Model *model, const Work *w, double gamma, double *v,
-                                 double rim[2][RIM])
+static void stiff_part_of_halves(const Model *model, const Work *w, double gamma, double *v)
 {
     double kept[N_STATES];
     memcpy(&kept[Y_CAGE_V_X], &v[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *v);
-    cage_films(model, w->film, gamma, kept, rim);
+    cage_films(model, w->film, gamma, kept);
     for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) v[i] -= kept[i];
 }
 
@@ -460,9 +459,9 @@ void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *s
     cage_solve(model, w, gamma, step, v);
 }
 
-void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v, double rim[2][RIM])
+void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)
 {
     stiff_part_of_balls(model, w, gamma, v);
-    stiff_part_of_halves(model, w, gamma, v, rim);
+    stiff_part_of_halves(model, w, gamma, v);
     stiff_part_of_ring(model, gamma, v);
 }

@@ -16,4 +16,4 @@ double implicit_spring_power(const Work *w, double gamma, const double *v);
 
 // v = v - (1 + gamma A)^-1 v: the part of v that friction and damping take away within a time gamma.  A has
 // no normal forces and no joints; of a ball whose rates are below 2/gamma the result is 0.
-void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v, double rim[2][RIM]);
+void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v);

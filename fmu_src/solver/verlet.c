@@ -67,22 +67,12 @@ static void advance_positions(const Model *model, double h, const VerletState *f
     cage_advance(model, h, from->y, from->f, &from->cage, middle, y, step, w);
 }
 
-// The film that a state remembers, without its spin.
-static LandFilm film_of(const double rate[SQUEEZE_TERMS])
-{
-    LandFilm film = {.bent = false};
-    memcpy(film.rate, rate, sizeof film.rate);
-    for (int i = 2; i < SQUEEZE; i++) film.bent = film.bent || rate[SQUEEZE_AT(i, i)] > 0.0;
-    return film;
-}
-
 // Limits the predictor of the cage velocities: writes what is taken from h a_n into `removed`.  A land film
 // is stiff when closing and almost free when opening, so extrapolating with a_n would throw a half off the
 // film on which the half rests.  The part of h a_n that is new since the last step, h (a_n - minmod(a_n, a_{n-1})),
 // is therefore damped implicitly with the film matrix at the step's start; the part that both accelerations
 // share is steady and stays.
-static void predictor_limiter(const Model *model, double h, const VerletState *from, double *removed,
-                              double rim[2][RIM])
+static void predictor_limiter(const Model *model, double h, const VerletState *from, double *removed)
 {
     // What is new: minmod is the smaller of two accelerations of the same sign, else 0.
     double kept[N_STATES];
@@ -95,10 +85,8 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
     // The part that the films leave of it, (1 + h A)^-1 of the films alone, without their spin.
     LandFilm film[2];
     for (int land = 0; land < 2; land++)
-        film[land] = film_of(from->film[land]);
-    memset(rim, 0, 2 * RIM * sizeof(double));
-    if (film[0].bent || film[1].bent) cage_rim_new(model, h, from->f, from->jerk, from->h, &from->cage, rim);
-    cage_films(model, film, h, kept, rim);
+        film[land] = (LandFilm){from->film[land][0], from->film[land][1], from->film[land][2], 0.0, false};
+    cage_films(model, film, h, kept);
     for (int i = CAGE; i < CAGE_END; i++) removed[i] -= kept[i];
 }
 
@@ -135,13 +123,16 @@ static void correct_positions(const Model *model, double gamma, const double *de
 // The films at the step's end, for the next step's predictor.
 static void remember_films(const Work *w, VerletState *to)
 {
-    for (int land = 0; land < 2; land++) memcpy(to->film[land], w->film[land].rate, sizeof to->film[land]);
+    for (int land = 0; land < 2; land++) {
+        const double film[3] = {w->film[land].yy, w->film[land].yz, w->film[land].zz};
+        memcpy(to->film[land], film, sizeof film);
+    }
 }
 
 // Accelerations, jerks and errors of the velocities.  The trapezoidal rule's own leading error is h^3 a''/12,
 // and h^2 a'' is the second difference of the accelerations over this step and the last.
 static void remember_velocities(const Model *model, const Work *w, double h, const VerletState *from,
-                                const double *delta, VerletState *to, double *error, double rim[2][RIM])
+                                const double *delta, VerletState *to, double *error)
 {
     const double gamma = 0.5 * h, inv_gamma = 1.0 / gamma, inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h);
     const double second = h * h * inv_span, *f = from->f;
@@ -155,8 +146,7 @@ static void remember_velocities(const Model *model, const Work *w, double h, con
 
     // Stiff accelerations give up a part of their second difference, which is of the order of the method's
     // own error.
-    cage_rim_second(model, w, h, from->h, f, from->jerk, &from->cage, to->f, &to->cage, rim);
-    implicit_stiff_part(model, w, gamma, second_difference, rim);
+    implicit_stiff_part(model, w, gamma, second_difference);
     for (int i = VELOCITY; i < N_STATES; i++) {
         to->f[i] = f[i] + delta[i] * inv_gamma - SMOOTHING * second_difference[i];
         to->jerk[i] = (to->f[i] - f[i]) * inv_h;
@@ -234,7 +224,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     advance_positions(model, h, from, y, &cage, w);
-    predictor_limiter(model, h, from, removed, cage.rim_removed);
+    predictor_limiter(model, h, from, removed);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
     cage_predict(model, w, &cage, &from->cage, y);
@@ -273,13 +263,11 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // History for the next step, and the error: positions and the work have none of their own.
     for (int i = 0; i < FRICTION; i++) error[i] = 0.0;
     error[Y_WORK] = 0.0;
-    cage_finish(model, &cage, &from->cage, y, to->f, &to->cage);
-    double rim[2][RIM];
-    remember_velocities(model, w, h, from, delta, to, error, rim);
+    remember_velocities(model, w, h, from, delta, to, error);
     remember_friction(h, from, to, error);
     to->h = h;
+    cage_finish(model, &cage, &from->cage, y, to->f, &to->cage);
     cage_remember(model, h, from->h, f, from->jerk, &from->cage, y, to->f, to->jerk, &to->cage, error);
-    cage_smooth(SMOOTHING, h, rim, &to->cage);
     const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;
     return ops->wrms_norm(error, weight);
 }
