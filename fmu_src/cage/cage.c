@@ -195,19 +195,10 @@ void cage_finish(const Model *model, const CageStep *step, const CageMemory *bef
         for (int i = 0; i < RIM; i++) {
             memory->rim[h][i] -= step->bent[h].impulse[2 + i] / gamma;
             change[h][i] = memory->rim[h][i] - before->rim[h][i];
-            memory->rim_jerk[h][i] = change[h][i] / (2.0 * gamma);
         }
     for (int i = 0; i < 2 * N_MODES; i++)
         y[Y_MODE_S_DOT + i] += gamma * (f_end[Y_MODE_S_DOT + i] - step->foreseen.modes[i]);
     push_rims(model, gamma, change[0], &y[Y_MODE_S_DOT]);
-}
-
-// h^2 G'' of the forces on the rims' shapes over two steps that may differ in length; second: h^2 over their mean.
-static void rim_forces_bend(const CageMemory *before, const CageMemory *memory, double second,
-                            double rim[2][RIM])
-{
-    for (int h = 0; h < 2; h++)
-        for (int i = 0; i < RIM; i++) rim[h][i] = second * (memory->rim_jerk[h][i] - before->rim_jerk[h][i]);
 }
 
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
@@ -217,9 +208,8 @@ void cage_correct(const Model *model, const Work *w, double gamma, const CageSte
 }
 
 void cage_remember(const Model *model, double h, double h_0, const double *restrict f,
-                   const double *restrict jerk, const CageMemory *before, const double *restrict y,
-                   double *restrict f_end, double *restrict jerk_end, const CageMemory *memory,
-                   double *restrict error)
+                   const double *restrict jerk, const double *restrict y, double *restrict f_end,
+                   double *restrict jerk_end, double *restrict error)
 {
     if (!model->modes) return;
     const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
@@ -228,9 +218,6 @@ void cage_remember(const Model *model, double h, double h_0, const double *restr
         jerk_end[i] = change * inv_h;
         error[i] = (h / 12.0) * (second * (jerk_end[i] - jerk[i]));
     }
-    double rim[2][RIM];
-    rim_forces_bend(before, memory, second, rim);
-    push_rims(model, h / 12.0, rim[0], &error[Y_MODE_S_DOT]);
     memcpy(&f_end[Y_MODE_S], &y[Y_MODE_S_DOT], 2 * N_MODES * sizeof *error);
     memset(&jerk_end[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);
     memset(&error[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);

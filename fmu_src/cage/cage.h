@@ -23,8 +23,7 @@
 typedef struct {
     TwoHalfMemory path;
     FastState fast;
-    // forces on the shapes of both bent rims by their films [N] and the change of these over the last step / its length
-    double rim[2][RIM], rim_jerk[2][RIM];
+    double rim[2][RIM];  // forces on the shapes of both bent rims [N]
 } CageMemory;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------
@@ -134,8 +133,7 @@ void cage_finish(const Model *model, const CageStep *step, const CageMemory *bef
 // the step before.
 #define cage_remember FOR_ISA(cage_remember)
 void cage_remember(const Model *model, double h, double h_0, const double *f, const double *jerk,
-                   const CageMemory *before, const double *y, double *f_end, double *jerk_end,
-                   const CageMemory *memory, double *error);
+                   const double *y, double *f_end, double *jerk_end, double *error);
 
 // The longest step that the cage bears from a state with these films and of this mass [s].
 double cage_longest_step(const Model *model, double film[2][3]);

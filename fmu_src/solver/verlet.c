@@ -267,7 +267,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_friction(h, from, to, error);
     to->h = h;
     cage_finish(model, &cage, &from->cage, y, to->f, &to->cage);
-    cage_remember(model, h, from->h, f, from->jerk, &from->cage, y, to->f, to->jerk, &to->cage, error);
+    cage_remember(model, h, from->h, f, from->jerk, y, to->f, to->jerk, error);
     const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;
     return ops->wrms_norm(error, weight);
 }
