@@ -93,6 +93,7 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     step->substep = step->axial = step->shear = 0.0;
     memset(step->rim_lack, 0, sizeof step->rim_lack);
     memset(step->bent, 0, sizeof step->bent);
+    memset(step->squeeze, 0, sizeof step->squeeze);
     if (!model->modes) {
         two_half_advance(model, h, &memory->path, w, y);
         return;
@@ -125,6 +126,7 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
         lack[i] = f[Y_MODE_S_DOT + i] - step->foreseen.modes[i] +
                   last * (memory->fast.modes[i] - before->fast.modes[i]);
     rim_motions(model, lack, step->rim_lack);
+    memcpy(step->squeeze, before->squeeze, sizeof step->squeeze);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++)
             step->rim_lack[h][i] += model->modes->mobility[i] * (memory->rim[h][i] - before->rim[h][i]);
@@ -163,7 +165,7 @@ static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm 
         root[2 + i] = sqrt(mobility[i]);
         residual[2 + i] = gamma * step->rim_lack[h][i];
     }
-    land_film_solve(model, w, h, gamma, root, residual, &step->bent[h]);
+    land_film_solve(model, w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
     const double *impulse = step->bent[h].impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1], half);
     half->s /= 1.0 + f->spin;
@@ -189,6 +191,7 @@ void cage_finish(const Model *model, const CageStep *step, const CageMemory *bef
                  const double *f_end, CageMemory *memory)
 {
     if (!model->modes) return;
+    memcpy(memory->squeeze, step->squeeze, sizeof memory->squeeze);
     const double gamma = step->gamma;
     double change[2][RIM];
     for (int h = 0; h < 2; h++)

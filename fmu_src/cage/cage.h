@@ -24,6 +24,7 @@ typedef struct {
     TwoHalfMemory path;
     FastState fast;
     double rim[2][RIM];  // forces on the shapes of both bent rims [N]
+    double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
 } CageMemory;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------
@@ -78,7 +79,7 @@ typedef struct {
     double substep;     // length of the substeps [s], 0 without any
     double axial, shear;
     // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2]; the solution there
-    double rim_lack[2][RIM];
+    double rim_lack[2][RIM], squeeze[2][SQUEEZE];
     BentSolution bent[2];
 } CageStep;
 

@@ -580,49 +580,44 @@ static void squeeze_impulse(const double rate[SQUEEZE_TERMS], double gamma, cons
     }
 }
 
-static const int MOST_ITERATIONS = 8;      // of Newton's method on a film that is linear but for its ends
-static const double CONVERGED = 1e-3;      // difference of law and solution, part of the force
+static const int MOST_ITERATIONS = 8;  // of Newton's method on a film that is linear but for its ends
+static const double CONVERGED = 3e-2;  // part of the velocities that its last step may change
 
 void land_film_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
-                     const double residual[SQUEEZE], BentSolution *to)
+                     const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to)
 {
     const LandPressure *on = &w->pressure[h];
     BentGrid grid;
     bent_grid(model, on, &grid);
-    double V[SQUEEZE], D[SQUEEZE_TERMS], F[SQUEEZE], free[SQUEEZE], round[SQUEEZE_TERMS] = {0.0};
-    memcpy(V, on->V, sizeof on->V);
-    memcpy(&V[2], on->rim_V, sizeof on->rim_V);
+    double start[SQUEEZE], D[SQUEEZE_TERMS], F[SQUEEZE], free[SQUEEZE], round[SQUEEZE_TERMS] = {0.0};
+    memcpy(start, on->V, sizeof on->V);
+    memcpy(&start[2], on->rim_V, sizeof on->rim_V);
     for (int i = 0; i < 3; i++) round[i] = (1.0 - on->part) * on->round_rate[i];
-    for (int i = 0; i < SQUEEZE; i++) {
-        free[i] = residual[i] - gamma * root[i] * root[i] * on->film[i];
-        to->change[i] = 0.0;
-        to->film[i] = on->film[i];
-    }
+    for (int i = 0; i < SQUEEZE; i++) free[i] = start[i] + residual[i] - gamma * root[i] * root[i] * on->film[i];
     for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
-        // the law at the present velocities
-        double at[SQUEEZE], by_round[SQUEEZE], off = 0.0, size = 0.0;
-        for (int i = 0; i < SQUEEZE; i++) at[i] = V[i] + to->change[i];
-        bent_law(&grid, at, F, D);
+        // the law at the velocities V
+        double by_round[SQUEEZE];
+        bent_law(&grid, V, F, D);
+        for (int i = 0; i < SQUEEZE; i++) to->change[i] = V[i] - start[i];
         squeeze_times(round, to->change, by_round);
-        for (int i = 0; i < SQUEEZE; i++) {
+        for (int i = 0; i < SQUEEZE; i++)
             F[i] = on->part * F[i] + (1.0 - on->part) * (i < 2 ? on->round_film[i] : 0.0) - by_round[i];
-            off += fabs(F[i] - to->film[i]);
-            size += fabs(F[i]);
-        }
         for (int i = 0; i < SQUEEZE_TERMS; i++) to->rate[i] = on->part * D[i] + round[i];
-        if (iteration > 0 && off <= CONVERGED * size) break;
 
         // Newton's step
-        double rest[SQUEEZE], impulse[SQUEEZE], step[SQUEEZE], resisted[SQUEEZE];
-        for (int i = 0; i < SQUEEZE; i++)
-            rest[i] = free[i] + gamma * root[i] * root[i] * F[i] - to->change[i];
+        double rest[SQUEEZE], impulse[SQUEEZE], step[SQUEEZE], resisted[SQUEEZE], most = 0.0, size = 0.0;
+        for (int i = 0; i < SQUEEZE; i++) rest[i] = free[i] + gamma * root[i] * root[i] * F[i] - V[i];
         squeeze_impulse(to->rate, gamma, root, rest, impulse);
         for (int i = 0; i < SQUEEZE; i++) step[i] = rest[i] - root[i] * root[i] * impulse[i];
         squeeze_times(to->rate, step, resisted);
         for (int i = 0; i < SQUEEZE; i++) {
+            V[i] += step[i];
             to->change[i] += step[i];
             to->film[i] = F[i] - resisted[i];
+            most = fmax(most, fabs(step[i]));
+            size = fmax(size, fabs(V[i]));
         }
+        if (most <= CONVERGED * size) break;
     }
     for (int i = 0; i < SQUEEZE; i++) to->impulse[i] = gamma * (on->film[i] - to->film[i]);
 }

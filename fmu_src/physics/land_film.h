@@ -37,7 +37,7 @@ typedef struct {
 // Solves the implicit step of half h for its land and bent rim: the velocities change by the residual with the film's force at the
 // evaluation, and root^2 gamma times what the law has at the end beyond it.  The Python reference has no twin of this.
 void land_film_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
-                     const double residual[SQUEEZE], BentSolution *to);
+                     const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to);
 
 // Velocities, films and rates of bent rims become those of a step's end; returns what the films' power is more there, less
 // the part of it on the halves' bodies that is of the second order in the changes.
