@@ -483,3 +483,34 @@ INLINE scalar ball_array_sum(const scalar *v)
     for (int j = WHOLE; j < Z; j++) part[j - WHOLE] += v[j];
     return (part[0] + part[1]) + (part[2] + part[3]);
 }
+
+// Partial sums over eight lanes, for a sum in one order for every lane width.
+enum { EIGHTHS = 8 / LANE_WIDTH };
+
+// Sums of the first n columns of eight lanes, x[packet][column]: ((0 + 1) + (2 + 3)) + ((4 + 5) + (6 + 7)) of each.
+INLINE void wide_column_sums(int n, int columns, const wide *x, scalar *sum)
+{
+    int first = 0;
+#if defined(__AVX512F__) && LANE_WIDTH == 8 && !defined(DUAL)
+    const __m512i even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    for (; first + 8 <= n; first += 8) {
+        __m512d two[4], four[2];
+        for (int i = 0; i < 4; i++) {
+            const __m512d a = (__m512d)x[first + 2 * i], b = (__m512d)x[first + 2 * i + 1];
+            two[i] = _mm512_add_pd(_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
+        }
+        for (int i = 0; i < 2; i++)
+            four[i] = _mm512_add_pd(_mm512_permutex2var_pd(two[2 * i], even, two[2 * i + 1]),
+                                    _mm512_permutex2var_pd(two[2 * i], odd, two[2 * i + 1]));
+        const __m512d all = _mm512_add_pd(_mm512_shuffle_f64x2(four[0], four[1], 0x44),
+                                          _mm512_shuffle_f64x2(four[0], four[1], 0xee));
+        _mm512_storeu_pd(&sum[first], all);
+    }
+#endif
+    for (; first < n; first++) {
+        scalar part[8];
+        for (int i = 0; i < EIGHTHS; i++) wide_store(&part[i * LANE_WIDTH], x[i * columns + first]);
+        sum[first] =
+            ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    }
+}

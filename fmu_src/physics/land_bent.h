@@ -96,8 +96,6 @@ enum {
     BENT_SUMS
 };
 
-enum { BENT_PARTS = 8 / LANE_WIDTH };  // partial sums: one order for every lane width
-
 // Adds those of the dry contact at a packet of points.
 INLINE void bent_dry(const Parameters *p, const LandPressure *on, wide stiffness, wide pen, wide weight,
                      const wide b[SQUEEZE], wide sum[BENT_SUMS])
@@ -142,22 +140,21 @@ INLINE void bent_sums(const Model *model, const LandPressure *on, scalar total[B
     const BentPoints points = bent_points(on);
     const scalar step = 2.0 * PI / BENT_POINTS;
     const wide stiffness = wide_set(0.75 * model->p->cage.K_land * scalar_sqrt(0.5 * on->C));
-    wide sum[BENT_PARTS][BENT_SUMS];
-    for (int i = 0; i < BENT_PARTS; i++)
+    wide sum[EIGHTHS][BENT_SUMS];
+    bool dry = false;
+    for (int i = 0; i < EIGHTHS; i++)
         for (int n = 0; n < BENT_SUMS; n++) sum[i][n] = wide_set(0.0);
     for (int first = 0; first < BENT_POINTS; first += 8)
-        for (int i = 0; i < BENT_PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             wide b[SQUEEZE];
             const wide weight = step * bent_shapes(d, &points, first + i * LANE_WIDTH, b);
             const wide gap = wide_set(on->C) - bent_dot(on->e, on->rim, b);
             bent_film(model, on, gap, weight, b, sum[i]);
-            if (wide_any(wide_above(-gap, 0.0)))
-                bent_dry(model->p, on, stiffness, wide_max(-gap, wide_set(0.0)), weight, b, sum[i]);
+            if (!wide_any(wide_above(-gap, 0.0))) continue;
+            bent_dry(model->p, on, stiffness, wide_max(-gap, wide_set(0.0)), weight, b, sum[i]);
+            dry = true;
         }
-    for (int n = 0; n < BENT_SUMS; n++) {
-        scalar part[8];
-        for (int i = 0; i < BENT_PARTS; i++) wide_store(&part[i * LANE_WIDTH], sum[i][n]);
-        total[n] =
-            ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-    }
+    memset(total, 0, BENT_SUMS * sizeof *total);
+    const bool rough = model->p->scene.lubrication == LUBRICATION_MIXED;
+    wide_column_sums(dry ? BENT_SUMS : rough ? BENT_DRY : BENT_ROUGH, BENT_SUMS, sum[0], total);
 }

@@ -192,16 +192,6 @@ INLINE void add_harmonics(wide along, wide across, wide weight, wide re[LAND_HAR
     }
 }
 
-// Sum over the points of a film in one order for every lane width: eight partial sums.
-enum { LAND_PARTS = 8 / LANE_WIDTH };
-
-INLINE scalar sum_points(wide sum[LAND_PARTS][LAND_HARMONICS], int p)
-{
-    scalar part[8];
-    for (int i = 0; i < LAND_PARTS; i++) wide_store(&part[i * LANE_WIDTH], sum[i][p]);
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
 // Harmonics of the load on a round rim.
 INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
 {
@@ -213,11 +203,11 @@ INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
     const wide eps = wide_set(scalar_sqrt(scalar_max(1.0 - inside, 1e-30)));
     const wide q = wide_set(scalar_sqrt(scalar_max(inside, 1e-30)));
     const wide u_0 = wide_set(u[0]), u_1 = wide_set(u[1]), n_0 = wide_set(n[0]), n_1 = wide_set(n[1]);
-    wide re[LAND_PARTS][LAND_HARMONICS], im[LAND_PARTS][LAND_HARMONICS];
-    for (int i = 0; i < LAND_PARTS; i++)
+    wide re[EIGHTHS][LAND_HARMONICS], im[EIGHTHS][LAND_HARMONICS];
+    for (int i = 0; i < EIGHTHS; i++)
         for (int p = 0; p < LAND_HARMONICS; p++) re[i][p] = im[i][p] = wide_set(0.0);
     for (int first = 0; first < LAND_POINTS; first += 8)
-        for (int i = 0; i < LAND_PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             const int m = first + i * LANE_WIDTH;
             const wide c_psi = wide_load(&d->land_cos[m]), s_psi = wide_load(&d->land_sin[m]);
             const wide one = 1.0 + eps * c_psi, inv = 1.0 / one;
@@ -227,12 +217,10 @@ INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
             if (!wide_any(wide_above(closing, 0.0))) continue;
             add_harmonics(along, across, closing * one * one, re[i], im[i]);
         }
-    const scalar raw_re = sum_points(re, 1), raw_im = sum_points(im, 1);
-    const scalar size = -force / scalar_sqrt(raw_re * raw_re + raw_im * raw_im + 1e-30);
-    for (int p = 0; p < LAND_HARMONICS; p++) {
-        load->re[p] = size * sum_points(re, p);
-        load->im[p] = size * sum_points(im, p);
-    }
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, re[0], load->re);
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
+    const scalar size = -force / scalar_sqrt(load->re[1] * load->re[1] + load->im[1] * load->im[1] + 1e-30);
+    for (int p = 0; p < LAND_HARMONICS; p++) load->re[p] *= size, load->im[p] *= size;
     if (scalar_value(dry) == 0.0) return;
     const scalar twice = 2.0 * u[0];
     scalar c_0 = -dry, c_1 = -dry * u[0], s_0 = 0.0, s_1 = -dry * u[1];
@@ -250,26 +238,39 @@ INLINE void bent_load(const Model *model, const LandPressure *on, LandLoad *load
     const Derived *d = model->d;
     const BentPoints points = bent_points(on);
     const wide inv_C = wide_set(1.0 / on->C), none = wide_set(0.0);
-    wide re[2][LAND_PARTS][LAND_HARMONICS], im[2][LAND_PARTS][LAND_HARMONICS];  // film, dry contact
-    memset(re, 0, sizeof re);
-    memset(im, 0, sizeof im);
+    wide film_re[EIGHTHS][LAND_HARMONICS], film_im[EIGHTHS][LAND_HARMONICS];
+    wide dry_re[EIGHTHS][LAND_HARMONICS], dry_im[EIGHTHS][LAND_HARMONICS];
+    LandLoad by_dry;
+    const bool dry = scalar_value(on->dry) > 0.0;
+    memset(film_re, 0, sizeof film_re);
+    memset(film_im, 0, sizeof film_im);
+    if (dry) {
+        memset(dry_re, 0, sizeof dry_re);
+        memset(dry_im, 0, sizeof dry_im);
+    }
     for (int first = 0; first < BENT_POINTS; first += 8)
-        for (int i = 0; i < LAND_PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             wide b[SQUEEZE];
             const wide weight = bent_shapes(d, &points, first + i * LANE_WIDTH, b);
             const wide gap = (wide_set(on->C) - bent_dot(on->e, on->rim, b)) * inv_C;
             const wide open = bent_gap(gap, model->p->cage.g_0), W = bent_dot(on->V, on->rim_V, b);
             const wide film = weight * wide_max(W, none) / (open * open * open);
-            const wide dry = weight * wide_max(-gap, none);
-            if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, re[0][i], im[0][i]);
-            if (wide_any(wide_above(dry, 0.0))) add_harmonics(b[0], b[1], dry, re[1][i], im[1][i]);
+            if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, film_re[i], film_im[i]);
+            if (dry) add_harmonics(b[0], b[1], weight * wide_max(-gap, none), dry_re[i], dry_im[i]);
         }
-    const scalar F_y = sum_points(re[0], 1), F_z = sum_points(im[0], 1), F_2 = F_y * F_y + F_z * F_z + 1e-30;
-    const scalar film = on->part * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) / F_2;
-    const scalar dry = on->part * on->dry / (sum_points(re[1], 0) + 1e-30);
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, film_re[0], load->re);
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, film_im[0], load->im);
+    const scalar F_y = load->re[1], F_z = load->im[1];
+    const scalar size = -on->part * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) /
+                        (F_y * F_y + F_z * F_z + 1e-30);
+    for (int p = 0; p < LAND_HARMONICS; p++) load->re[p] *= size, load->im[p] *= size;
+    if (!dry) return;
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, dry_re[0], by_dry.re);
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, dry_im[0], by_dry.im);
+    const scalar bed = -on->part * on->dry / (by_dry.re[0] + 1e-30);
     for (int p = 0; p < LAND_HARMONICS; p++) {
-        load->re[p] = -film * sum_points(re[0], p) - dry * sum_points(re[1], p);
-        load->im[p] = -film * sum_points(im[0], p) - dry * sum_points(im[1], p);
+        load->re[p] += bed * by_dry.re[p];
+        load->im[p] += bed * by_dry.im[p];
     }
 }
 
@@ -510,12 +511,13 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQU
 {
     enum { FORCES = 0, RATES = SQUEEZE, ALL = SQUEEZE + SQUEEZE_TERMS };
 
-    wide sum[BENT_PARTS][ALL];
-    for (int i = 0; i < BENT_PARTS; i++)
+    wide sum[EIGHTHS][ALL];
+    double total[ALL];
+    for (int i = 0; i < EIGHTHS; i++)
         for (int n = 0; n < ALL; n++) sum[i][n] = wide_set(0.0);
     for (int n = 0; n < BENT_POINTS / LANE_WIDTH; n++) {
         const wide *b = grid->b[n], W = bent_dot(V, V + 2, b);
-        wide *to = sum[n % BENT_PARTS];
+        wide *to = sum[n % EIGHTHS];
         if (!wide_any(wide_above(W, 0.0))) continue;
         const wide rate = wide_select(wide_above(W, 0.0), grid->stiff[n], wide_set(0.0)), load = rate * W;
         for (int i = 0; i < SQUEEZE; i++) {
@@ -525,16 +527,9 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQU
                 to[RATES + SQUEEZE_AT(i, k)] = wide_fma(by, b[k], to[RATES + SQUEEZE_AT(i, k)]);
         }
     }
-    for (int n = 0; n < ALL; n++) {
-        double part[8];
-        for (int i = 0; i < BENT_PARTS; i++) wide_store(&part[i * LANE_WIDTH], sum[i][n]);
-        const double all =
-            ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-        if (n < RATES)
-            F[n] = -all;
-        else
-            D[n - RATES] = all;
-    }
+    wide_column_sums(ALL, ALL, sum[0], total);
+    for (int i = 0; i < SQUEEZE; i++) F[i] = -total[FORCES + i];
+    memcpy(D, &total[RATES], SQUEEZE_TERMS * sizeof *D);
 }
 
 // y = D x of a symmetric matrix.
