@@ -142,18 +142,20 @@ INLINE void bent_sums(const Model *model, const LandPressure *on, scalar total[B
     const wide stiffness = wide_set(0.75 * model->p->cage.K_land * scalar_sqrt(0.5 * on->C));
     wide sum[EIGHTHS][BENT_SUMS];
     bool dry = false;
-    for (int i = 0; i < EIGHTHS; i++)
-        for (int n = 0; n < BENT_SUMS; n++) sum[i][n] = wide_set(0.0);
-    for (int first = 0; first < BENT_POINTS; first += 8)
-        for (int i = 0; i < EIGHTHS; i++) {
+    for (int part = 0; part < EIGHTHS; part++) {
+        wide to[BENT_SUMS];
+        for (int n = 0; n < BENT_SUMS; n++) to[n] = wide_set(0.0);
+        for (int m = part * LANE_WIDTH; m < BENT_POINTS; m += 8) {
             wide b[SQUEEZE];
-            const wide weight = step * bent_shapes(d, &points, first + i * LANE_WIDTH, b);
+            const wide weight = step * bent_shapes(d, &points, m, b);
             const wide gap = wide_set(on->C) - bent_dot(on->e, on->rim, b);
-            bent_film(model, on, gap, weight, b, sum[i]);
+            bent_film(model, on, gap, weight, b, to);
             if (!wide_any(wide_above(-gap, 0.0))) continue;
-            bent_dry(model->p, on, stiffness, wide_max(-gap, wide_set(0.0)), weight, b, sum[i]);
+            bent_dry(model->p, on, stiffness, wide_max(-gap, wide_set(0.0)), weight, b, to);
             dry = true;
         }
+        memcpy(sum[part], to, sizeof to);
+    }
     memset(total, 0, BENT_SUMS * sizeof *total);
     const bool rough = model->p->scene.lubrication == LUBRICATION_MIXED;
     wide_column_sums(dry ? BENT_SUMS : rough ? BENT_DRY : BENT_ROUGH, BENT_SUMS, sum[0], total);

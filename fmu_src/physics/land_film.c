@@ -513,19 +513,24 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQU
 
     wide sum[EIGHTHS][ALL];
     double total[ALL];
-    for (int i = 0; i < EIGHTHS; i++)
-        for (int n = 0; n < ALL; n++) sum[i][n] = wide_set(0.0);
-    for (int n = 0; n < BENT_POINTS / LANE_WIDTH; n++) {
-        const wide *b = grid->b[n], W = bent_dot(V, V + 2, b);
-        wide *to = sum[n % EIGHTHS];
-        if (!wide_any(wide_above(W, 0.0))) continue;
-        const wide rate = wide_select(wide_above(W, 0.0), grid->stiff[n], wide_set(0.0)), load = rate * W;
-        for (int i = 0; i < SQUEEZE; i++) {
-            const wide by = rate * b[i];
-            to[FORCES + i] += load * b[i];
-            for (int k = 0; k <= i; k++)
-                to[RATES + SQUEEZE_AT(i, k)] = wide_fma(by, b[k], to[RATES + SQUEEZE_AT(i, k)]);
+    for (int part = 0; part < EIGHTHS; part++) {
+        wide to[ALL];
+        for (int n = 0; n < ALL; n++) to[n] = wide_set(0.0);
+        for (int n = part; n < BENT_POINTS / LANE_WIDTH; n += EIGHTHS) {
+            const wide *b = grid->b[n], W = bent_dot(V, V + 2, b);
+            const bits closing = wide_above(W, 0.0);
+            if (!wide_any(closing)) continue;
+            const wide rate = wide_select(closing, grid->stiff[n], wide_set(0.0)), load = rate * W;
+#pragma GCC unroll 6
+            for (int i = 0; i < SQUEEZE; i++) {
+                const wide by = rate * b[i];
+                to[FORCES + i] += load * b[i];
+#pragma GCC unroll 6
+                for (int k = 0; k <= i; k++)
+                    to[RATES + SQUEEZE_AT(i, k)] = wide_fma(by, b[k], to[RATES + SQUEEZE_AT(i, k)]);
+            }
         }
+        memcpy(sum[part], to, sizeof to);
     }
     wide_column_sums(ALL, ALL, sum[0], total);
     for (int i = 0; i < SQUEEZE; i++) F[i] = -total[FORCES + i];
