@@ -16,11 +16,12 @@ from whole_half import SMALL, whole
 from bearing_model.cage.cage import cage_kinematics
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_preload, cage_elastic_speed_2
 from bearing_model.cage.elastic.elastic_half import ROOT, joints_out, mode_order
-from bearing_model.cage.elastic.elastic_lands import answers, felt_part, static_changes
+from bearing_model.cage.elastic.elastic_lands import answers, static_changes
 from bearing_model.cage.elastic.half_modes import EVEN, OUT, land_shapes
 from bearing_model.cage.two_half.half_path import at_rivets, by_waves, land_harmonics, land_path_rows
 from bearing_model.generated.variables import STATE_SLICES, CageModel, Switch, Z
 from bearing_model.physics.derived import default_table
+from bearing_model.physics.land_bent import bent_part
 from bearing_model.physics.land_film import LAND_HIGHEST, land_film_force, land_film_loads
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import rhs
@@ -259,14 +260,11 @@ def test_faint_films_are_left_out():
     P = np.full(Z, 40.0)
 
     def part(percent):
-        load = percent * 1e-2 * P.sum()
-        return float(
-            felt_part(SimpleNamespace(force=np.array([1.5, 0.3]) * load, dry=np.array([0.0, 0.2]) * load), P)[0]
-        )
+        return float(bent_part(SimpleNamespace(P=P), percent * 1e-2 * P.sum()))
 
     assert [part(x) for x in (0.0, 0.99, 1.0, 1.5, 2.0, 30.0)] == pytest.approx([0, 0, 0, 0.5, 1, 1], abs=1e-12)
     assert part(1.0 + 1e-4) < 1e-7 and 1.0 - part(2.0 - 1e-4) < 1e-7
-    assert felt_part(SimpleNamespace(force=np.ones(2), dry=np.zeros(2)), 0.0 * P)[0] == 1.0  # loose joints
+    assert bent_part(SimpleNamespace(P=0.0 * P), 1.0) == 1.0  # loose joints
 
 
 def film_on_spinning_joints(part):

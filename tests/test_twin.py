@@ -12,8 +12,6 @@ from mechanics import SLICE, Instance, Z
 from other_bearing import BUILD
 from ribbon import RIBBON
 
-from bearing_model.cage.elastic.cage_elastic import cage_elastic_preload, cage_elastic_speed_2
-from bearing_model.cage.elastic.elastic_lands import felt_part
 from bearing_model.generated import variables
 from bearing_model.instance.energy import energy_total
 from bearing_model.instance.statistics import StatisticsChannel
@@ -452,16 +450,15 @@ def test_films_that_the_rivets_feel(core, percent, felt):
     model, y_start, _ = start_of("elastic")
     y, w, t = random_states(model, y_start, np.random.default_rng(6), 1)[0], Work(), 3e-4
     rhs(model, 0.0, y, w)
-    load = 0.5 * np.sum(w.pressure.force + w.pressure.dry)
-    grown = cage_elastic_preload(model, cage_elastic_speed_2(w)) - model.d.P
-    parameters = scene | {"joint.preload": float(load / (1e-2 * percent * Z) - np.mean(grown))}
+    load = np.hypot(*w.pressure.film)[0]  # of half 0, not yet bent or nearly so
+    parameters = scene | {"joint.preload": float(load / (1e-2 * percent * Z))}
     found = Instance(core, parameters, inputs).step(t)
     np.frombuffer(core.ffi.buffer(core.lib.part_state(found.bearing), y.nbytes))[:] = y
     model = after_a_step(parameters, inputs, t)
     expected = observe(model, t, y, 0.0)["rivet[k].sigma_head"]
     np.testing.assert_allclose(found.output("rivet.sigma_head"), expected, rtol=1e-9)
-    P = cage_elastic_preload(model, cage_elastic_speed_2(w))
-    assert felt_part(w.pressure, P)[0] == pytest.approx(felt, abs=1e-6)
+    rhs(model, t, y, w)
+    assert w.pressure.part[0] == pytest.approx(felt, abs=1e-6)
 
 
 def test_outputs_at_the_start(core):

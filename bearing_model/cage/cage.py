@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearing_model.cage.common.cage_joint import cage_joint_kinematics
-from bearing_model.cage.common.films import N_HALVES, film_matrix, film_rates
+from bearing_model.cage.common.films import HALF, N_HALVES, film_matrix, film_rates
 from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
 from bearing_model.cage.common.pocket_spheres import spheres_elastic, spheres_energy, spheres_rigid
@@ -65,6 +65,7 @@ from bearing_model.generated.variables import (
 from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_energy, hertz_load
+from bearing_model.physics.land_bent import bent_solve
 from bearing_model.physics.rotor import rotor_roll
 
 ROW_DP = 5
@@ -77,17 +78,24 @@ class CageMemory:
 
     path: TwoHalfMemory = None
     fast: FastState = None
+    # forces on the shapes of both bent rims by their films [2, 4] and squeeze velocities of their lands and shapes [2, 6]
+    rim: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
+    squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
 
 
 @dataclass
 class CageStep:
     """Between the stages of a step: slow accelerations at the end as the halves' own substeps foresee them, of the modes
-    [2, n] and of the halves [12]; length of the substeps [s], 0 without any.
+    [2, n] and of the halves [12]; length of the substeps [s], 0 without any; what the accelerations foreseen of the shapes of bent
+    rims lack at the end [2, 4]; their squeeze velocities [2, 6] and impulses of the films [2, 6].
     """
 
     modes: np.ndarray = 0.0
     halves: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
     substep: float = 0.0
+    rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
+    squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
+    impulse: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
 
 
 # ------------------------------------------------------------------------------------------------------------ parameters
@@ -178,9 +186,13 @@ def cage_split(model, y, w, f):
     """Separates the part that the cage advances by itself from the rates f at the state y, where w was evaluated; returns
     it as CageMemory.
     """
-    if model.modes:
-        return CageMemory(fast=cage_substeps_split(model, y, w, f))
-    return CageMemory(path=two_half_remember(w))
+    if not model.modes:
+        return CageMemory(path=two_half_remember(w))
+    memory = CageMemory(fast=cage_substeps_split(model, y, w, f))
+    if bent_halves(w).any():
+        memory.rim = np.where(bent_halves(w)[:, None], w.pressure.rim_force.T, 0.0)
+        add_rates(model, -rim_modes(model, memory.rim), f)
+    return memory
 
 
 def cage_advance(model, h, y_0, f, memory, middle, y, w):
@@ -193,25 +205,90 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
     if not model.modes:
         two_half_advance(model, h, memory.path, w, y)
         return CageStep()
+    add_rates(model, 0.5 * h * rim_modes(model, memory.rim), y)
     substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, y, w)
     return CageStep(modes, halves.ravel(), substep)
 
 
-def cage_predict(model, w, step, memory, y):
+def cage_predict(model, gamma, w, step, memory, y):
     """Predicted velocities in y for the evaluation at the end."""
     if model.modes:
         add_rates(model, 0.5 * step.substep * step.modes, y)
         cage_substeps_finish(model, w, step.substep, memory.fast, None, y)
+        add_rates(model, gamma * rim_modes(model, memory.rim), y)
 
 
-def cage_arrive(model, w, step, before, y, f):
+def cage_arrive(model, gamma, w, step, before, y, f):
     """After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
     the last substep.  Returns the CageMemory.
     """
     memory = cage_split(model, y, w, f)
     if model.modes:
         cage_substeps_finish(model, w, step.substep, memory.fast, before.fast, y)
+        if bent_halves(w).any():
+            n = model.modes.n
+            lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
+            lack = lack + 0.5 * step.substep / gamma * (memory.fast.modes - before.fast.modes)
+            step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.rim - before.rim)
+            step.squeeze = before.squeeze.copy()
     return memory
+
+
+def rim_motions(model, modes):
+    """Motions of both rims' shapes [2, 4] by coordinates S and D [2, n]."""
+    S, D = modes @ model.modes.rim
+    return np.array([S - D, S + D]) / np.sqrt(2.0)
+
+
+def rim_modes(model, force):
+    """Accelerations of S and D [2, n] by forces on both rims' shapes [2, 4]."""
+    f_0, f_1 = force @ model.modes.rim.T / (np.sqrt(2.0) * model.p.cage.m)
+    return np.array([f_1 + f_0, f_1 - f_0])
+
+
+def bent_halves(w):
+    """Which rims their films bend [2]."""
+    return np.zeros(2, dtype=bool) if not w.pressure else np.ravel(np.real(w.pressure.part)) > 0.0
+
+
+def cage_bent_solve(model, gamma, w, step, residual, delta):
+    """The velocities of halves with bent rims in delta [12] by the residual: land and rim together, the law at the step's end.
+
+    The films become those of the end; returns what the power that they take is less there, without the part of the second order
+    on the halves' bodies.
+    """
+    p, d, less = model.p, model.d, 0.0
+    for h in np.flatnonzero(bent_halves(w)):
+        on, half, spin = w.pressure.of(h), w.half[h], float(w.film[h].spin[0])
+        for name in vars(on):
+            value = getattr(on, name)
+            setattr(on, name, None if value is None else np.squeeze(value))
+        x = (2 * h - 1) * p.cage.land_x - d.com_x[h]
+        B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
+        axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
+        mobility = np.append(np.full(2, 1.0 / p.cage.m + x * x / d.J_t), model.modes.mobility)
+        start = np.concatenate([axes @ B @ residual[HALF[:, h]], gamma * step.rim_lack[h]])
+        solved = bent_solve(p, on, gamma, mobility, start, step.squeeze[h])
+        inertia = np.array([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p])
+        change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia
+        change[5] /= 1.0 + gamma * spin / d.J_p
+        delta[HALF[:, h]] = change
+        step.squeeze[h], step.impulse[h] = solved.V, solved.impulse
+        v = np.concatenate([on.v, on.rim_v])
+        less += solved.film @ (v + solved.change) - on.film @ v - solved.change[:2] @ solved.impulse[:2] / gamma
+        rates = axes.T @ solved.rates @ axes
+        w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))
+    return less
+
+
+def cage_finish(model, gamma, step, before, y, end):
+    """Velocities of the modes at the end, with the forces of the films on bent rims there."""
+    if model.modes:
+        n, memory = model.modes.n, end.cage
+        memory.rim = memory.rim - step.impulse[:, 2:] / gamma
+        memory.squeeze = step.squeeze
+        rates = np.array([end.f[MODE_S_DOT][:n], end.f[MODE_D_DOT][:n]])
+        add_rates(model, gamma * (rates - step.modes + rim_modes(model, memory.rim - before.rim)), y)
 
 
 def cage_foreseen(step):
@@ -244,14 +321,12 @@ def cage_correct(model, w, gamma, axial, shear, delta, y):
         two_half_correct(model, w, gamma, axial, shear, delta, y)
 
 
-def cage_remember(model, step, h, second, start, end, error):
+def cage_remember(model, h, second, start, end, error):
     """Rates of the modes at the end of a step from `start` to `end` (VerletState), their history and their error; second:
     h^2 over the mean of the last two steps.
     """
     if not model.modes:
         return
-    n = model.modes.n
-    add_rates(model, 0.5 * h * (np.array([end.f[block][:n] for block in (MODE_S_DOT, MODE_D_DOT)]) - step.modes), end.y)
     end.jerk[RATES] = (end.f - start.f)[RATES] / h
     error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0

@@ -35,7 +35,7 @@ the film's force; Sommerfeld's substitution from the narrowest gap,
     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 
 spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the narrowest
-gap. The gap is that of round lands: the bending does not change the film (docs/notes/bent_rims.md).
+gap of a round land.  Of elastic halves the bending changes the film: land_bent.py.
 """
 
 from dataclasses import dataclass
@@ -46,6 +46,7 @@ import numpy as np
 from bearing_model.generated.variables import Lubrication, Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
 from bearing_model.numbers.vec import vec_cross, vec_dot
+from bearing_model.physics.land_bent import bent_dot, bent_grid, bent_part, bent_sums
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
@@ -163,17 +164,90 @@ class LandPressure:
 
     e: np.ndarray  # eccentricity along the half's axes [2, ..., half] [m]
     V: np.ndarray  # pure squeeze velocity likewise [m/s]
-    cap: np.ndarray  # limiter of the eccentricity over the clearance [1/m]
-    q2: np.ndarray  # gap function
-    kappa: np.ndarray  # [N.s/m]
-    force: np.ndarray  # size of the film's force [N]
+    film: np.ndarray  # force of the film there [2, ..., half] [N]; of bent rims with that on the shapes [6, ..., half]
     dry: np.ndarray  # load of the dry contact [N]
+    part: np.ndarray  # part of the film that bends the rim
+    # of bent rims: clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], motion of the rim's shapes [m], its velocity and
+    # squeeze velocity [m/s], forces on them [N]; forces and rates of the round land
+    C: np.ndarray = None
+    kappa_C3: np.ndarray = None
+    v: np.ndarray = None
+    rim: np.ndarray = None
+    rim_v: np.ndarray = None
+    rim_V: np.ndarray = None
+    rim_force: np.ndarray = None
+    round_film: np.ndarray = None
+    round_rate: np.ndarray = None
+
+    def of(self, h):
+        """That of one half."""
+        values = {name: None if x is None else np.asarray(x)[..., h] for name, x in vars(self).items()}
+        return LandPressure(**values)
 
 
-def land_film_loads(w):
-    """Harmonics of the loads on the rims [N] by the pressure, two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
+def land_film_loads(model, w):
+    """Harmonics of the part of the loads that bends the rims [N], two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
     on = w.pressure
-    return land_load(on.e, on.V, on.q2 + 0.0 * on.force, on.force, on.dry)
+    b, weight, x, gap = bent_grid(model.p, on)
+    film = weight * maximum(bent_dot(np.concatenate([on.V, on.rim_V]), b), 0.0) / gap**3
+    dry, waves = weight * maximum(-x, 0.0), harmonics_at(b[0], b[1])
+    G, B = ([np.sum(load[..., None] * wave, axis=-2) for wave in waves] for load in (film, dry))
+    F_y, F_z = G[0][..., 1], G[1][..., 1]
+    size = -on.part * maximum(-(on.film[0] * F_y + on.film[1] * F_z), 0.0) / (F_y * F_y + F_z * F_z + 1e-30)
+    bed = -on.part * on.dry / (B[0][..., 0] + 1e-30)
+    return tuple(size[..., None] * by_film + bed[..., None] * by_dry for by_film, by_dry in zip(G, B, strict=True))
+
+
+def turn_rates(T, D):
+    """Rates yy, yz, zz along other axes: T^T D T."""
+    return np.einsum("ik...,ij...,jl...->kl...", T, D, T)
+
+
+def land_bend(model, w, on, T, motion, couette, force):
+    """The films become, by on.part, those of bent rims; on entry `force`, w.film and on are those of the round lands.
+
+    T: from the outer ring's axes to the halves' [2, 2, ..., half]; motion: velocities (y, z) and speed of the lands against the
+    outer ring; force: what the lands do to their halves.
+    """
+    p, part, (v_y, v_z, omega) = model.p, on.part, motion
+    v = np.array([v_y + 0.0 * part, v_z + 0.0 * part])
+    on.v = np.einsum("ik...,k...->i...", T, v)
+    on.rim, on.rim_v = (
+        np.moveaxis(np.concatenate([q @ model.modes.rim for q in both], axis=-2), -1, 0)
+        for both in (w.elastic.q, w.elastic.q_dot)
+    )
+    turn = 0.5 * omega * np.array([2.0, 3.0]).reshape(2, *[1] * part.ndim)
+    on.rim_V = on.rim_v + 0.0 * part
+    on.rim_V[0::2] -= turn * on.rim[1::2]
+    on.rim_V[1::2] += turn * on.rim[0::2]
+    on.round_film, on.round_rate = on.film, turn_rates(np.swapaxes(T, 0, 1), force.rates)
+    sums = bent_sums(model, on)
+
+    # friction of dry contact and asperities, in a direction as that of a round land
+    R, back = 0.5 * p.cage.D_o, np.swapaxes(T, 0, 1)
+    along = np.einsum("ki...,i...->k...", back, sums.along)
+    size = np.sqrt(along[0] ** 2 + along[1] ** 2 + 1e-30)
+    u_y, u_z = along / size
+    slip = v_z * u_y - v_y * u_z + omega * R
+    g = p.cage.mu_land / np.sqrt(slip * slip + p.cage.v_c**2)
+    torque = couette * model.d.C_land * (0.5 / np.pi) * sums.couette
+    F = np.einsum("ki...,i...->k...", back, sums.film[:2] + sums.dry[:2]) + g * slip * size * np.array([u_z, -u_y])
+    bent = {
+        "F_y": F[0],
+        "F_z": F[1],
+        "M_x": -R * g * slip * sums.rubbing - torque * omega,
+        "N_0": sums.N_0,
+        "spin": R * R * g * sums.rubbing + torque,
+        "stored": sums.stored,
+        "stored_rate": sums.stored_rate,
+        "rates": turn_rates(T, sums.rates[:2, :2]),
+    }
+    for name, value in bent.items():
+        before = getattr(force, name)
+        setattr(force, name, before + part * (value - before))
+    on.film = np.concatenate([on.film + part * (sums.film[:2] - on.film), part * sums.film[2:]])
+    on.rim_force = on.film[2:] + part * sums.dry[2:]
+    on.dry = on.dry + part * (sums.N - on.dry)
 
 
 def no_land(w):
@@ -221,7 +295,7 @@ def land_film_force(model, w):
     film = journal_film((e_y, e_z), (V_y, V_z), cap, q2, kappa)
     F_y, F_z = film.force(V_y, V_z)
     couette = d.couette * heated / np.sqrt(q2) * narrow
-    force = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
+    by_film, size = (F_y, F_z), np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
 
     # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
     # film force too
@@ -241,23 +315,42 @@ def land_film_force(model, w):
     F_z = F_z - N * u_z + F_t * u_y
     M_x = R * F_t - couette * omega
 
-    power = F_y * v_y + F_z * v_z + M_x * omega
-    w.land_elastic = ball_array_sum(hertz_energy(p.cage.K_land, pen))
-    w.land_growth = N_0 * land_growth_rate(d, spin)
-    w.land_dissipated = -ball_array_sum(power + N_0 * pen_dot)
+    axes = wide_pair(h0.b_y, h1.b_y), wide_pair(h0.b_z, h1.b_z)
+    T = np.array([[vec_dot(outer_axis, axis_of) for outer_axis in (outer.b_y, outer.b_z)] for axis_of in axes])
+    e_h, V_h, film_h = (
+        np.einsum("ik...,k...->i...", T, np.array([y + 0.0 * e, z + 0.0 * e]))
+        for y, z in ((e_y, e_z), (V_y, V_z), by_film)
+    )
+    yy, yz, zz = (rate + 0.0 * e for rate in film.rates().values())
+    does = SimpleNamespace(
+        F_y=F_y,
+        F_z=F_z,
+        M_x=M_x,
+        N_0=N_0,
+        spin=couette + g * R * R,
+        stored=hertz_energy(p.cage.K_land, pen),
+        stored_rate=N_0 * pen_dot,
+        rates=np.array([[yy, yz], [yz, zz]]),
+    )
+    w.land, on_rim, part = None, 0.0, 0.0 * e
+    w.pressure = on = LandPressure(e_h, V_h, film_h, N, part)
+    if model.modes:
+        on.C, on.kappa_C3, on.part = C + 0.0 * e, kappa * C**3 + 0.0 * e, bent_part(d, size + N)
+        if np.any(np.real(on.part) > 0.0):
+            land_bend(model, w, on, T, (v_y, v_z, omega), heated * d.couette, does)
+            on_rim = np.sum(on.rim_force * on.rim_v, axis=0)
+    else:
+        w.land = land_load(e_h, V_h, q2 + 0.0 * e, size, N)
 
-    rates = film.rates() | {"spin": couette + g * R * R}
+    power = does.F_y * v_y + does.F_z * v_z + does.M_x * omega + on_rim
+    w.land_elastic = ball_array_sum(does.stored)
+    w.land_growth = does.N_0 * land_growth_rate(d, spin)
+    w.land_dissipated = -ball_array_sum(power + does.stored_rate)
+    rates = {"yy": does.rates[0, 0], "yz": does.rates[0, 1], "zz": does.rates[1, 1], "spin": does.spin}
     w.film = [SimpleNamespace(**{name: rate[..., h : h + 1] for name, rate in rates.items()}) for h in range(2)]
 
-    axes = wide_pair(h0.b_y, h1.b_y), wide_pair(h0.b_z, h1.b_z)
-    e_h, V_h = (
-        [vec_dot(y * outer.b_y + z * outer.b_z, axis_of) for axis_of in axes] for y, z in ((e_y, e_z), (V_y, V_z))
-    )
-    w.pressure = LandPressure(np.array(e_h), np.array(V_h), cap, q2, kappa, force, N)
-    w.land = None if model.modes else land_load(e_h, V_h, q2 + 0.0 * e, force, N)
-
-    F = F_y * outer.b_y + F_z * outer.b_z
-    M = M_x * outer.a + vec_cross(x_land * axis, F)
+    F = does.F_y * outer.b_y + does.F_z * outer.b_z
+    M = does.M_x * outer.a + vec_cross(x_land * axis, F)
     for h, half in enumerate(w.half):
         half.F = half.F + F[..., h : h + 1]
         half.M = half.M + M[..., h : h + 1]

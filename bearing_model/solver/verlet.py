@@ -21,9 +21,11 @@ from bearing_model.cage.cage import (
     CageMemory,
     cage_advance,
     cage_arrive,
+    cage_bent_solve,
     cage_correct,
     cage_film_matrices,
     cage_films,
+    cage_finish,
     cage_foreseen,
     cage_longest_step,
     cage_matrices,
@@ -316,9 +318,9 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
     (y, cage, middle), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
     y[V] += gamma * a - removed
-    cage_predict(model, middle, cage, start.cage, y)
-    end = VerletState(y, rhs(model, t + h, y, w), film=cage_film_matrices(w), h=h)
-    end.cage = cage_arrive(model, w, cage, start.cage, y, end.f)
+    cage_predict(model, gamma, middle, cage, start.cage, y)
+    end = VerletState(y, rhs(model, t + h, y, w), h=h)
+    end.cage = cage_arrive(model, gamma, w, cage, start.cage, y, end.f)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     foreseen = np.zeros(N_V)
@@ -326,7 +328,10 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     b, residual = blocks(model, t + h, y, w, gamma), removed + gamma * (end.f[V] - a - foreseen)
     residual = np.linalg.solve(np.eye(N_V) + gamma**2 * b.K_shear, residual)
     delta = np.linalg.solve(b.matrix(gamma), residual)
-    end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta)
+    power = cage_bent_solve(model, gamma, w, cage, residual[CAGE], delta[CAGE])
+    end.film, b.A_stiff[CAGE, CAGE] = cage_film_matrices(w), cage_matrices(model, w, gamma)[0]
+    end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + power
+    cage_finish(model, gamma, cage, start.cage, y, end)
     delta -= removed  # from here on delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
     cage_correct(model, w, gamma, b.axial, b.shear, delta[CAGE], y)
@@ -347,7 +352,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.f[FRICTION] = (y - start.y)[FRICTION] / h
     end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
     error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
-    cage_remember(model, cage, h, second, start, end, error)
+    cage_remember(model, h, second, start, end, error)
     return end, np.sqrt(np.sum((error * weight) ** 2) / N_STATES)  # modes do not make the tolerance of the others wider
 
 

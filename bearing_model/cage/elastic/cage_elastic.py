@@ -177,6 +177,10 @@ def cage_elastic_acceleration(model, y, w, y_dot):
     """
     half, m, e = model.modes, model.p.cage.m, w.elastic
     mirrored, opposed = cage_elastic_pull(model, e.joints.load, e.joints.F)
+    if w.pressure and w.pressure.rim_force is not None:
+        e.wall_force = [
+            e.wall_force[h] + np.einsum("c...,ic->...i", w.pressure.rim_force[..., h], half.rim) for h in range(2)
+        ]
     f0, f1 = (e.wall_force[h] + (w.half[h].s + w.frame_omega) ** 2 * half.centrifugal for h in range(2))
     e.dissipated, e.energy = 0.0, 0.0
     for q, rate, force in (
@@ -195,6 +199,6 @@ def cage_elastic_acceleration(model, y, w, y_dot):
 def cage_elastic_rivets(model, w):
     """JointLoads of all joints and their rivets."""
     j, shear = w.elastic.joints, cage_joint_carried(model, w)
-    if w.pressure:
+    if w.pressure and np.any(np.real(w.pressure.part) > 0.0):
         j = elastic_lands(model, w, cage_elastic_preload(model, cage_elastic_speed_2(w)), shear)
     return cage_joint_loads(model, j.load, j.rivet, shear)

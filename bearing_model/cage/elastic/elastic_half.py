@@ -15,6 +15,7 @@ from bearing_model.cage.elastic.half_modes import (
     denser,
     frequencies,
     phases,
+    rim_shapes,
     rivet_shapes,
     spin_load,
 )
@@ -43,6 +44,8 @@ class ElasticHalf:
     slope: np.ndarray  # its slopes
     radii: np.ndarray  # nodes of the wall's radius, none of a machined half [m]
     centrifugal: np.ndarray  # modal force per (rad/s)^2 [n]
+    rim: np.ndarray  # of the rim's shapes at the land (land_bent.py) [n, 4]
+    mobility: np.ndarray  # velocity of a shape by an impulse on it [4] [1/kg]
     R: np.ndarray  # compliance that the modes leave between the pads of a joint, out of the plane [3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
     k_hole: np.ndarray  # what is left of the holes' [Z] [N/m]
@@ -108,8 +111,11 @@ def elastic_half_derive(p, d, table):
     opposed = frequencies_2(
         p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p)
     )
+    rim = unit * rim_shapes(modes, p.cage.land_x)[order]
     return ElasticHalf(
         n=len(omega),
+        rim=rim,
+        mobility=np.sum(rim**2, axis=0) / p.cage.m,
         omega=omega,
         uniform=uniform,
         damping=2.0 * damping_ratios(p, omega) * omega,

@@ -19,30 +19,21 @@ One-way forces of a film on the modes have no damping by it and are unsound (doc
 Smoothness: that of the law, C1.
 """
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 
 from bearing_model.cage.common.joint_law import joint_law
 from bearing_model.cage.common.joint_slip import joint_slip_add
-from bearing_model.cage.two_half.half_path import land_rows
+from bearing_model.cage.elastic.half_modes import RIM_WAVES
+from bearing_model.cage.two_half.half_path import land_harmonics, land_rows
+from bearing_model.generated.variables import Z
 from bearing_model.numbers.lanes import maximum, minimum
+from bearing_model.physics.land_bent import smooth_part
 from bearing_model.physics.land_film import land_film_loads
 
 LITTLE = 0.005  # Delta L over the loads of the joints, root mean square, that one sweep is for
-FAINT = 0.01  # mean load on a rim over the sum of the preloads that is left out
-
-
-def smooth_part(x):
-    """0 up to x = 0, 1 from x = 1 on, smooth between them."""
-    x = minimum(maximum(x, 0.0), 1.0)
-    return x * x * (3.0 - 2.0 * x)
-
-
-def felt_part(on, P):
-    """Part of the films that counts [..., 1]; on: LandPressure."""
-    load = 0.5 * np.sum(on.force + on.dry, axis=-1, keepdims=True)
-    return smooth_part(load / (FAINT * (np.sum(P, axis=-1, keepdims=True) + 1e-30)) - 1.0)
 
 
 def answers(law, intact, L_0, P):
@@ -75,22 +66,30 @@ def static_changes(model, trial, load, bonded, P, more_P):
     return bonded - part * relief - (move - before[0]) @ K_0.T, rivet - before[1]
 
 
+def beside_modes(land):
+    """Rows of half_path.py without those of the joints' loads by the shapes that the modes bend."""
+    land = land.copy()
+    for n in RIM_WAVES:
+        if n < len(land):
+            land[n, np.abs(land_harmonics(Z)[n]) == n, :, :5] = 0.0
+    return land
+
+
 def elastic_lands(model, w, P, shear):
     """Loads of the joints and of their rivets [3, ..., Z] with the films; adds the shear loads that they put on plates, heads and
     shanks.  P: preloads with the centrifugal load.
     """
     j, d = w.elastic.joints, model.d
-    rows = land_rows(d.table.half, model.p.cage.land_x, land_film_loads(w))
+    rows = land_rows(replace(d.table.half, land=beside_modes(d.table.half.land)), model.p.cage.land_x, land_film_loads(model, w))
     trial, load = (np.moveaxis(x, 0, -1) for x in (j.trial, j.load))
     P = P + 0.0 * rows[..., 0]
     load, rivet = (
         np.moveaxis(change, -1, 0)
         for change in static_changes(model, trial, load, rows[..., [0, 3, 4]], P, rows[..., 5])
     )
-    felt = felt_part(w.pressure, P)
-    load = j.load + felt * load
-    rivet = j.rivet + felt * (rivet + d.intact * np.moveaxis(rows[..., 5:] * [0.0, 1.0, 1.0], -1, 0))
+    load = j.load + load
+    rivet = j.rivet + (rivet + d.intact * np.moveaxis(rows[..., 5:] * [0.0, 1.0, 1.0], -1, 0))
     rivet[0] = maximum(rivet[0], 0.0)
     N_plate = maximum(rivet[0] - load[0], 0.0)
-    joint_slip_add(model, w, j.u, rivet[0], N_plate, felt * np.moveaxis(rows[..., 1:3], -1, 0), shear)
+    joint_slip_add(model, w, j.u, rivet[0], N_plate, np.moveaxis(rows[..., 1:3], -1, 0), shear)
     return SimpleNamespace(load=load, rivet=rivet)

@@ -1,0 +1,147 @@
+"""Film between the outer ring and the rim of a half that bends: the law of land_film.py with the gap of the bent rim.
+
+    w(theta) = u_2 cos 2 theta + u_3 sin 2 theta + u_4 cos 3 theta + u_5 sin 3 theta      radial, outward, by the modes
+    h = C - e.n - w,      W = V.n + w_dot - (omega/2) dw/dtheta                            closing, theta in the half's frame
+    P = -kappa C^3 max(W, 0)/h^3 dtheta                                                    radial load, outward
+
+With b = (n_y, n_z, cos 2 theta, sin 2 theta, cos 3 theta, sin 3 theta) the film has the forces F_i = int P b_i and the rates
+-dF_i/dV_k = kappa C^3 int b_i b_k/h^3 over the closing part: the matrix is symmetric and not negative, and F is the gradient
+of an integral of W^2/h^3.  Couette's torque is that of the gap, int C dtheta/(2 pi h).
+
+Where the gap closes, h stays finite like q^2 of a round land: h = C g_0/2 at the wall and C g_0/4 far behind it.  The dry
+contact is a linear bedding: pressure k s, s = -h, with k = (3/4) K_land sqrt(C/2), which for a round land,
+s = e - C - e theta^2/2, is F = K_land (e - C)^1.5.  Each point has Hunt and Crossley's damping by its own s_dot.
+
+The sums are over points that Sommerfeld's substitution of a round land of the same e spreads, with eps <= 0.9: 48 of them
+leave 0.05 % of the force in the median and 1 % in the worst twentieth of gaps down to -3 um.
+
+A film whose force is less than 1 % of the sum of the preloads leaves the rim round; from 2 % on it bends it, between them a
+smooth part of the film is that of the bent rim.  Smoothness: that of land_film.py.
+
+Arrays are [..., half], of land and rim [6, ..., half], of points [..., half, point].
+"""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from bearing_model.generated.variables import Lubrication
+from bearing_model.numbers.lanes import maximum, minimum
+from bearing_model.physics.hertz import hertz_damped
+from bearing_model.physics.traction import traction_asperity_share
+
+BENT_EPS = 0.9  # largest eps of the points
+FAINT = 0.01  # load on a rim over the sum of the preloads that leaves it round
+BENT_POINTS = 48
+PSI = 2.0 * np.pi * np.arange(BENT_POINTS) / BENT_POINTS
+
+
+def smooth_part(x):
+    """0 up to x = 0, 1 from x = 1 on, smooth between them."""
+    x = minimum(maximum(x, 0.0), 1.0)
+    return x * x * (3.0 - 2.0 * x)
+
+
+def bent_part(d, load):
+    """Part of films of these loads [N] that bends the rims."""
+    return smooth_part(load / (FAINT * np.sum(d.P) + 1e-30) - 1.0)
+
+
+def bent_shapes(e, C):
+    """Shapes b [6, ..., point] at the points around the direction of e [2, ...], and dtheta/dpsi there."""
+    size = np.sqrt(e[0] ** 2 + e[1] ** 2 + 1e-30)
+    u_y, u_z, eps = (x[..., None] for x in (e[0] / size, e[1] / size, minimum(size / C, BENT_EPS)))
+    one, q = 1.0 + eps * np.cos(PSI), np.sqrt(1.0 - eps * eps)
+    cosine, sine = (eps + np.cos(PSI)) / one, q * np.sin(PSI) / one
+    y, z = cosine * u_y - sine * u_z, cosine * u_z + sine * u_y
+    c_2, s_2 = y * y - z * z, 2.0 * y * z
+    return np.stack([y, z, c_2, s_2, y * c_2 - z * s_2, y * s_2 + z * c_2]), q / one
+
+
+def bent_gap(x, g_0):
+    """Gap of a film over the clearance, x of the geometry."""
+    floor = 0.25 * g_0
+    above = x - floor
+    return floor + 0.5 * (above + np.sqrt(above * above + 8.0 * floor * floor))
+
+
+def bent_dot(x, b):
+    """Sum over the shapes: x [6, ...] at the points [..., point]."""
+    return sum(part[..., None] * shape for part, shape in zip(x, b, strict=True))
+
+
+def bent_grid(p, on):
+    """Shapes b, weights dtheta, gap over the clearance x, and its film's."""
+    e = np.concatenate([on.e, on.rim])
+    b, weight = bent_shapes(on.e, on.C)
+    x = (on.C[..., None] - bent_dot(e, b)) / on.C[..., None]
+    return b, 2.0 * np.pi / BENT_POINTS * weight, x, bent_gap(x, p.cage.g_0)
+
+
+def bent_law(p, on, V, grid):
+    """Forces of the film [6, ...] and rates [6, 6, ...] at the squeeze velocities V [6, ...]; load at the points."""
+    b, weight, _, gap = grid
+    stiff = weight * (on.kappa_C3 / on.C**3)[..., None] / gap**3
+    W = bent_dot(V, b)
+    rate = np.where(np.real(W) > 0.0, stiff, 0.0)
+    load = rate * W
+    rates = np.sum(rate * b[:, None] * b[None], axis=-1)
+    return -np.sum(load * b, axis=-1), rates, load
+
+
+def bent_sums(model, on):
+    """Forces of film and dry contact, film's rates, int dtheta/h, load of asperities and of all friction with n, loads,
+    stored energy and its rate of the dry contact.
+    """
+    p, grid = model.p, bent_grid(model.p, on)
+    b, weight, x, gap = grid
+    film, rates, load = bent_law(p, on, np.concatenate([on.V, on.rim_V]), grid)
+    rough = 0.0 * load
+    if p.scene.lubrication == Lubrication.MIXED:
+        thin = gap * (on.C / model.d.C_land)[..., None]
+        rough = load * traction_asperity_share(model.d.ln_land + np.log(thin))
+    pen = maximum(-x * on.C[..., None], 0.0)
+    bed = 0.75 * p.cage.K_land * np.sqrt(0.5 * on.C)[..., None] * pen * weight
+    rate = bent_dot(np.concatenate([on.v, on.rim_v]), b)
+    N = hertz_damped(bed, p.cage.lambda_, rate)
+    return SimpleNamespace(
+        film=film,
+        rates=rates,
+        couette=np.sum(weight / gap, axis=-1) / on.C,
+        dry=-np.sum(N * b, axis=-1),
+        N_0=np.sum(bed, axis=-1),
+        N=np.sum(N, axis=-1),
+        along=np.sum((N + rough) * b[:2], axis=-1),
+        rubbing=np.sum(N + rough, axis=-1),
+        stored=np.sum(0.5 * bed * pen, axis=-1),
+        stored_rate=np.sum(bed * rate, axis=-1),
+    )
+
+
+MOST_ITERATIONS = 8  # of Newton's method on a film that is linear but for its ends
+CONVERGED = 3e-2  # part of the velocities that its last step may change
+
+
+def bent_solve(p, on, gamma, mobility, residual, V):
+    """The implicit step of one land and its bent rim: velocities change by the residual [6] with the film's force at the
+    evaluation, and gamma mobility times what the law has at the end beyond it.  on: of this half; V: squeeze velocities to
+    begin with [6].
+
+    Returns squeeze velocities, their change, impulse of the film and its force [6], its rates yy, yz, zz [2, 2].
+    """
+    start, film, grid = np.concatenate([on.V, on.rim_V]), on.film, bent_grid(p, on)
+    free = start + residual - gamma * mobility * film
+    round_rate = np.zeros((6, 6))
+    round_rate[:2, :2] = (1.0 - on.part) * on.round_rate
+    for _ in range(MOST_ITERATIONS):
+        F, D, _ = bent_law(p, on, V, grid)
+        F, D = on.part * F - round_rate @ (V - start), on.part * D + round_rate
+        F[:2] += (1.0 - on.part) * on.round_film
+        step = np.linalg.solve(
+            np.eye(6) + gamma * mobility[:, None] * D, free + gamma * mobility * F - V
+        )
+        V = V + step
+        if np.max(np.abs(step)) <= CONVERGED * np.max(np.abs(V)):
+            break
+    solved = F - D @ step
+    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (film - solved), film=solved, rates=D[:2, :2])
