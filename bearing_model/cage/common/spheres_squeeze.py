@@ -136,7 +136,7 @@ def spheres_squeeze_derive(p, d):
         inv_cos_eta=1.0 / np.sqrt(1.0 - sin_eta**2),
         filling=filling,
     )
-    push, inside = d.spheres.e / max(radius - R, least), sin_chi + 0.25 * (1.0 - sin_chi)
+    push, inside = d.spheres.e / max(radius - R, least), sin_chi + 0.15 * (1.0 - sin_chi)
     A, B = direction(np.arcsin(min(max(push, inside), 0.9)), 0.0), direction(FAR_CHI, 0.0)
     edgeward = direction(FAR_CHI, np.arcsin(FAR_ZETA * sin_eta))
     cap.n_xA, cap.inv_n_x, cap.inv_n_r2 = A.x, 1.0 / (B.x - A.x), 1.0 / edgeward.r**2
@@ -158,6 +158,15 @@ def spheres_squeeze_derive(p, d):
     cap.C, cap.c = own_C, 6.0 * np.pi * p.oil.eta * (d.R * d.R_c / own_C) ** 2
     cap.reach = filling * np.max(own_C)
     d.squeeze = cap
+
+
+def squeeze_layer(G_e, h, t, C):
+    """G of a film that ends at the edges, or where a layer t fills the gap; C: mean gap of a full pocket."""
+    least, left = 1e-9, t - h
+    root = maximum(left * (2.0 * C - h) / ((2.0 * t - h) * (C - h)), least)
+    of_edges, of_layer = maximum(1.0 / maximum(G_e, least) - 1.0, least), 1.0 / (root * root) - 1.0
+    cubes = of_edges * of_edges * of_edges + of_layer * of_layer * of_layer
+    return np.where(np.real(left) > 0.0, 1.0 / (1.0 + np.exp(np.log(cubes) * (1.0 / 3.0))), 0.0)
 
 
 def spheres_squeeze(d, q, taken, v):
@@ -187,10 +196,10 @@ def spheres_squeeze(d, q, taken, v):
     P, k_t = P_A + a * (P_B - P_A) + b * P_R, k_A + a * (k_B - k_A)
     m_x, m_r, m_t = maximum(n_x, 0.0), k_r * n_r, k_t * n_t
     m = np.array([m_x, m_r, m_t]) / np.sqrt(m_x * m_x + m_r * m_r + m_t * m_t + 1e-30)
-    # layer of oil
-    t = cap.filling * C
-    layer = minimum(maximum(t - h, 0.0) * (2.0 * C - h) / ((2.0 * t - h) * (C - h) + 1e-30), 1.0)
-    D = maximum(P, 0.0) * E_f * E_out * E_in * layer * layer * cap.c / h_eff
+    G = maximum(P, 0.0) * E_f * E_out * E_in
+    if cap.filling < 1.0:
+        G = squeeze_layer(G, h, cap.filling * C, C)
+    D = G * cap.c / h_eff
     speed = m[0] * v[0] + m[1] * v[1] + m[2] * v[2]
     acts = np.where(np.real(speed) > 0.0, 1.0, 0.0)
     return SimpleNamespace(D=D * acts, F=D * acts * speed, m=m)

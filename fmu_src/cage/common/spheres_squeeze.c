@@ -160,7 +160,7 @@ void spheres_squeeze_derive(const Parameters *p, Derived *d)
     cap->inv_cos_chi = 1.0 / sqrt(1.0 - cap->sin_chi * cap->sin_chi);
     cap->inv_cos_eta = 1.0 / sqrt(1.0 - cap->sin_eta * cap->sin_eta);
     const double push = d->spheres.e / fmax(d->spheres.radius - R, least);
-    const double inside = cap->sin_chi + 0.25 * (1.0 - cap->sin_chi);
+    const double inside = cap->sin_chi + 0.15 * (1.0 - cap->sin_chi);
     const Direction A = direction(portable_asin(fmin(fmax(push, inside), 0.9)), 0.0),
                     B = direction(FAR_CHI, 0.0);
     const Direction edgeward = direction(FAR_CHI, portable_asin(FAR_ZETA * cap->sin_eta));
