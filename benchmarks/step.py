@@ -23,6 +23,7 @@ PARTS = {  # source file -> part
     "pocket": "pockets",
     "pocket_spheres": "pockets",
     "pocket_squeeze": "pockets",
+    "spheres_squeeze": "pockets",
     "land_film": "land films",
     "cage_joint": "joints",
     "two_half": "joints",

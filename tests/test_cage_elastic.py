@@ -54,6 +54,7 @@ SCENES = (
     },
 )
 OF_RIBBON = RIBBON | {"cage.unbalance": 2e-6}  # on the machined half's modes
+WET_RIBBON = OF_RIBBON | {"cage.pocket_filling": 1.0}
 BLOCKS = STATE_SLICES | {name: getattr(variables, name.upper()) for name in ELASTIC_SCALES}
 
 
@@ -67,7 +68,11 @@ def largest_difference(a, b, scale=None):
 
 
 @pytest.mark.parametrize("isa", ["sse2", "avx2", "avx512"])
-@pytest.mark.parametrize("scene", [*SCENES, OF_RIBBON], ids=[*range(len(SCENES)), "ribbon"])
+@pytest.mark.parametrize(
+    "scene",
+    [*SCENES, OF_RIBBON, WET_RIBBON, WET_RIBBON | {"cage.pocket_filling": 0.3}],
+    ids=[*range(len(SCENES)), "ribbon", "flooded ribbon", "wet ribbon"],
+)
 def test_twins_are_equal(core, scene, isa, record_property):
     """dy/dt, energy, loads of the rivets at random states: rounding (observed 2e-10 of a block's largest rate, 1e-12 of
     the loads).
@@ -94,7 +99,9 @@ def test_twins_are_equal(core, scene, isa, record_property):
     assert worst < 1e-8
 
 
-@pytest.mark.parametrize("scene", [*SCENES[:3], SCENES[-1], OF_RIBBON], ids=[0, 1, 2, 4, "ribbon"])
+@pytest.mark.parametrize(
+    "scene", [*SCENES[:3], SCENES[-1], OF_RIBBON, WET_RIBBON], ids=[0, 1, 2, 4, "ribbon", "flooded ribbon"]
+)
 def test_step_equals_the_dense_step(core, scene, record_property):
     """Two steps in a row and their substeps in both twins, in units of the error scales (observed 2e-12)."""
     rng, worst = np.random.default_rng(6), 0.0
@@ -125,7 +132,7 @@ def test_step_equals_the_dense_step(core, scene, record_property):
     assert worst < 1e-9
 
 
-@pytest.mark.parametrize("scene", [{}, OF_RIBBON], ids=["machined", "ribbon"])
+@pytest.mark.parametrize("scene", [{}, OF_RIBBON, WET_RIBBON], ids=["machined", "ribbon", "flooded ribbon"])
 def test_derivatives(core, scene):
     """The core's dual numbers against the twin's complex steps: all columns of one state."""
     rng = np.random.default_rng(7)
@@ -148,8 +155,8 @@ def test_derivatives(core, scene):
 
 @pytest.mark.parametrize(
     "scene",
-    [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1], {"cage.pocket_filling": 1.0}],
-    ids=["without", "centrifugal", "differing", "flooded"],
+    [{"cage.centrifugal": 1}, {"cage.centrifugal": 2}, SCENES[-1], {"cage.pocket_filling": 1.0}, WET_RIBBON],
+    ids=["without", "centrifugal", "differing", "flooded", "flooded ribbon"],
 )
 def test_power_is_the_rate_of_energy(scene, record_property):
     """Net power against the energy's rate along dy/dt, by complex steps.
@@ -365,7 +372,7 @@ def test_momentum_is_kept():
 
 @pytest.mark.c_only
 @pytest.mark.parametrize(("method", "bound"), [(Method.EXPLICIT, 1e-4), (Method.VERLET, 5e-3)])
-@pytest.mark.parametrize("scene", [{}, OF_RIBBON], ids=["machined", "ribbon"])
+@pytest.mark.parametrize("scene", [{}, OF_RIBBON, WET_RIBBON], ids=["machined", "ribbon", "flooded ribbon"])
 def test_energy_of_a_run(core, scene, method, bound, record_property):
     """The working point for 10 ms: supplied = stored + lost, to a part of what is lost (observed 3e-5 by Runge-Kutta,
     2e-3 by the default step).

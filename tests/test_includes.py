@@ -17,7 +17,8 @@ GROUPS = {  # from the bottom up
     "laws and tables": "ball_spall ball_turn elastic_half elastic_wall frame hertz housing model outer_ring powers ring_fit rivet_joint rivet_rom "
     "race_surface rivet_splines rotor temperature traction centrifugal spin_preload",
     "elements": "ball drag land_film race_contact ring ring_load",
-    "both cages": "cage_joint films halves joint_slip pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze",
+    "both cages": "cage_joint films halves joint_slip pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze "
+    "spheres_squeeze",
     "one cage": "cage_elastic cage_substeps elastic_lands joint_open two_half",
     "door of the cage": "cage cage_read cage_setup",
     "constants": "derived",
@@ -35,7 +36,7 @@ FILES = sorted(SOURCES.rglob("*.[ch]"))
 INNER = {
     "model.h": {"elastic_work.h", "half_path.h", "two_half_work.h"},
     "rivet_rom.h": {"half_modes.h", "half_path.h", "joint_law.h"},
-    "derived.c": {"centrifugal.h", "pocket_squeeze.h"},
+    "derived.c": {"centrifugal.h", "pocket_squeeze.h", "spheres_squeeze.h"},
 }
 ONE_KIND = {"two_half": "elastic/", "elastic": "two_half/"}
 

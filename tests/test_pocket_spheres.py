@@ -295,15 +295,18 @@ def energy(spheres, place, body, j, side):
     return spheres_contact(spheres, *(np.full(Z, c) for c in q))[0][j]
 
 
+@pytest.mark.parametrize("filling", [0.0, 1.0], ids=["dry", "flooded"])
 @pytest.mark.parametrize("lubrication", Lubrication)
-def test_momentum_and_power(core, lubrication):
+def test_momentum_and_power(core, lubrication, filling):
     """Forces and moments about the bearing's centre cancel over ball and halves; the power that the contacts take from them is stored (by
     differences of the energy along the motion) or dissipated.
 
     Momentum to 1e-13 of force and arm; power: of F times 1 m/s, differences over 1e-9 s.
     """
     spheres = Model.of(RIBBON).d.spheres
-    m, w, ball, bodies = random_scene(core, np.random.default_rng(2), **{"scene.lubrication": lubrication})
+    m, w, ball, bodies = random_scene(
+        core, np.random.default_rng(2), **{"scene.lubrication": lubrication, "cage.pocket_filling": filling}
+    )
     F, M = on_ball(w)
     axes = frames(ball["theta"])
     for j in range(Z):

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -34,12 +35,14 @@ class Ribbon:
         return self.changes.get(variable.name, self.model.default(variable))
 
 
-def test_flooded_pockets_are_refused_before_any_run(tmp_path):
-    """--oil-range and the note of a life: a ribbon's pockets have no film."""
-    mission = SimpleNamespace(path=tmp_path / "m.toml", document={}, name="m", cases=())
-    with pytest.raises(UserError, match=rf"--oil-range .*{FILLING} = 1.*ribbon cage \(cage\.shape\).*leave it out"):
-        plan_ends(mission, Ribbon({}))
-    assert "not computed" in oil_in_pockets(mission, Ribbon({}))
+def test_both_ends_of_the_oil_are_planned(tmp_path):
+    """--oil-range and the note of a life: a ribbon's pockets have a film as those of a machined cage."""
+    (tmp_path / "m.toml").write_text(COMMON + POINTS, encoding="utf-8")
+    document = tomllib.loads((tmp_path / "m.toml").read_text(encoding="utf-8"))
+    mission = SimpleNamespace(path=tmp_path / "m.toml", document=document, name="m", cases=())
+    ends = plan_ends(mission, Ribbon({}))
+    assert [ends[end].cases[0].scene.parameters[FILLING] for end in ("dry", "flooded")] == [0.0, 1.0]
+    assert "--oil-range" in oil_in_pockets(mission, Ribbon({}))
 
 
 def test_range_of_the_clearance_leaves_room_for_the_sphere():
@@ -97,6 +100,8 @@ RUNS = {  # what is asked for -> arguments, and a file that it leaves
     "rigid halves": ("run --set scene.cage=two_half --t-end 0.2 --out results/two.parquet", "results/two.parquet"),
     "sweep": ("sweep sweep.toml --report", "results/sweep/sweep.html"),
     "life": ("life mission.toml", "results/mission/life.html"),
+    "oil": ("life mission.toml --oil-range --out results/oil", "results/oil/oil_range.json"),
+    "flooded": ("run --set cage.pocket_filling=1 --t-end 0.2 --out results/flooded.parquet", "results/flooded.parquet"),
     "summary": ("summary mission.toml", "results/mission/summary.html"),
     "sensitivity": ("sensitivity decides.toml", "results/decides/sensitivity.json"),
     "optimize": ("optimize choose.toml", "results/choose/optimize.json"),
@@ -149,8 +154,6 @@ def test_rivets_break_one_after_the_other(folder):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ("life mission.toml --oil-range", "cage.pocket_filling"),
-        ("run --set cage.pocket_filling=1", "cage.pocket_filling"),
         ("run --set cage.guidance=outer", "cage.guidance"),
         ("run --set cage.shape=machined", "cage.shape"),
         ("run R", "cage.pocket_clearance"),

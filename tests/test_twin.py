@@ -148,9 +148,10 @@ if not BUILD:  # of the 6207's balls
         "ribbon": (RIBBON | UNBALANCE, LOADS),
         "ribbon_mixed": (RIBBON | MIXED | SUPPORTED | DIFFER, HOT),
         "ribbon_elastic": (RIBBON | ELASTIC | UNBALANCE, LOADS),
+        "ribbon_flooded": (RIBBON | ELASTIC | MIXED | DIFFER | {"cage.pocket_filling": 1.0}, LOADS),
     }
 SCENES = {name: (TWO_HALF | parameters, inputs) for name, (parameters, inputs) in SCENES.items()}
-PER_SCENE = 120  # 2400 states in all
+PER_SCENE = 120  # 2520 states in all
 
 
 def plain(numbers):

@@ -12,6 +12,7 @@ from bearing_model.cage.cage import cage_orbit_scale, cage_refusal, cage_vibrate
 from bearing_model.cage.common.centrifugal import cage_centrifugal
 from bearing_model.cage.common.pocket_spheres_setup import spheres_derive
 from bearing_model.cage.common.pocket_squeeze import pocket_squeeze_derive
+from bearing_model.cage.common.spheres_squeeze import spheres_squeeze_derive
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     ELASTIC_SCALES,
@@ -192,7 +193,7 @@ def derive_pockets(p, d):
     d.ln_pocket_rigid = np.log(shape * R_x / p.oil.sigma_pocket) + 2.0 * np.log(p.oil.eta * R_x)
     phi, phi_r = 2.0 * np.pi * np.arange(Z) / Z + p.pocket.dtheta, 2.0 * np.pi * (np.arange(Z) + 0.5) / Z
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
-    pocket_squeeze_derive(p, d)
+    (spheres_squeeze_derive if ribbon else pocket_squeeze_derive)(p, d)
     d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
 
 

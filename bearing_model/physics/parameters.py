@@ -179,8 +179,6 @@ def check_ribbon(p):
         return
     guided = "a ribbon cage has no land on the outer ring; balls (2) is allowed"
     require(p.cage.guidance == variables.CageGuidance.BALLS, f"cage.guidance = outer: {guided}")
-    dry = "0 is allowed of a ribbon cage (cage.shape), whose pockets have no law of a film yet"
-    require(p.cage.pocket_filling == 0.0, f"cage.pocket_filling = {p.cage.pocket_filling}: {dry}")
     radius, own, depth = spheres_radius(p), p.cage.pocket_radius, p.cage.pocket_depth
     require(
         own == 0.0 or abs(own - radius) <= 1e-6 * radius,

@@ -235,14 +235,6 @@ static bool check_ribbon(Bearing *b)
             "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed");
         return false;
     }
-    if (p->cage.pocket_filling != 0.0) {
-        bearing_log(
-            b, LOG_ERROR,
-            "cage.pocket_filling = %g: 0 is allowed of a ribbon cage (cage.shape), whose pockets have "
-            "no law of a film yet",
-            p->cage.pocket_filling);
-        fine = false;
-    }
     fine &= require(b, p->cage.pocket_radius == 0.0 || fabs(p->cage.pocket_radius - radius) <= 1e-6 * radius,
                     "cage.pocket_radius = %g m: 0 or (bearing.D + cage.pocket_clearance)/2 = %g m is allowed",
                     p->cage.pocket_radius, radius);

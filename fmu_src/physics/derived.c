@@ -3,6 +3,7 @@
 #include "cage/cage.h"
 #include "cage/common/centrifugal.h"
 #include "cage/common/pocket_squeeze.h"
+#include "cage/common/spheres_squeeze.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/race_surface.h"
@@ -424,7 +425,7 @@ void model_derive(const Parameters *p, Derived *d)
     memset(d, 0, sizeof *d);
     derive_balls(p, d);
     derive_pockets(p, d);
-    pocket_squeeze_derive(p, d);
+    (d->spheres.on ? spheres_squeeze_derive : pocket_squeeze_derive)(p, d);
     derive_cage(p, d);
     derive_lands(p, d);
     derive_relative(p, d);

@@ -109,7 +109,7 @@ typedef struct {
     double inverse[RELATIVE_MOTIONS], part, tilt;
 } RelativeInertia;
 
-enum { SQUEEZE_NODES = 9 };  // of the polynomial of a pocket's film
+enum { SQUEEZE_NODES = 9 };  // of the polynomials of a pocket's film
 
 // Films of oil in the pockets (pocket_squeeze.h).
 typedef struct {
@@ -119,6 +119,17 @@ typedef struct {
     double roughness_2, elastic;                        // sigma^2 [m2], h_e^2 / v^0.8
     constants c, C, inv_reach;  // c [N.s], radial clearance [m], 1/reach of each pocket
 } PocketSqueeze;
+
+// Polynomials of z of a ribbon's films: P and k_t at A and B, P and k_r at R.
+enum { P_A, P_B, P_R, K_A, K_B, K_R, SQUEEZE_SHAPES };
+
+// Films in the spheres of a ribbon cage, beside PocketSqueeze without newton and inv_reach (spheres_squeeze.h).
+typedef struct {
+    double sin_chi, inv_cos_chi, sin_eta, inv_cos_eta;  // ends of the cap: seam of the fillet, edges
+    double n_xA, inv_n_x, inv_n_r2;                     // n_x of A, 1/(n_xB - n_xA), 1/n_rR^2
+    double newton[SQUEEZE_SHAPES][SQUEEZE_NODES];
+    double filling;  // layer of oil / C
+} SpheresSqueeze;
 
 typedef struct {
     // balls and races
@@ -148,6 +159,7 @@ typedef struct {
     Spheres spheres;                   // of a ribbon cage (pocket_spheres.c)
     constants pocket_cos, pocket_sin;  // of the body angle 2 pi j / Z + dtheta of pocket j
     PocketSqueeze squeeze;             // their films of oil
+    SpheresSqueeze spheres_squeeze;    // those of a ribbon cage
 
     // cage half
     double J_p, J_t;         // moments of inertia: polar, transverse about the centre of mass [kg.m2]

@@ -47,16 +47,9 @@ def step_text(step):
     return f'"{1e3 * step:.3g} ms"'
 
 
-def is_ribbon(model):
-    """Whether the cage of an FMU is a ribbon, whose pockets have no law of a film."""
-    return "cage.shape" in model.parameters and model.default(model.parameters["cage.shape"]) == "ribbon"
-
-
 def oil_in_pockets(mission, model):
     """A sentence on the oil that the pockets of a mission have, of the FMU's own filling where no case sets one."""
     name = "cage.pocket_filling"
-    if is_ribbon(model):
-        return "Oil in the pockets of a ribbon cage is not computed: a film would take the peaks off the impacts."
     given = sorted({case.scene.parameters[name] for case in mission.cases if name in case.scene.parameters})
     if given:
         texts = " to ".join(f"{value:g}" for value in dict.fromkeys((given[0], given[-1])))

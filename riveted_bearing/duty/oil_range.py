@@ -13,7 +13,6 @@ from ..scene import leaves, section_of
 from ..units import hours_text
 from .assess import Life, finite, write_record
 from .mission import changed_points, plan_mission, tables
-from .notes import is_ribbon
 from .page import ends_of, interval_text
 
 FILLING = "cage.pocket_filling"
@@ -37,11 +36,6 @@ def plan_ends(mission, model):
         raise UserError(f"{model.path}: this FMU has no {FILLING}, which --oil-range needs: build it again")
     blocks = [*changed_points(path, mission.document, model), *tables(path, mission.document, "event")]
     sections = [section_of(path, mission.document, name) for name in ("table", "history")]
-    if is_ribbon(model):
-        raise UserError(
-            f"{model.path}: --oil-range floods the pockets (cage.pocket_filling = 1), and those of a ribbon cage (cage.shape) have "
-            "no law of a film: leave it out"
-        )
     for block in [*blocks, *sections]:
         own = [name for name, _ in leaves(section_of(path, block, "parameters"), names)]
         if FILLING in own:

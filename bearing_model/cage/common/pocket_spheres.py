@@ -29,7 +29,8 @@ is -dV/dq = -Q n through its centre, the friction acts at the contact point p + 
 
 A push along the tangent touches both halves at sin chi_0 = e/(R_c - R) if that is more than sin chi_1: each half has N = F sin(chi_0 +- beta)
 /sin 2 chi_0 of a push at the angle beta from the split, beyond chi_0 one half has all.  0.7 a/R: independent solution of an elastic ball in a
-spherical hole (tests/conforming_spheres.py).  Smoothness: C1 at touch-down, at the seams and where the second half begins to carry.  At a corner the force is
+spherical hole (tests/conforming_spheres.py).  Oil between ball and sphere adds the force -F m through the ball's centre, where both close in
+(spheres_squeeze.py); the wall bears the force at the place nearest to the ball, as that of the contact.  Smoothness: C1 at touch-down, at the seams and where the second half begins to carry.  At a corner the force is
 continuous, its slope is not.
 """
 
@@ -38,6 +39,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from bearing_model.cage.common.pocket import elastic_clear, pocket_clear, pocket_mu
+from bearing_model.cage.common.spheres_squeeze import spheres_squeeze
 from bearing_model.cage.elastic.elastic_wall import ribbon_wall_shapes
 from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import absolute, ball_array_sum, maximum, minimum
@@ -212,6 +214,22 @@ def spheres_place(d, half, q):
     return maximum(chi, half.chi[0]), radius, back, chi_slope, (-less * x, by_r - less * r, by_t - less * t)
 
 
+def sphere_film(d, gap, Q, c, v):
+    """The film of oil of one half; Q: load of the contact, c: compliance of the wall under the contact."""
+    along = gap.side * vec_dot(v, gap.a), vec_dot(v, gap.b), vec_dot(v, gap.e_t)
+    film = spheres_squeeze(d, gap.q, c * Q, along)
+    film.m = gap.side * film.m[0] * gap.a + film.m[1] * gap.b + film.m[2] * gap.e_t
+    return film
+
+
+def sphere_wet(d, q, moves):
+    """Balls before whose sphere there may be a film when the wall moves by up to `moves`."""
+    if not d.squeeze:
+        return False
+    S = np.sqrt(np.real(q[0]) ** 2 + np.real(q[1]) ** 2 + np.real(q[2]) ** 2)
+    return S - d.spheres.slack + (d.squeeze.reach + moves) > 0.0
+
+
 def spheres_wall(model, w, h, gap):
     """Motion of the walls of elastic half h where balls may touch: takes it from gap.q; velocity u_dot along the pocket's axes and shapes of the
     modes [3, ..., Z, n]; slopes of the motion along q.
@@ -224,9 +242,11 @@ def spheres_wall(model, w, h, gap):
 
     # walls that cannot be reached: by how far they can move, and by that without the modes that move all pockets alike
     near = np.real(spheres_nearest(model.d.spheres, *gap.q)) + e.reach[h] > 0.0
+    near = near | sphere_wet(model.d, gap.q, e.reach[h])
     alike = near * np.sum(np.where(half.uniform, shape * q, 0.0), axis=-1)
     there = tuple(x - u_i for x, u_i in zip(gap.q, poleward * alike, strict=True))
-    near = near & (np.real(spheres_nearest(model.d.spheres, *there)) + e.reach_others[h] > 0.0)
+    touched = np.real(spheres_nearest(model.d.spheres, *there)) + e.reach_others[h] > 0.0
+    near = near & (touched | sphere_wet(model.d, there, e.reach_others[h]))
 
     u = np.where(near, np.sum(shape * q, axis=-1), alike)
     u_dot, u_chi, u_r = (np.sum(a * b, axis=-1) * near for a, b in ((shape, q_dot), (by_chi, q), (by_r, q)))
@@ -253,6 +273,7 @@ def spheres_forces(model, w, h, gap, wall=None):
     V, Q_0, n_q, w.delta_c[h] = (
         spheres_approach(d.spheres, compliance, gap.q) if wall else spheres_contact(d.spheres, *gap.q)
     )
+    film = d.squeeze and sphere_film(d, gap, Q_0, compliance, v)
     pressed = np.real(Q_0) > LEAST
     Q_0 = np.where(pressed, Q_0, 0.0)
     n_x, n_r, n_t = gap.side * n_q[0], n_q[1], n_q[2]
@@ -269,16 +290,24 @@ def spheres_forces(model, w, h, gap, wall=None):
     g = pocket_mu(model, ln_U, ln_Q, mixed) * Q / np.sqrt(slip_2 + p.cage.v_c**2)
     F_s = -g * slip
     F, M = F_s - Q * n, vec_cross(arm, F_s)
+    push, by_film = (n_x, n_r, n_t), (0.0, 0.0, 0.0)
+    if film:
+        F = F - film.F * film.m
+        by_film = [film.F * vec_dot(film.m, axis) for axis in (gap.a, gap.b, gap.e_t)]
+        push = [Q * n_i + f_i for n_i, f_i in zip(push, by_film, strict=True)]
+        size = np.sqrt(sum(x * x for x in push) + 1e-60)
+        push = [x / size for x in push]
+        w.squeeze = w.squeeze + film.D * film.m[:, None] * film.m[None, :]
     if wall:  # the wall's place moves with the ball
         tilt = [Q_0 * sum(n_i * u_i for n_i, u_i in zip(n_q, slope, strict=True)) for slope in wall.slopes]
         F = F + (gap.side * tilt[0] * gap.a + tilt[1] * gap.b + tilt[2] * gap.e_t)
 
     w.pocket[h] = SimpleNamespace(
-        Q=Q,
+        Q=Q + film.F if film else Q,
         F=np.array([-vec_dot(F, gap.a), -vec_dot(F, gap.b), -vec_dot(F, gap.e_t)]),
         # place of the contact on the wall
-        push=np.array([gap.side * gap.q[0] + d.R * n_x, gap.q[2] + d.R * n_t]),
-        radius=np.sqrt((gap.q[1] + d.R * n_r + d.spheres.r) ** 2 + (gap.q[2] + d.R * n_t) ** 2),
+        push=np.array([gap.side * gap.q[0] + d.R * push[0], gap.q[2] + d.R * push[2]]),
+        radius=np.sqrt((gap.q[1] + d.R * push[1] + d.spheres.r) ** 2 + (gap.q[2] + d.R * push[2]) ** 2),
         half_F=vec_to_global(-F, w.cos_theta, w.sin_theta),
         half_M=vec_to_global(-vec_cross(gap.p, F) - M, w.cos_theta, w.sin_theta),
     )
@@ -289,8 +318,11 @@ def spheres_forces(model, w, h, gap, wall=None):
     w.D = w.D + g / d.m * (1.0 - n * n)
     w.D_omega = w.D_omega + g * d.R**2 / d.J * (1.0 - n * n)
     w.pocket_dissipated = w.pocket_dissipated + (Q - Q_0) * delta_dot - vec_dot(F_s, slip)
-    on_wall = [Q * n_i - vec_dot(F_s, axis) for n_i, axis in ((n_x, gap.a), (n_r, gap.b), (n_t, gap.e_t))]
-    return SimpleNamespace(V=V, Q_0=Q_0, n=(n_x, n_r, n_t), delta_dot=delta_dot, on_wall=on_wall)
+    if film:
+        w.pocket_dissipated = w.pocket_dissipated + film.F * vec_dot(film.m, v)
+    axes = zip((n_x, n_r, n_t), (gap.a, gap.b, gap.e_t), by_film, strict=True)
+    on_wall = [Q * n_i - vec_dot(F_s, axis) + f_i for n_i, axis, f_i in axes]
+    return SimpleNamespace(V=V, Q=Q, Q_0=Q_0, n=(n_x, n_r, n_t), delta_dot=delta_dot, on_wall=on_wall)
 
 
 def spheres_rigid(model, w):
@@ -317,7 +349,7 @@ def spheres_elastic(model, w):
         e.touch_x[h], e.touch_r[h], e.touch_t[h] = at.n
         e.touch_k[h] = k / (maximum(w.delta_c[h], 1e-30) + model.modes.compliance * k)
         e.touch_rate[h] = at.delta_dot + sum(n_i * u_i for n_i, u_i in zip(at.n, wall.u_dot, strict=True))
-        e.touch_Q[h], e.touch_chi[h], e.touch_radius[h] = w.pocket[h].Q, wall.chi, wall.radius
+        e.touch_Q[h], e.touch_chi[h], e.touch_radius[h] = at.Q, wall.chi, wall.radius
         e.wall_energy[h] = at.V
 
 

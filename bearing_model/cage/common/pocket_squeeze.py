@@ -65,13 +65,30 @@ def paraboloid(g):
     return np.pi * (R_x * g.R) ** 1.5 / (R_x + g.R)
 
 
-def fit_shape(g, reach):
-    """Nodes and coefficients in Newton's form of the polynomial through the values of G at Chebyshev's points and at z = 0."""
-    z = 0.5 - 0.5 * np.cos(np.pi * np.arange(SQUEEZE_NODES) / (SQUEEZE_NODES - 1))
-    newton = np.array([1.0, *(whole(g, x * x * reach) * x * x * reach / paraboloid(g) for x in z[1:])])
+def squeeze_nodes():
+    """Nodes of the polynomials of z, Chebyshev's points from 0 to 1."""
+    return 0.5 - 0.5 * np.cos(np.pi * np.arange(SQUEEZE_NODES) / (SQUEEZE_NODES - 1))
+
+
+def squeeze_newton(node, value):
+    """Values at the nodes -> coefficients in Newton's form."""
+    value = np.array(value)
     for order in range(1, SQUEEZE_NODES):
-        newton[order:] = np.diff(newton[order - 1 :]) / (z[order:] - z[:-order])
-    return z, newton
+        value[order:] = np.diff(value[order - 1 :]) / (node[order:] - node[:-order])
+    return value
+
+
+def squeeze_polynomial(node, newton, z):
+    value = newton[-1]
+    for place, coefficient in zip(node[-2::-1], newton[-2::-1], strict=True):
+        value = value * (z - place) + coefficient
+    return value
+
+
+def fit_shape(g, reach):
+    """Nodes and coefficients of the polynomial through the values of G at the nodes; 1 at z = 0."""
+    z = squeeze_nodes()
+    return z, squeeze_newton(z, [1.0, *(whole(g, x * x * reach) * x * x * reach / paraboloid(g) for x in z[1:])])
 
 
 def pocket_squeeze_derive(p, d):
@@ -103,10 +120,7 @@ def pocket_squeeze_derive(p, d):
 def squeeze_shape(film, h):
     """Damping of a whole film / (c/h_eff), by the gap."""
     z = np.sqrt(minimum(h * film.inv_reach, 1.0) + 1e-30)
-    G = film.newton[-1]
-    for node, newton in zip(film.node[-2::-1], film.newton[-2::-1], strict=True):
-        G = G * (z - node) + newton
-    return maximum(G, 0.0)
+    return maximum(squeeze_polynomial(film.node, film.newton, z), 0.0)
 
 
 def pocket_squeeze(d, half, gap, v):

@@ -49,16 +49,6 @@ INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
     return wide_select(wide_above(delta, 0.0), own, delta);
 }
 
-// Adds the film's D m m^T to the matrix that the integrator solves (implicit.c).
-INLINE void add_film_rate(const SqueezeFilm *film, Work *w, int j)
-{
-    const wide m[3] = {film->m.x, film->m.r, film->m.t};
-    for (int i = 0, place = 0; i < 3; i++)
-        for (int k = 0; k <= i; k++, place++)
-            wide_store(&w->squeeze[place][j],
-                       wide_fma(film->D * m[i], m[k], wide_load(&w->squeeze[place][j])));
-}
-
 // Forces in a packet of pockets, stored for the half and added to the balls; pressed: of those with contact.  wall: motion of the walls of an elastic
 // half, or NULL.
 INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const PocketGap *gap, bits pressed,
@@ -96,7 +86,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         film = pocket_squeeze(d, h, j, gap, v);
         F_n = vec_axpy(-film.F, film.m, F_n);
         pressed |= wide_above(film.F, 0.0);
-        add_film_rate(&film, w, j);
+        squeeze_rate(&film, w, j);
     }
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
@@ -167,15 +157,9 @@ static void pocket_half(const Model *model, Work *w, int h, bool mixed)
     if (touched) add_pockets(pocket, half);
 }
 
-// No films yet.
-static void clear_films(const Model *model, Work *w)
-{
-    if (model->d->squeeze.filled) memset(w->squeeze, 0, sizeof w->squeeze);
-}
-
 void pocket_rigid(const Model *model, Work *w)
 {
-    clear_films(model, w);
+    squeeze_clear(model, w);
     for (int h = 0; h < 2; h++) pocket_half(model, w, h, pocket_is_mixed(model));
 }
 
@@ -250,7 +234,7 @@ void pocket_elastic(const Model *model, Work *w)
     TouchedPacket packets[2 * PACKETS];
     WallPlaces places[2];
     int count = 0;
-    clear_films(model, w);
+    squeeze_clear(model, w);
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];

@@ -34,11 +34,15 @@
 // N = F sin(chi_0 +- beta)/sin 2 chi_0 of a push at the angle beta from the split, beyond chi_0 one half has all.
 // 0.7 a/R: independent solution of an elastic ball in a spherical hole (tests/conforming_spheres.py).
 //
+// Oil between ball and sphere adds the force -F m through the ball's centre, where both close in (spheres_squeeze.h).  The wall
+// bears the force at the place nearest to the ball, as that of the contact.
+//
 // Smoothness: C1 at touch-down, at the seams and where the second half begins to carry.  At a corner the force is
 // continuous, its slope is not.
 #include "cage/common/pocket_spheres.h"
 
 #include "cage/common/pocket_forces.h"
+#include "cage/common/spheres_squeeze.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 
@@ -50,11 +54,30 @@ typedef struct {
     ball_array u_dot[3], slope[3];
 } SphereWalls;
 
-// Forces in a packet of pockets, stored for the half and added to the balls.  walls: of an elastic half, or NULL; their
-// forces (x, r, t) are stored in on_wall, the rate of the approach in rate.
+// The film of oil of one half in a packet; c: compliance of the wall under the contact.
+INLINE SqueezeFilm sphere_film(const Derived *d, int h, int j, const SphereGap *gap, const SphereContact *at,
+                               wide c, vec v)
+{
+    const wide side = wide_set(h == 0 ? -1.0 : 1.0), q[3] = {gap->x, gap->r, gap->t};
+    const wide along[3] = {side * vec_dot(v, gap->a), vec_dot(v, gap->b), vec_dot(v, gap->e_t)};
+    const SphereSqueeze film = spheres_squeeze(d, j, q, c * at->Q, along);
+    const vec m = vec_axpy(side * film.m_x, gap->a, vec_scale(film.m_t, gap->e_t));
+    return (SqueezeFilm){film.D, film.F, vec_axpy(film.m_r, gap->b, m)};
+}
+
+// Bits of the balls before whose sphere there may be a film when the wall moves by up to `moves`.
+INLINE int sphere_wet(const Derived *d, int j, const SphereGap *gap, double moves)
+{
+    if (!d->squeeze.filled) return 0;
+    const wide S = wide_sqrt(gap->x * gap->x + gap->r * gap->r + gap->t * gap->t);
+    return wide_mask(wide_above(S - wide_load(&d->spheres.slack[j]) + (d->squeeze.reach + moves), 0.0));
+}
+
+// Forces in a packet of pockets, stored for the half and added to the balls; pressed: of those with contact.  walls: of an elastic
+// half, or NULL; their forces (x, r, t) are stored in on_wall, the contacts' loads and rates of approach in load and rate.
 INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const SphereGap *gap,
                           const SphereContact *at, bits pressed, bool mixed, const SphereWalls *walls,
-                          ball_array on_wall[3], wide *rate)
+                          ball_array on_wall[3], wide *load, wide *rate)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -80,8 +103,22 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     const wide g = mu * Q / wide_sqrt(slip_2 + p->cage.v_c * p->cage.v_c);
     const vec F_s = vec_scale(-g, slip);
 
+    // film of oil; `pressed` are from here on those on which any force acts
+    SqueezeFilm film = {0};
+    vec push = n;  // direction of the place on the wall
+    wide lost = (Q - at->Q) * delta_dot - vec_dot(F_s, slip);
+    if (d->squeeze.filled) {
+        film = sphere_film(d, h, j, gap, at, wide_set(walls ? model->modes->compliance : 0.0), v);
+        push = vec_axpy(film.F, film.m, vec_scale(Q, n));
+        push = vec_scale(1.0 / wide_sqrt(vec_dot(push, push) + 1e-60), push);
+        lost += film.F * vec_dot(film.m, v);
+        pressed |= wide_above(film.F, 0.0);
+        squeeze_rate(&film, w, j);
+    }
+
     // A pocket without contact beside others in its packet adds -0, as in pocket.c.
     vec F = vec_axpy(-Q, n, F_s);
+    if (d->squeeze.filled) F = vec_axpy(-film.F, film.m, F);
     if (walls) {
         wide tilt[3];
         for (int i = 0; i < 3; i++) tilt[i] = at->Q * wide_load(&walls->slope[i][j]);
@@ -90,40 +127,52 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
         wide_store(&on_wall[0][j], Q * n_x - vec_dot(F_s, gap->a));
         wide_store(&on_wall[1][j], Q * at->n_r - vec_dot(F_s, gap->b));
         wide_store(&on_wall[2][j], Q * at->n_t - vec_dot(F_s, gap->e_t));
+        if (d->squeeze.filled) {
+            const vec axis[3] = {gap->a, gap->b, gap->e_t};
+            for (int i = 0; i < 3; i++)
+                wide_store(&on_wall[i][j],
+                           wide_fma(film.F, vec_dot(film.m, axis[i]), wide_load(&on_wall[i][j])));
+        }
+        *load = Q;
         *rate = delta_dot;
     }
     F = vec_where(pressed, F);
     const vec M = vec_where(pressed, vec_cross(arm, F_s));
 
-    wide_store(&pocket->Q[j], Q);
+    wide_store(&pocket->Q[j], d->squeeze.filled ? Q + film.F : Q);
     // place of the contact on the wall
-    const wide place_r = gap->r + R * at->n_r + d->spheres.r, place_t = gap->t + R * at->n_t;
-    wide_store(&pocket->push_x[j], (h == 0 ? -1.0 : 1.0) * (gap->x + R * at->n_x));
+    wide push_x = n_x, push_r = at->n_r, push_t = at->n_t;
+    if (d->squeeze.filled)
+        push_x = vec_dot(push, gap->a), push_r = vec_dot(push, gap->b), push_t = vec_dot(push, gap->e_t);
+    const wide side = wide_set(h == 0 ? -1.0 : 1.0);
+    const wide place_r = gap->r + R * push_r + d->spheres.r, place_t = gap->t + R * push_t;
+    wide_store(&pocket->push_x[j], side * (gap->x + R * (side * push_x)));
     wide_store(&pocket->push_t[j], place_t);
     wide_store(&pocket->radius[j], wide_sqrt(place_r * place_r + place_t * place_t));
     pocket_on_half(w, j, &axes, pressed, F, M, pocket);
-    pocket_on_balls(model, w, j, pressed, n, F, M, g, (Q - at->Q) * delta_dot - vec_dot(F_s, slip));
+    pocket_on_balls(model, w, j, pressed, n, F, M, g, lost);
 }
 
 // Most pockets are not touched, so that their forces are not computed.
 void spheres_rigid(const Model *model, Work *w)
 {
     const Spheres *s = &model->d->spheres;
-    const bool mixed = pocket_is_mixed(model);
+    const bool mixed = pocket_is_mixed(model), filled = model->d->squeeze.filled;
+    squeeze_clear(model, w);
     for (int h = 0; h < 2; h++) {
         bool touched = false;
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             const SphereGap gap = sphere_gap(model->d, w, h, j);
             const wide slack = wide_load(&s->slack[j]);
-            SphereContact at;
+            SphereContact at = {0};
             bits pressed = {0};
             if (sphere_reached(s, slack, &gap, &at.delta)) {
                 at = sphere_contact(s, slack, gap.x, gap.r, gap.t);
                 pressed = wide_above(at.Q, LEAST);
             }
             wide_store(&w->delta_c[h][j], at.delta);
-            if (wide_any(pressed)) {
-                sphere_forces(model, w, h, j, &gap, &at, pressed, mixed, NULL, NULL, NULL);
+            if (wide_any(pressed) || filled) {
+                sphere_forces(model, w, h, j, &gap, &at, pressed, mixed, NULL, NULL, NULL, NULL);
                 touched = true;
             } else
                 pocket_clear(&w->pocket[h], j);
@@ -200,9 +249,9 @@ static void take(ball_array q[3], int k, int side, const scalar u[3])
 
 // Takes the motions of the walls of a packet, of which the bits in `near` may be reached, from the gap.  The modes that move all
 // pockets alike cost little and move the walls most: the others are left out where they cannot close the gap.  Returns
-// whether a ball may touch, with the approach.
-static bool move_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
-                       SpherePlace at[LANE_WIDTH], WallShape shape[LANE_WIDTH], wide *delta)
+// the bits of the others; the approach where there are none.
+static int move_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
+                      SpherePlace at[LANE_WIDTH], WallShape shape[LANE_WIDTH], wide *delta)
 {
     const int side = 2 * h - 1;
     const Spheres *s = &model->d->spheres;
@@ -222,8 +271,9 @@ static bool move_walls(const Model *model, const Work *w, int h, int j, int near
     }
     gap->x = wide_load(&alike[0][j]), gap->r = wide_load(&alike[1][j]), gap->t = wide_load(&alike[2][j]);
     sphere_reached(s, slack, gap, delta);
-    near &= wide_mask(wide_above(*delta + w->elastic.reach_others[h], 0.0));
-    if (near == 0) return false;
+    const double others = w->elastic.reach_others[h];
+    near &= wide_mask(wide_above(*delta + others, 0.0)) | sphere_wet(model->d, j, gap, others);
+    if (near == 0) return 0;
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         const int k = j + lane;
         if (!(near >> lane & 1)) {
@@ -237,7 +287,7 @@ static bool move_walls(const Model *model, const Work *w, int h, int j, int near
         take(q, k, side, u);
     }
     gap->x = wide_load(&q[0][j]), gap->r = wide_load(&q[1][j]), gap->t = wide_load(&q[2][j]);
-    return sphere_reached(s, slack, gap, delta);
+    return near;
 }
 
 // Velocities and slopes of the walls of a packet that are pressed, of which the shapes are known.
@@ -286,19 +336,20 @@ static void clear_walls(Work *w, int h, int j)
     wide_store(&e->wall_energy[h][j], zero);
 }
 
-// Contacts of a packet with the walls, modal forces on them.
+// Contacts of a packet with the walls, modal forces on them; wet: bits of the walls before which there may be a film.
 static void press_spheres(const Model *model, Work *w, int h, int j, const SphereGap *gap,
-                          const SphereContact *contact, bits pressed, SpherePlace at[LANE_WIDTH],
+                          const SphereContact *contact, bits pressed, int wet, SpherePlace at[LANE_WIDTH],
                           const WallShape shape[LANE_WIDTH])
 {
     ElasticWork *e = &w->elastic;
     const wide zero = wide_set(0.0), side = wide_set(h == 0 ? -1.0 : 1.0);
-    const int mask = wide_mask(pressed);
+    const int mask = wide_mask(pressed) | wet;
     ball_array on_wall[3];
-    wide rate;
+    wide load, rate;
     SphereWalls walls;
     pressed_walls(model, w, h, j, mask, contact, at, shape, &walls);
-    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &rate);
+    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &load,
+                  &rate);
     const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t}, k = 1.5 * contact->Q;
     const wide stiffness = k / (wide_max(contact->delta, wide_set(1e-30)) + model->modes->compliance * k);
     for (int c = 0; c < 3; c++) rate += n[c] * wide_load(&walls.u_dot[c][j]);
@@ -307,7 +358,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
     wide_store(&e->touch_k[h][j], wide_select(pressed, stiffness, zero));
     wide_store(&e->touch_rate[h][j], wide_select(pressed, rate, zero));
-    wide_store(&e->touch_Q[h][j], wide_load(&w->pocket[h].Q[j]));
+    wide_store(&e->touch_Q[h][j], load);
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
     wide_store(&e->touch_chi[h][j], zero);
     wide_store(&e->touch_radius[h][j], zero);
@@ -325,6 +376,7 @@ void spheres_elastic(const Model *model, Work *w)
 {
     const Spheres *s = &model->d->spheres;
     const wide c = wide_set(model->modes->compliance);
+    squeeze_clear(model, w);
     for (int h = 0; h < 2; h++) {
         bool touched = false;
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
@@ -332,17 +384,20 @@ void spheres_elastic(const Model *model, Work *w)
             const wide slack = wide_load(&s->slack[j]);
             SpherePlace at[LANE_WIDTH];
             WallShape shape[LANE_WIDTH];
-            SphereContact contact;
+            SphereContact contact = {0};
             bits pressed = {0};
             sphere_reached(s, slack, &gap, &contact.delta);
-            const int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0));
-            if (near != 0 && move_walls(model, w, h, j, near, &gap, at, shape, &contact.delta)) {
+            int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0)) |
+                       sphere_wet(model->d, j, &gap, w->elastic.reach[h]);
+            if (near != 0) near = move_walls(model, w, h, j, near, &gap, at, shape, &contact.delta);
+            const int wet = near & sphere_wet(model->d, j, &gap, 0.0);
+            if (near != 0 && sphere_reached(s, slack, &gap, &contact.delta)) {
                 contact = sphere_approach(s, slack, c, &gap);
                 pressed = wide_above(contact.Q, LEAST);
             }
             wide_store(&w->delta_c[h][j], contact.delta);
-            if (wide_any(pressed)) {
-                press_spheres(model, w, h, j, &gap, &contact, pressed, at, shape);
+            if (wide_any(pressed) || wet != 0) {
+                press_spheres(model, w, h, j, &gap, &contact, pressed, wet, at, shape);
                 touched = true;
             } else
                 clear_walls(w, h, j);

@@ -54,18 +54,27 @@ static double paraboloid(const Gap *g)
     return PI * product * sqrt(product) / (R_x + g->R);
 }
 
-// The polynomial through the values of G at Chebyshev's points and at z = 0, in Newton's form.
-static void fit_shape(const Gap *g, double reach, PocketSqueeze *film)
+void squeeze_nodes(double node[SQUEEZE_NODES])
 {
-    for (int i = 0; i < SQUEEZE_NODES; i++) {
-        const double z = 0.5 - 0.5 * portable_cos(PI * i / (SQUEEZE_NODES - 1)), h = z * z * reach;
-        film->node[i] = z;
-        film->newton[i] = i == 0 ? 1.0 : whole(g, h) * h / paraboloid(g);
-    }
+    for (int i = 0; i < SQUEEZE_NODES; i++) node[i] = 0.5 - 0.5 * portable_cos(PI * i / (SQUEEZE_NODES - 1));
+}
+
+void squeeze_newton(const double node[SQUEEZE_NODES], double value[SQUEEZE_NODES])
+{
     for (int order = 1; order < SQUEEZE_NODES; order++)
         for (int i = SQUEEZE_NODES - 1; i >= order; i--)
-            film->newton[i] =
-                (film->newton[i] - film->newton[i - 1]) / (film->node[i] - film->node[i - order]);
+            value[i] = (value[i] - value[i - 1]) / (node[i] - node[i - order]);
+}
+
+// The polynomial through the values of G at the nodes; 1 at z = 0.
+static void fit_shape(const Gap *g, double reach, PocketSqueeze *film)
+{
+    squeeze_nodes(film->node);
+    for (int i = 0; i < SQUEEZE_NODES; i++) {
+        const double h = film->node[i] * film->node[i] * reach;
+        film->newton[i] = i == 0 ? 1.0 : whole(g, h) * h / paraboloid(g);
+    }
+    squeeze_newton(film->node, film->newton);
 }
 
 void pocket_squeeze_derive(const Parameters *p, Derived *d)

@@ -38,20 +38,44 @@
 // Constants of the films; called where those of the pockets are known.
 void pocket_squeeze_derive(const Parameters *p, Derived *d);
 
+// Nodes of the polynomials of z, Chebyshev's points from 0 to 1; values at the nodes -> coefficients in Newton's form.
+void squeeze_nodes(double node[SQUEEZE_NODES]);
+void squeeze_newton(const double node[SQUEEZE_NODES], double value[SQUEEZE_NODES]);
+
 // The film of one half in a packet of pockets.
 typedef struct {
     wide D, F;  // F = D v.m, 0 where the ball withdraws [N.s/m, N]
     vec m;
 } SqueezeFilm;
 
+// No films yet.
+INLINE void squeeze_clear(const Model *model, Work *w)
+{
+    if (model->d->squeeze.filled) memset(w->squeeze, 0, sizeof w->squeeze);
+}
+
+// Adds a film's D m m^T to the matrix that the integrator solves (implicit.c).
+INLINE void squeeze_rate(const SqueezeFilm *film, Work *w, int j)
+{
+    const wide m[3] = {film->m.x, film->m.r, film->m.t};
+    for (int i = 0, place = 0; i < 3; i++)
+        for (int k = 0; k <= i; k++, place++)
+            wide_store(&w->squeeze[place][j],
+                       wide_fma(film->D * m[i], m[k], wide_load(&w->squeeze[place][j])));
+}
+
+INLINE wide squeeze_polynomial(const double node[SQUEEZE_NODES], const double newton[SQUEEZE_NODES], wide z)
+{
+    wide value = wide_set(newton[SQUEEZE_NODES - 1]);
+    for (int i = SQUEEZE_NODES - 2; i >= 0; i--) value = wide_fma(value, z - node[i], wide_set(newton[i]));
+    return value;
+}
+
 // Damping of a whole film / (c/h_eff), by the gap.
 INLINE wide squeeze_shape(const PocketSqueeze *film, wide h, int j)
 {
     const wide z = wide_sqrt(wide_min(h * wide_load(&film->inv_reach[j]), wide_set(1.0)) + 1e-30);
-    wide G = wide_set(film->newton[SQUEEZE_NODES - 1]);
-    for (int i = SQUEEZE_NODES - 2; i >= 0; i--)
-        G = wide_fma(G, z - film->node[i], wide_set(film->newton[i]));
-    return wide_max(G, wide_set(0.0));
+    return wide_max(squeeze_polynomial(film->node, film->newton, z), wide_set(0.0));
 }
 
 // v: velocity of the ball's centre against the wall.
