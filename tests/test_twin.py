@@ -450,8 +450,8 @@ def test_films_that_the_rivets_feel(core, percent, felt):
     scene, inputs = SCENES["elastic"]
     model, y_start, _ = start_of("elastic")
     y, w, t = random_states(model, y_start, np.random.default_rng(6), 1)[0], Work(), 3e-4
-    rhs(model, 0.0, y, w)
-    load = np.hypot(*w.pressure.film)[0]  # of half 0, not yet bent or nearly so
+    rhs(Model.of(scene | {"joint.preload": 1000.0}, inputs), 0.0, y, w)
+    load = np.hypot(*w.pressure.film)[0]  # of half 0, which is round here
     parameters = scene | {"joint.preload": float(load / (1e-2 * percent * Z))}
     found = Instance(core, parameters, inputs).step(t)
     np.frombuffer(core.ffi.buffer(core.lib.part_state(found.bearing), y.nbytes))[:] = y
@@ -459,7 +459,7 @@ def test_films_that_the_rivets_feel(core, percent, felt):
     expected = observe(model, t, y, 0.0)["rivet[k].sigma_head"]
     np.testing.assert_allclose(found.output("rivet.sigma_head"), expected, rtol=1e-9)
     rhs(model, t, y, w)
-    assert w.pressure.part[0] == pytest.approx(felt, abs=1e-6)
+    assert w.pressure.part[0] == pytest.approx(felt, abs=1e-4)
 
 
 def test_outputs_at_the_start(core):

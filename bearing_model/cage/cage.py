@@ -48,6 +48,7 @@ from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_GAMMA,
     CAGE_PSI,
+    CAGE_V_X,
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
@@ -60,6 +61,7 @@ from bearing_model.generated.variables import (
     MODE_S,
     MODE_S_DOT,
     RETIRED_ITEMS,
+    RING_V_X,
     CageModel,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
@@ -69,6 +71,7 @@ from bearing_model.physics.land_bent import bent_solve
 from bearing_model.physics.rotor import rotor_roll
 
 ROW_DP = 5
+CAGE_VELOCITIES = slice(CAGE_V_X.start, RING_V_X.start)
 PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes
 
 
@@ -87,7 +90,8 @@ class CageMemory:
 class CageStep:
     """Between the stages of a step: slow accelerations at the end as the halves' own substeps foresee them, of the modes
     [2, n] and of the halves [12]; length of the substeps [s], 0 without any; what the accelerations foreseen of the shapes of bent
-    rims lack at the end [2, 4]; their squeeze velocities [2, 6] and impulses of the films [2, 6].
+    rims lack at the end [2, 4]; their squeeze velocities [2, 6] and impulses of the films [2, 6];
+    change of the halves' velocities by the substeps behind the evaluation [12].
     """
 
     modes: np.ndarray = 0.0
@@ -96,6 +100,7 @@ class CageStep:
     rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
     impulse: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
+    late: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
 
 
 # ------------------------------------------------------------------------------------------------------------ parameters
@@ -224,7 +229,9 @@ def cage_arrive(model, gamma, w, step, before, y, f):
     """
     memory = cage_split(model, y, w, f)
     if model.modes:
+        step.late = -y[CAGE_VELOCITIES]
         cage_substeps_finish(model, w, step.substep, memory.fast, before.fast, y)
+        step.late = step.late + y[CAGE_VELOCITIES]
         if bent_halves(w).any():
             n = model.modes.n
             lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
@@ -267,7 +274,7 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
         B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
         axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
         mobility = np.append(np.full(2, 1.0 / p.cage.m + x * x / d.J_t), model.modes.mobility)
-        start = np.concatenate([axes @ B @ residual[HALF[:, h]], gamma * step.rim_lack[h]])
+        start = np.concatenate([axes @ B @ (residual + step.late)[HALF[:, h]], gamma * step.rim_lack[h]])
         solved = bent_solve(p, on, gamma, mobility, start, step.squeeze[h])
         inertia = np.array([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p])
         change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia

@@ -137,9 +137,7 @@ def bent_solve(p, on, gamma, mobility, residual, V):
         F, D, _ = bent_law(p, on, V, grid)
         F, D = on.part * F - round_rate @ (V - start), on.part * D + round_rate
         F[:2] += (1.0 - on.part) * on.round_film
-        step = np.linalg.solve(
-            np.eye(6) + gamma * mobility[:, None] * D, free + gamma * mobility * F - V
-        )
+        step = np.linalg.solve(np.eye(6) + gamma * mobility[:, None] * D, free + gamma * mobility * F - V)
         V = V + step
         if np.max(np.abs(step)) <= CONVERGED * np.max(np.abs(V)):
             break

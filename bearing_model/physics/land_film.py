@@ -46,8 +46,8 @@ import numpy as np
 from bearing_model.generated.variables import Lubrication, Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
 from bearing_model.numbers.vec import vec_cross, vec_dot
-from bearing_model.physics.land_bent import bent_dot, bent_grid, bent_part, bent_sums
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
+from bearing_model.physics.land_bent import bent_dot, bent_grid, bent_part, bent_sums
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
 

@@ -53,7 +53,8 @@ static void rim_motions(const Model *model, const double *modes, double rim[2][R
     double S[RIM], D[RIM];
     elastic_rim(model->modes, modes, S);
     elastic_rim(model->modes, modes + N_MODES, D);
-    for (int i = 0; i < RIM; i++) rim[0][i] = ROOT_HALF * (S[i] - D[i]), rim[1][i] = ROOT_HALF * (S[i] + D[i]);
+    for (int i = 0; i < RIM; i++)
+        rim[0][i] = ROOT_HALF * (S[i] - D[i]), rim[1][i] = ROOT_HALF * (S[i] + D[i]);
 }
 
 // Adds a part of impulses on the rims' shapes to velocities of S and D.
@@ -118,7 +119,9 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
 {
     cage_split(model, y, w, f, memory);
     if (!model->modes) return;
+    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] = -y[Y_CAGE_V_X + i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, &before->fast, y);
+    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] += y[Y_CAGE_V_X + i];
     if (!w->film[0].bent && !w->film[1].bent) return;
     double lack[2 * N_MODES];
     const double last = 0.5 * step->substep / step->gamma;
@@ -157,8 +160,13 @@ void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step,
 static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm *f, CageStep *step,
                        HalfVelocity *half)
 {
-    const double *mobility = model->modes->mobility, gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
-    const double u_y = half->y + half->gamma * f->x, u_z = half->z - half->beta * f->x;
+    const double *mobility = model->modes->mobility, gamma = step->gamma, *b_y = w->half[h].b_y,
+                 *b_z = w->half[h].b_z;
+    const double *late = &step->late[h];
+    const double u_y =
+        half->y + late[Y_CAGE_V_Y - Y_CAGE_V_X] + (half->gamma + late[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X]) * f->x;
+    const double u_z =
+        half->z + late[Y_CAGE_V_Z - Y_CAGE_V_X] - (half->beta + late[Y_CAGE_BETA_DOT - Y_CAGE_V_X]) * f->x;
     double root[SQUEEZE], residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
     root[0] = root[1] = sqrt(1.0 / f->m + f->x * f->x / f->J_t);
     for (int i = 0; i < RIM; i++) {
@@ -167,7 +175,8 @@ static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm 
     }
     land_film_solve(model, w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
     const double *impulse = step->bent[h].impulse;
-    half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1], half);
+    half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
+                   half);
     half->s /= 1.0 + f->spin;
 }
 

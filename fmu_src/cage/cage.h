@@ -23,7 +23,7 @@
 typedef struct {
     TwoHalfMemory path;
     FastState fast;
-    double rim[2][RIM];  // forces on the shapes of both bent rims [N]
+    double rim[2][RIM];          // forces on the shapes of both bent rims [N]
     double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
 } CageMemory;
 
@@ -80,6 +80,8 @@ typedef struct {
     double axial, shear;
     // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2]; the solution there
     double rim_lack[2][RIM], squeeze[2][SQUEEZE];
+    double
+        late[2 * RELATIVE_MOTIONS];  // change of the halves' velocities by the substeps behind the evaluation
     BentSolution bent[2];
 } CageStep;
 

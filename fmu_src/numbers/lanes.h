@@ -492,7 +492,8 @@ INLINE void wide_column_sums(int n, int columns, const wide *x, scalar *sum)
 {
     int first = 0;
 #if defined(__AVX512F__) && LANE_WIDTH == 8 && !defined(DUAL)
-    const __m512i even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
+    const __m512i even = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13),
+                  odd = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
     for (; first + 8 <= n; first += 8) {
         __m512d two[4], four[2];
         for (int i = 0; i < 4; i++) {

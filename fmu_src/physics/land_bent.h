@@ -87,8 +87,8 @@ enum {
     BENT_FILM,
     BENT_RATES = BENT_FILM + SQUEEZE,  // yy, yz, zz
     BENT_COUETTE = BENT_RATES + 3,     // int dtheta/h
-    BENT_ROUGH,                                 // int of the load of asperities, and times n
-    BENT_DRY = BENT_ROUGH + 3,                  // of the dry contact: forces, loads without and with damping,
+    BENT_ROUGH,                        // int of the load of asperities, and times n
+    BENT_DRY = BENT_ROUGH + 3,         // of the dry contact: forces, loads without and with damping,
     BENT_N_0 = BENT_DRY + SQUEEZE,
     BENT_N,
     BENT_STORED,  // energy and its rate

@@ -308,7 +308,8 @@ INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar
     const scalar size = scalar_sqrt(along[0] * along[0] + along[1] * along[1] + 1e-30), R = 0.5 * p->cage.D_o;
     const scalar u[2] = {along[0] / size, along[1] / size};
     const scalar slip = at->v[1] * u[0] - at->v[0] * u[1] + at->omega * R;
-    const scalar g = p->cage.mu_land / scalar_sqrt(slip * slip + p->cage.v_c * p->cage.v_c), F_t = -g * slip * size;
+    const scalar g = p->cage.mu_land / scalar_sqrt(slip * slip + p->cage.v_c * p->cage.v_c),
+                 F_t = -g * slip * size;
     force->F[0] -= F_t * u[1];
     force->F[1] += F_t * u[0];
     force->M_x = -R * g * slip * all;
@@ -320,13 +321,14 @@ INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
 {
     for (int i = 0; i < 2; i++)
         for (int k = 0; k <= i; k++)
-            to[i + k] = T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
+            to[i + k] =
+                T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
 }
 
 // The film of half h becomes, by on->part, that of its bent rim; on entry `force`, w->film and w->pressure are those of the round
 // land.
-INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at, scalar couette,
-                      LandForce *force)
+INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at,
+                      scalar couette, LandForce *force)
 {
     const Rotor *half = &w->half[h];
     LandPressure *on = &w->pressure[h];
@@ -449,7 +451,8 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
                            wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
                            wide_lane(stored, i),
                            wide_lane(stored_rate, i)};
-        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0, false};
+        w->film[h] =
+            (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0, false};
         LandPressure *on = &w->pressure[h];
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
         land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
@@ -507,7 +510,8 @@ static void bent_grid(const Model *model, const LandPressure *on, BentGrid *grid
 }
 
 // Forces and rates of the film at the squeeze velocities V, along the half's axes.
-static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQUEEZE], double D[SQUEEZE_TERMS])
+static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQUEEZE],
+                     double D[SQUEEZE_TERMS])
 {
     enum { FORCES = 0, RATES = SQUEEZE, ALL = SQUEEZE + SQUEEZE_TERMS };
 
@@ -593,7 +597,8 @@ void land_film_solve(const Model *model, const Work *w, int h, double gamma, con
     memcpy(start, on->V, sizeof on->V);
     memcpy(&start[2], on->rim_V, sizeof on->rim_V);
     for (int i = 0; i < 3; i++) round[i] = (1.0 - on->part) * on->round_rate[i];
-    for (int i = 0; i < SQUEEZE; i++) free[i] = start[i] + residual[i] - gamma * root[i] * root[i] * on->film[i];
+    for (int i = 0; i < SQUEEZE; i++)
+        free[i] = start[i] + residual[i] - gamma * root[i] * root[i] * on->film[i];
     for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         // the law at the velocities V
         double by_round[SQUEEZE];

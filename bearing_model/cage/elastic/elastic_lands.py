@@ -29,7 +29,7 @@ from bearing_model.cage.common.joint_slip import joint_slip_add
 from bearing_model.cage.elastic.half_modes import RIM_WAVES
 from bearing_model.cage.two_half.half_path import land_harmonics, land_rows
 from bearing_model.generated.variables import Z
-from bearing_model.numbers.lanes import maximum, minimum
+from bearing_model.numbers.lanes import maximum
 from bearing_model.physics.land_bent import smooth_part
 from bearing_model.physics.land_film import land_film_loads
 
@@ -80,7 +80,9 @@ def elastic_lands(model, w, P, shear):
     shanks.  P: preloads with the centrifugal load.
     """
     j, d = w.elastic.joints, model.d
-    rows = land_rows(replace(d.table.half, land=beside_modes(d.table.half.land)), model.p.cage.land_x, land_film_loads(model, w))
+    rows = land_rows(
+        replace(d.table.half, land=beside_modes(d.table.half.land)), model.p.cage.land_x, land_film_loads(model, w)
+    )
     trial, load = (np.moveaxis(x, 0, -1) for x in (j.trial, j.load))
     P = P + 0.0 * rows[..., 0]
     load, rivet = (

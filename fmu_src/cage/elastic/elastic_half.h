@@ -179,8 +179,7 @@ INLINE void elastic_rim(const ElasticHalf *half, const scalar *q, scalar motion[
         scalar part[8] = {0};
         for (int i = 0; i < N_MODES; i += 8)
             for (int k = 0; k < 8; k++) part[k] += half->rim[c][i + k] * q[i + k];
-        motion[c] =
-            ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+        motion[c] = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
     }
 }
 

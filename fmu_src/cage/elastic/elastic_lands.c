@@ -22,8 +22,8 @@
 
 #include "cage/common/joint_slip.h"
 #include "cage/elastic/elastic_half.h"
-#include "physics/land_film.h"
 #include "physics/land_bent.h"
+#include "physics/land_film.h"
 #include "rivet/rivet_rom.h"
 
 // Delta L over the loads of the joints, root mean square, that one sweep is for.
