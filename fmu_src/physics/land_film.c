@@ -40,7 +40,9 @@
 //     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 //
 // spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the
-// narrowest gap.  The gap is that of round lands: the bending does not change the film (docs/notes/bent_rims.md).
+// narrowest gap of a round land.  Of elastic halves the bending changes the film: land_bent.h.  There gamma times the rates of
+// land and rim is a thousand in a stiff gap, and the film is linear in the squeeze velocities but for its ends: a step solves it
+// by Newton's method on the points at its end, from the velocities of the last step.
 #include "physics/land_film.h"
 
 #include "cage/elastic/elastic_half.h"

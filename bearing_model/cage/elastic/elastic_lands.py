@@ -12,10 +12,8 @@ change, two leave 1.3 %.  A film whose Delta L is less than 0.5 % of the joints'
 smooth part of the second.  In the plane friction and play that the motion leaves over carry Delta V, as between rigid halves
 (joint_slip.py).
 
-A film that presses on the rims with less than 1 % of the sum of the preloads is left out, from 2 % on it counts in full, between
-them a smooth part of the change.
-
-One-way forces of a film on the modes have no damping by it and are unsound (docs/notes/lands_that_bend.md).
+The second and the third wave of the load bend the rims and so the film's own gap: they act on the modes (land_bent.py), which
+carry the bonded loads of the joints to 2 %, and leave only Delta P and dm here.  Films that leave the rims round are left out.
 Smoothness: that of the law, C1.
 """
 

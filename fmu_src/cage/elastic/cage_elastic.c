@@ -20,7 +20,7 @@
 // follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
 // 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
 // contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
-// The films of the lands load the rivets statically (elastic_lands.c).
+// The films of the lands bend the rims (land_bent.h) and load the rivets statically by other waves (elastic_lands.c).
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum c_i
 // q_i.  Coriolis forces on the modes and their softening by spin are left out: 2 omega_c/omega_i and
