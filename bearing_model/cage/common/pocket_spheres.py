@@ -30,8 +30,8 @@ is -dV/dq = -Q n through its centre, the friction acts at the contact point p + 
 A push along the tangent touches both halves at sin chi_0 = e/(R_c - R) if that is more than sin chi_1: each half has N = F sin(chi_0 +- beta)
 /sin 2 chi_0 of a push at the angle beta from the split, beyond chi_0 one half has all.  0.7 a/R: independent solution of an elastic ball in a
 spherical hole (tests/conforming_spheres.py).  Oil between ball and sphere adds the force -F m through the ball's centre, where both close in
-(spheres_squeeze.py); the wall bears the force at the place nearest to the ball, as that of the contact.  Smoothness: C1 at touch-down, at the seams and where the second half begins to carry.  At a corner the force is
-continuous, its slope is not.
+(spheres_squeeze.py); the wall bears the force at the place nearest to the ball, as that of the contact.  Smoothness: C1 at touch-down, at the
+seams and where the second half begins to carry.  At a corner the force is continuous, its slope is not.
 """
 
 from types import SimpleNamespace
