@@ -79,7 +79,7 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
     }
     cage_substeps_split(model, y, w, f, &memory->fast);
     for (int h = 0; h < 2; h++)
-        for (int i = 0; i < RIM; i++) memory->rim[h][i] = w->film[h].bent ? w->pressure[h].rim_force[i] : 0.0;
+        for (int i = 0; i < RIM; i++) memory->rim[h][i] = land_is_bent(w, h) ? w->pressure[h].rim_force[i] : 0.0;
     push_rims(model, -1.0, memory->rim[0], &f[Y_MODE_S_DOT]);
 }
 
@@ -122,7 +122,7 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] = -y[Y_CAGE_V_X + i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, &before->fast, y);
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] += y[Y_CAGE_V_X + i];
-    if (!w->film[0].bent && !w->film[1].bent) return;
+    if (!land_is_bent(w, 0) && !land_is_bent(w, 1)) return;
     double lack[2 * N_MODES];
     const double last = 0.5 * step->substep / step->gamma;
     for (int i = 0; i < 2 * N_MODES; i++)
@@ -187,7 +187,7 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
     for (int h = 0; h < 2; h++) {
         half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
-        if (w->film[h].bent)
+        if (land_is_bent(w, h))
             bent_solve(model, w, h, &f[h], step, &half[h]);
         else
             half_film_solve(&f[h], &half[h]);

@@ -45,7 +45,6 @@
 // by Newton's method on the points at its end, from the velocities of the last step.
 #include "physics/land_film.h"
 
-#include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 #include "physics/land_bent.h"
 #include "physics/outer_ring.h"
@@ -342,8 +341,8 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
         T[0][k] = column[0], T[1][k] = column[1];
     }
     for (int i = 0; i < 2; i++) on->v[i] = T[i][0] * at->v[0] + T[i][1] * at->v[1];
-    elastic_rim(model->modes, w->elastic.q[h], on->rim);
-    elastic_rim(model->modes, w->elastic.q_dot[h], on->rim_v);
+    memcpy(on->rim, w->rim[h], sizeof on->rim);
+    memcpy(on->rim_v, w->rim_v[h], sizeof on->rim_v);
     for (int i = 0; i < RIM; i += 2) {
         const scalar turn = 0.5 * (2 + i / 2) * at->omega;
         on->rim_V[i] = on->rim_v[i] - turn * on->rim[i + 1];
@@ -384,7 +383,6 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
     bend_one(part, rate[0], &film->yy);
     bend_one(part, rate[1], &film->yz);
     bend_one(part, rate[2], &film->zz);
-    film->bent = true;
 }
 
 // The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
@@ -454,7 +452,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
                            wide_lane(stored, i),
                            wide_lane(stored_rate, i)};
         w->film[h] =
-            (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0, false};
+            (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0};
         LandPressure *on = &w->pressure[h];
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
         land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
@@ -633,7 +631,7 @@ double land_film_arrive(double gamma, const BentSolution solved[2], Work *w)
 {
     double power = 0.0;
     for (int h = 0; h < 2; h++) {
-        if (!w->film[h].bent) continue;
+        if (!land_is_bent(w, h)) continue;
         const Rotor *half = &w->half[h];
         LandPressure *on = &w->pressure[h];
         LandFilm *film = &w->film[h];
@@ -661,7 +659,7 @@ void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
 {
     for (int h = 0; h < 2; h++) {
         const LandPressure *on = &w->pressure[h];
-        if (w->film[h].bent)
+        if (land_is_bent(w, h))
             bent_load(model, on, &load[h]);
         else
             memset(&load[h], 0, sizeof load[h]);

@@ -21,6 +21,12 @@ INLINE scalar land_growth_rate(const Derived *d, scalar omega)
     return scalar_value(grown) < (1.0 - LEAST_CLEARANCE) * d->C_land ? 2.0 * d->growth * omega : 0.0 * omega;
 }
 
+// Whether the film of half h bends its rim (land_bent.h).
+INLINE bool land_is_bent(const Work *w, int h)
+{
+    return scalar_value(w->pressure[h].part) > 0.0;
+}
+
 // Power that the growth of halves whose speed changes puts into the lands' dry contacts.
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot);
 

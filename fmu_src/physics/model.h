@@ -259,11 +259,9 @@ typedef struct {
     scalar F[3], M[3];      // force and moment about the geometric centre, by all contacts
 } Rotor;
 
-// ---- rates of the film of one land, -dF/dv [N.s/m] and -dM/domega [N.m.s]; whether it bends the rim; written by
-// land_film_force ---------------------------------------------------------------------------------------------
+// ---- rates of the film of one land, -dF/dv [N.s/m] and -dM/domega [N.m.s]; written by land_film_force --------
 typedef struct {
     scalar yy, yz, zz, spin;
-    bool bent;
 } LandFilm;
 
 // ---- what decides the pressure on one rim, along the half's axes; written by land_film.c: eccentricity [m], pure squeeze
@@ -350,6 +348,9 @@ typedef struct {
     // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)
     scalar filling, stream, wall;
     scalar ring_drag_dissipated;
+
+    // rims of elastic halves at their lands (cage_elastic_kinematics): motion of the shapes and velocity [m, m/s]
+    scalar rim[2][RIM], rim_v[2][RIM];
 
     // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
     scalar cage_dissipated, land_dissipated, cage_drag_dissipated;

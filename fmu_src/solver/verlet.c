@@ -85,7 +85,7 @@ static void predictor_limiter(const Model *model, double h, const VerletState *f
     // The part that the films leave of it, (1 + h A)^-1 of the films alone, without their spin.
     LandFilm film[2];
     for (int land = 0; land < 2; land++)
-        film[land] = (LandFilm){from->film[land][0], from->film[land][1], from->film[land][2], 0.0, false};
+        film[land] = (LandFilm){from->film[land][0], from->film[land][1], from->film[land][2], 0.0};
     cage_films(model, film, h, kept);
     for (int i = CAGE; i < CAGE_END; i++) removed[i] -= kept[i];
 }

@@ -31,6 +31,7 @@
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
 #include "cage/elastic/elastic_lands.h"
+#include "physics/land_film.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
 
@@ -99,6 +100,8 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
         w->elastic.reach[h] = w->elastic.reach_others[h] + elastic_dot(half->widest, moved);
         w->elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q[h]);
         w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q_dot[h]);
+        elastic_rim(half, w->elastic.q[h], w->rim[h]);
+        elastic_rim(half, w->elastic.q_dot[h], w->rim_v[h]);
     }
 }
 
@@ -289,7 +292,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         spin[h] = s * s;
     }
     for (int h = 0; h < 2; h++)
-        if (w->film[h].bent) add_rim_force(half, w->pressure[h].rim_force, w->elastic.wall_force[h]);
+        if (land_is_bent(w, h)) add_rim_force(half, w->pressure[h].rim_force, w->elastic.wall_force[h]);
     for (int i = 0; i < MODES; i++) {
         const scalar f_0 = w->elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
         const scalar f_1 = w->elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];

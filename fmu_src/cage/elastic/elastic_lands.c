@@ -132,7 +132,7 @@ static void find_rows(const Model *model, const Work *w, PathRows *rows)
 bool elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
                    JointShear *shear)
 {
-    if (!w->film[0].bent && !w->film[1].bent) return false;
+    if (!land_is_bent(w, 0) && !land_is_bent(w, 1)) return false;
     const Derived *d = model->d;
     const JointLaw *law = &rivet_table.half.law;
     const ElasticJoints *by_modes = &w->elastic.joints;
