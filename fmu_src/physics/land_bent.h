@@ -20,7 +20,6 @@
 #pragma once
 
 #include "physics/hertz.h"
-#include "physics/land_film.h"
 #include "physics/traction.h"
 
 static const double BENT_EPS = 0.9;  // largest eps of the points
