@@ -79,7 +79,8 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
     }
     cage_substeps_split(model, y, w, f, &memory->fast);
     for (int h = 0; h < 2; h++)
-        for (int i = 0; i < RIM; i++) memory->rim[h][i] = land_is_bent(w, h) ? w->pressure[h].rim_force[i] : 0.0;
+        for (int i = 0; i < RIM; i++)
+            memory->rim[h][i] = land_is_bent(w, h) ? w->pressure[h].rim_force[i] : 0.0;
     push_rims(model, -1.0, memory->rim[0], &f[Y_MODE_S_DOT]);
 }
 

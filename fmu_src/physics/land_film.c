@@ -451,8 +451,7 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
                            wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
                            wide_lane(stored, i),
                            wide_lane(stored_rate, i)};
-        w->film[h] =
-            (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0};
+        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0};
         LandPressure *on = &w->pressure[h];
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
         land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
