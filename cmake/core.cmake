@@ -4,7 +4,7 @@ include(CheckCCompilerFlag)
 
 # Files that work on packets of balls: compiled once for each instruction set, chosen at run time.
 set(kernel_files
-    physics/rhs.c physics/ball.c physics/race_contact.c physics/drag.c physics/land_film.c physics/ring.c
+    physics/rhs.c physics/ball.c physics/race_contact.c physics/drag.c physics/land_film.c physics/land_bent.c physics/ring.c
     cage/cage.c cage/common/halves.c cage/common/pocket.c cage/common/pocket_spheres.c cage/common/cage_joint.c cage/common/joint_slip.c
     cage/two_half/two_half.c cage/two_half/half_path.c cage/two_half/joint_open.c
     cage/elastic/cage_elastic.c cage/elastic/cage_substeps.c cage/elastic/elastic_wall.c cage/elastic/elastic_lands.c

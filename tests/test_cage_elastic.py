@@ -54,6 +54,7 @@ SCENES = (
     },
 )
 OF_RIBBON = RIBBON | {"cage.unbalance": 2e-6}  # on the machined half's modes
+BENT = {"joint.preload": 0.5, "scene.lubrication": 2}  # films bend both rims
 WET_RIBBON = OF_RIBBON | {"cage.pocket_filling": 1.0}
 BLOCKS = STATE_SLICES | {name: getattr(variables, name.upper()) for name in ELASTIC_SCALES}
 
@@ -70,8 +71,8 @@ def largest_difference(a, b, scale=None):
 @pytest.mark.parametrize("isa", ["sse2", "avx2", "avx512"])
 @pytest.mark.parametrize(
     "scene",
-    [*SCENES, OF_RIBBON, WET_RIBBON, WET_RIBBON | {"cage.pocket_filling": 0.3}],
-    ids=[*range(len(SCENES)), "ribbon", "flooded ribbon", "wet ribbon"],
+    [*SCENES, BENT, OF_RIBBON, WET_RIBBON, WET_RIBBON | {"cage.pocket_filling": 0.3}],
+    ids=[*range(len(SCENES)), "bent", "ribbon", "flooded ribbon", "wet ribbon"],
 )
 def test_twins_are_equal(core, scene, isa, record_property):
     """dy/dt, energy, loads of the rivets at random states: rounding (observed 2e-10 of a block's largest rate, 1e-12 of
@@ -100,7 +101,9 @@ def test_twins_are_equal(core, scene, isa, record_property):
 
 
 @pytest.mark.parametrize(
-    "scene", [*SCENES[:3], SCENES[-1], OF_RIBBON, WET_RIBBON], ids=[0, 1, 2, 4, "ribbon", "flooded ribbon"]
+    "scene",
+    [*SCENES[:3], SCENES[-1], BENT, OF_RIBBON, WET_RIBBON],
+    ids=[0, 1, 2, 4, "bent", "ribbon", "flooded ribbon"],
 )
 def test_step_equals_the_dense_step(core, scene, record_property):
     """Two steps in a row and their substeps in both twins, in units of the error scales (observed 2e-12)."""
@@ -121,6 +124,10 @@ def test_step_equals_the_dense_step(core, scene, record_property):
             assert error == pytest.approx(error_twin, rel=1e-6)
             for a, b, unit in ((at.y, end.y, scale), (at.f, end.f, scale / h), (at.jerk, end.jerk, scale / h**2)):
                 worst = max(worst, np.max(np.abs(a - b) / unit / (1.0 + np.max(np.abs(b / unit)) * 1e-3)))
+            for name in ("rim", "squeeze"):
+                found, expected = np.array([list(row) for row in getattr(state.cage, name)]), getattr(end.cage, name)
+                np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8 * np.abs(expected).max())
+                assert scene != BENT or np.all(expected != 0.0)
             np.testing.assert_allclose(list(state.cage.fast.T)[:Z], end.cage.fast.T, rtol=1e-9)
             np.testing.assert_allclose(
                 list(state.cage.fast.rigid),
@@ -132,7 +139,9 @@ def test_step_equals_the_dense_step(core, scene, record_property):
     assert worst < 1e-9
 
 
-@pytest.mark.parametrize("scene", [{}, OF_RIBBON, WET_RIBBON], ids=["machined", "ribbon", "flooded ribbon"])
+@pytest.mark.parametrize(
+    "scene", [{}, BENT, OF_RIBBON, WET_RIBBON], ids=["machined", "bent", "ribbon", "flooded ribbon"]
+)
 def test_derivatives(core, scene):
     """The core's dual numbers against the twin's complex steps: all columns of one state."""
     rng = np.random.default_rng(7)

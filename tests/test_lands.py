@@ -354,9 +354,7 @@ def harmonic(line, n, ends):
 
 
 def bent_scene(fraction):
-    """ElasticLand pressures of a model with loose joints, where every film bends its rim, at an eccentricity of that part of the
-    clearance; rims as they are round.
-    """
+    """What decides the films of two lands at an eccentricity of that part of the clearance, their rims round so far, and the model."""
     model, rng = Model.of(ELASTIC | {"cage.g_0": 1e-4}), np.random.default_rng(4)
     C, angle = np.full(2, model.d.C_land), rng.uniform(0.0, 6.0, 2)
     e = fraction * C * np.array([np.cos(angle), np.sin(angle)])
@@ -378,7 +376,7 @@ def test_the_bent_law_of_a_round_rim_is_the_closed_form(fraction):
     assert np.abs(sums.film[:2] - force).max() < 1e-2 * np.abs(force).max()
     for (i, k), name in (((0, 0), "yy"), ((1, 0), "yz"), ((1, 1), "zz")):
         assert np.abs(sums.rates[i, k] - rates[name]).max() < 0.1 * np.abs(rates["yy"] + rates["zz"]).max()
-    np.testing.assert_allclose(sums.couette * on.C / (2.0 * np.pi), 1.0 / np.sqrt(q2), rtol=5e-3)
+    np.testing.assert_allclose(sums.couette / (2.0 * np.pi), 1.0 / np.sqrt(q2), rtol=5e-3)
 
 
 def test_the_bent_bedding_of_a_round_rim_is_the_dry_contact():

@@ -90,7 +90,7 @@ def bent_law(p, on, V, grid):
 
 
 def bent_sums(model, on):
-    """Forces of film and dry contact, film's rates, int dtheta/h, load of asperities and of all friction with n, loads,
+    """Forces of film and dry contact, film's rates, int C dtheta/h, load of asperities and of all friction with n, loads,
     stored energy and its rate of the dry contact.
     """
     p, grid = model.p, bent_grid(model.p, on)
@@ -107,7 +107,7 @@ def bent_sums(model, on):
     return SimpleNamespace(
         film=film,
         rates=rates,
-        couette=np.sum(weight / gap, axis=-1) / on.C,
+        couette=np.sum(weight / gap, axis=-1),
         dry=-np.sum(N * b, axis=-1),
         N_0=np.sum(bed, axis=-1),
         N=np.sum(N, axis=-1),

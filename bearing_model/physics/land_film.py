@@ -230,7 +230,7 @@ def land_bend(model, w, on, T, motion, couette, force):
     u_y, u_z = along / size
     slip = v_z * u_y - v_y * u_z + omega * R
     g = p.cage.mu_land / np.sqrt(slip * slip + p.cage.v_c**2)
-    torque = couette * model.d.C_land * (0.5 / np.pi) * sums.couette
+    torque = couette * model.d.C_land / on.C * (0.5 / np.pi) * sums.couette
     F = np.einsum("ki...,i...->k...", back, sums.film[:2] + sums.dry[:2]) + g * slip * size * np.array([u_z, -u_y])
     bent = {
         "F_y": F[0],

@@ -157,9 +157,9 @@ void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step,
     if (!model->modes) step->shear = two_half_shear(model, w, gamma, v);
 }
 
-// The same of a half and its bent rim.
-static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm *f, CageStep *step,
-                       HalfVelocity *half)
+// v = (1 + gamma A)^-1 v of a half and its bent rim, by the law at the end of the step (land_bent.c).
+static void solve_bent_half(const Model *model, const Work *w, int h, const HalfFilm *f, CageStep *step,
+                            HalfVelocity *half)
 {
     const double *mobility = model->modes->mobility, gamma = step->gamma, *b_y = w->half[h].b_y,
                  *b_z = w->half[h].b_z;
@@ -174,7 +174,7 @@ static void bent_solve(const Model *model, const Work *w, int h, const HalfFilm 
         root[2 + i] = sqrt(mobility[i]);
         residual[2 + i] = gamma * step->rim_lack[h][i];
     }
-    land_film_solve(model, w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
+    bent_solve(model, w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
     const double *impulse = step->bent[h].impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
                    half);
@@ -189,7 +189,7 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
         half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
         if (land_is_bent(w, h))
-            bent_solve(model, w, h, &f[h], step, &half[h]);
+            solve_bent_half(model, w, h, &f[h], step, &half[h]);
         else
             half_film_solve(&f[h], &half[h]);
     }

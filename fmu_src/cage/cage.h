@@ -14,7 +14,7 @@
 #include "cage/elastic/cage_substeps.h"
 #include "cage/two_half/two_half.h"
 #include "numbers/isa.h"
-#include "physics/land_film.h"
+#include "physics/land_bent.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
@@ -78,7 +78,7 @@ typedef struct {
     double gamma;       // half of the step [s]
     double substep;     // length of the substeps [s], 0 without any
     double axial, shear;
-    // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2]; the solution there
+    // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2], squeeze velocities, the solution
     double rim_lack[2][RIM], squeeze[2][SQUEEZE];
     double
         late[2 * RELATIVE_MOTIONS];  // change of the halves' velocities by the substeps behind the evaluation
@@ -127,12 +127,12 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
                   double *y);
 
-// Velocities of the modes at the end, in y, and their rates there with what the solve takes from the rims.
+// Velocities of the modes at the end, in y, with the forces on bent rims there.
 #define cage_finish FOR_ISA(cage_finish)
 void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
                  const double *f_end, CageMemory *memory);
 
-// Rates of the modes at the end, their history and their error; f, jerk and h_0 are those of the step's start and of
+// Rates of the modes at the end, their history and their error, without the films on bent rims; f, jerk and h_0 are those of the step's start and of
 // the step before.
 #define cage_remember FOR_ISA(cage_remember)
 void cage_remember(const Model *model, double h, double h_0, const double *f, const double *jerk,

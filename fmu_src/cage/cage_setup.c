@@ -91,5 +91,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->touch_radius[0], 2 * LANES, 10.0 * motion) &&
            values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
-           values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration);
+           values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
+           values_are_within(memory->rim[0], 2 * RIM, load) &&
+           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0);
 }

@@ -639,7 +639,7 @@ typedef struct {
 
 static const char BLOB_MAGIC[8] = "RBstate";
 
-enum { BLOB_VERSION = 4 };
+enum { BLOB_VERSION = 5 };
 
 static size_t blob_size(void)
 {

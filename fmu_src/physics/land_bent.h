@@ -25,6 +25,12 @@
 static const double BENT_EPS = 0.9;  // largest eps of the points
 static const double FAINT = 0.01;    // load on a rim over the sum of the preloads that leaves it round
 
+// Whether the film of half h bends its rim.
+INLINE bool land_is_bent(const Work *w, int h)
+{
+    return scalar_value(w->pressure[h].part) > 0.0;
+}
+
 // 0 up to x = 0, 1 from x = 1 on, smooth between them.
 INLINE scalar smooth_part(scalar x)
 {
@@ -81,11 +87,28 @@ INLINE wide bent_gap(wide x, double g_0)
     return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
 }
 
+// A packet of points: shapes b, weight dtheta, gap by the geometry and of the film over the clearance, kappa C^3 dtheta/h^3.
+typedef struct {
+    wide b[SQUEEZE], weight, gap, open, stiff;
+} BentPoint;
+
+INLINE BentPoint bent_point(const Model *model, const LandPressure *on, const BentPoints *points, int m)
+{
+    BentPoint at;
+    const wide inv_C = wide_set(1.0 / on->C);
+    at.weight = (2.0 * PI / BENT_POINTS) * bent_shapes(model->d, points, m, at.b);
+    at.gap = (wide_set(on->C) - bent_dot(on->e, on->rim, at.b)) * inv_C;
+    at.open = bent_gap(at.gap, model->p->cage.g_0);
+    const wide inv_h = inv_C / at.open;
+    at.stiff = wide_set(on->kappa_C3) * (at.weight * inv_h) * (inv_h * inv_h);
+    return at;
+}
+
 // Sums over the points.  Forces are those that close, -F.
 enum {
     BENT_FILM,
     BENT_RATES = BENT_FILM + SQUEEZE,  // yy, yz, zz
-    BENT_COUETTE = BENT_RATES + 3,     // int dtheta/h
+    BENT_COUETTE = BENT_RATES + 3,     // int C dtheta/h
     BENT_ROUGH,                        // int of the load of asperities, and times n
     BENT_DRY = BENT_ROUGH + 3,         // of the dry contact: forces, loads without and with damping,
     BENT_N_0 = BENT_DRY + SQUEEZE,
@@ -96,12 +119,13 @@ enum {
 };
 
 // Adds those of the dry contact at a packet of points.
-INLINE void bent_dry(const Parameters *p, const LandPressure *on, wide stiffness, wide pen, wide weight,
-                     const wide b[SQUEEZE], wide sum[BENT_SUMS])
+INLINE void bent_dry(const Parameters *p, const LandPressure *on, const BentPoint *at, wide sum[BENT_SUMS])
 {
-    const wide rate = bent_dot(on->v, on->rim_v, b), bed = stiffness * pen * weight;
+    const wide pen = wide_max(-at->gap, wide_set(0.0)) * wide_set(on->C);
+    const wide stiffness = wide_set(0.75 * p->cage.K_land * scalar_sqrt(0.5 * on->C));
+    const wide rate = bent_dot(on->v, on->rim_v, at->b), bed = stiffness * pen * at->weight;
     const wide N = hertz_damped(bed, wide_set(p->cage.lambda), rate);
-    for (int i = 0; i < SQUEEZE; i++) sum[BENT_DRY + i] += N * b[i];
+    for (int i = 0; i < SQUEEZE; i++) sum[BENT_DRY + i] += N * at->b[i];
     sum[BENT_N_0] += bed;
     sum[BENT_N] += N;
     sum[BENT_STORED] += 0.5 * bed * pen;
@@ -109,23 +133,19 @@ INLINE void bent_dry(const Parameters *p, const LandPressure *on, wide stiffness
 }
 
 // Adds those of the film.
-INLINE void bent_film(const Model *model, const LandPressure *on, wide gap, wide weight,
-                      const wide b[SQUEEZE], wide sum[BENT_SUMS])
+INLINE void bent_film(const Model *model, const LandPressure *on, const BentPoint *at, wide sum[BENT_SUMS])
 {
-    const Parameters *p = model->p;
-    const wide inv_C = wide_set(1.0 / on->C), zero = wide_set(0.0);
-    const wide open = bent_gap(gap * inv_C, p->cage.g_0), inv_h = inv_C / open, per_C = inv_h * weight;
-    const wide stiff = wide_set(on->kappa_C3) * per_C * inv_h * inv_h, W = bent_dot(on->V, on->rim_V, b);
-    sum[BENT_COUETTE] += per_C;
-    if (!wide_any(wide_above(W, 0.0))) return;
-    const wide rate = wide_select(wide_above(W, 0.0), stiff, zero), load = rate * W;
+    const wide *b = at->b, W = bent_dot(on->V, on->rim_V, b);
+    const bits closing = wide_above(W, 0.0);
+    sum[BENT_COUETTE] += at->weight / at->open;
+    if (!wide_any(closing)) return;
+    const wide rate = wide_select(closing, at->stiff, wide_set(0.0)), load = rate * W, by_y = rate * b[0];
     for (int i = 0; i < SQUEEZE; i++) sum[BENT_FILM + i] += load * b[i];
-    const wide by_y = rate * b[0];
     sum[BENT_RATES] += by_y * b[0];
     sum[BENT_RATES + 1] += by_y * b[1];
     sum[BENT_RATES + 2] += rate * b[1] * b[1];
-    if (p->scene.lubrication != LUBRICATION_MIXED) return;
-    const wide thin = wide_set(on->C / model->d->C_land) * open;
+    if (model->p->scene.lubrication != LUBRICATION_MIXED) return;
+    const wide thin = wide_set(on->C / model->d->C_land) * at->open;
     const wide rough = load * traction_asperity_share(model->d->ln_land + wide_log(thin));
     sum[BENT_ROUGH] += rough;
     sum[BENT_ROUGH + 1] += rough * b[0];
@@ -135,22 +155,17 @@ INLINE void bent_film(const Model *model, const LandPressure *on, wide gap, wide
 // Sets all sums of one land.
 INLINE void bent_sums(const Model *model, const LandPressure *on, scalar total[BENT_SUMS])
 {
-    const Derived *d = model->d;
     const BentPoints points = bent_points(on);
-    const scalar step = 2.0 * PI / BENT_POINTS;
-    const wide stiffness = wide_set(0.75 * model->p->cage.K_land * scalar_sqrt(0.5 * on->C));
     wide sum[EIGHTHS][BENT_SUMS];
     bool dry = false;
     for (int part = 0; part < EIGHTHS; part++) {
         wide to[BENT_SUMS];
         for (int n = 0; n < BENT_SUMS; n++) to[n] = wide_set(0.0);
         for (int m = part * LANE_WIDTH; m < BENT_POINTS; m += 8) {
-            wide b[SQUEEZE];
-            const wide weight = step * bent_shapes(d, &points, m, b);
-            const wide gap = wide_set(on->C) - bent_dot(on->e, on->rim, b);
-            bent_film(model, on, gap, weight, b, to);
-            if (!wide_any(wide_above(-gap, 0.0))) continue;
-            bent_dry(model->p, on, stiffness, wide_max(-gap, wide_set(0.0)), weight, b, to);
+            const BentPoint at = bent_point(model, on, &points, m);
+            bent_film(model, on, &at, to);
+            if (!wide_any(wide_above(-at.gap, 0.0))) continue;
+            bent_dry(model->p, on, &at, to);
             dry = true;
         }
         memcpy(sum[part], to, sizeof to);
@@ -159,3 +174,32 @@ INLINE void bent_sums(const Model *model, const LandPressure *on, scalar total[B
     const bool rough = model->p->scene.lubrication == LUBRICATION_MIXED;
     wide_column_sums(dry ? BENT_SUMS : rough ? BENT_DRY : BENT_ROUGH, BENT_SUMS, sum[0], total);
 }
+
+// Rates yy, yz, zz along other axes: T^T D T.
+INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
+{
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k <= i; k++)
+            to[i + k] =
+                T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
+}
+
+// The film of a bent rim at the end of a step, along the half's axes: changes of the velocities of land and rim since the evaluation,
+// impulses that take them from the residual, forces and rates.
+typedef struct {
+    double change[SQUEEZE], impulse[SQUEEZE], film[SQUEEZE], rate[SQUEEZE_TERMS];
+} BentSolution;
+
+#ifndef DUAL
+// Solves the implicit step of half h for its land and bent rim: the velocities change by the residual with the film's force at the
+// evaluation, and root^2 gamma times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of the
+// end.
+#define bent_solve FOR_ISA(bent_solve)
+void bent_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
+                const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to);
+
+// Velocities, films and rates of bent rims become those of a step's end; returns what the films' power is more there, less
+// the part of it on the halves' bodies that is of the second order in the changes.
+#define bent_arrive FOR_ISA(bent_arrive)
+double bent_arrive(double gamma, const BentSolution solved[2], Work *w);
+#endif

@@ -40,9 +40,7 @@
 //     cos phi = (eps + cos psi)/(1 + eps cos psi),  dphi/h^3 ~ (1 + eps cos psi)^2 dpsi,   q^2 = 1 - eps^2,
 //
 // spreads the points of the sum so that it is exact but for the film's ends.  The dry contact loads the rim at the
-// narrowest gap of a round land.  Of elastic halves the bending changes the film: land_bent.h.  There gamma times the rates of
-// land and rim is a thousand in a stiff gap, and the film is linear in the squeeze velocities but for its ends: a step solves it
-// by Newton's method on the points at its end, from the velocities of the last step.
+// narrowest gap of a round land.  Of elastic halves the bending changes the film: land_bent.h.
 #include "physics/land_film.h"
 
 #include "physics/hertz.h"
@@ -193,6 +191,13 @@ INLINE void add_harmonics(wide along, wide across, wide weight, wide re[LAND_HAR
     }
 }
 
+// Harmonics of sums over eight lanes.
+INLINE void sum_load(wide re[EIGHTHS][LAND_HARMONICS], wide im[EIGHTHS][LAND_HARMONICS], LandLoad *load)
+{
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, re[0], load->re);
+    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
+}
+
 // Harmonics of the load on a round rim.
 INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
 {
@@ -218,8 +223,7 @@ INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
             if (!wide_any(wide_above(closing, 0.0))) continue;
             add_harmonics(along, across, closing * one * one, re[i], im[i]);
         }
-    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, re[0], load->re);
-    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
+    sum_load(re, im, load);
     const scalar size = -force / scalar_sqrt(load->re[1] * load->re[1] + load->im[1] * load->im[1] + 1e-30);
     for (int p = 0; p < LAND_HARMONICS; p++) load->re[p] *= size, load->im[p] *= size;
     if (scalar_value(dry) == 0.0) return;
@@ -233,16 +237,25 @@ INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
     }
 }
 
+// Adds one to the other, times a size.
+INLINE void add_load(scalar size, const LandLoad *load, LandLoad *to)
+{
+    for (int p = 0; p < LAND_HARMONICS; p++) {
+        to->re[p] += size * load->re[p];
+        to->im[p] += size * load->im[p];
+    }
+}
+
 // Harmonics of the load on a bent rim: the film's with the size of its force along its direction, the dry contact's by the bedding.
 INLINE void bent_load(const Model *model, const LandPressure *on, LandLoad *load)
 {
-    const Derived *d = model->d;
     const BentPoints points = bent_points(on);
-    const wide inv_C = wide_set(1.0 / on->C), none = wide_set(0.0);
+    const wide none = wide_set(0.0);
     wide film_re[EIGHTHS][LAND_HARMONICS], film_im[EIGHTHS][LAND_HARMONICS];
     wide dry_re[EIGHTHS][LAND_HARMONICS], dry_im[EIGHTHS][LAND_HARMONICS];
-    LandLoad by_dry;
+    LandLoad by_film, by_dry;
     const bool dry = scalar_value(on->dry) > 0.0;
+    memset(load, 0, sizeof *load);
     memset(film_re, 0, sizeof film_re);
     memset(film_im, 0, sizeof film_im);
     if (dry) {
@@ -251,28 +264,21 @@ INLINE void bent_load(const Model *model, const LandPressure *on, LandLoad *load
     }
     for (int first = 0; first < BENT_POINTS; first += 8)
         for (int i = 0; i < EIGHTHS; i++) {
-            wide b[SQUEEZE];
-            const wide weight = bent_shapes(d, &points, first + i * LANE_WIDTH, b);
-            const wide gap = (wide_set(on->C) - bent_dot(on->e, on->rim, b)) * inv_C;
-            const wide open = bent_gap(gap, model->p->cage.g_0), W = bent_dot(on->V, on->rim_V, b);
-            const wide film = weight * wide_max(W, none) / (open * open * open);
-            if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, film_re[i], film_im[i]);
-            if (dry) add_harmonics(b[0], b[1], weight * wide_max(-gap, none), dry_re[i], dry_im[i]);
+            const BentPoint at = bent_point(model, on, &points, first + i * LANE_WIDTH);
+            const wide film = at.stiff * wide_max(bent_dot(on->V, on->rim_V, at.b), none);
+            if (wide_any(wide_above(film, 0.0)))
+                add_harmonics(at.b[0], at.b[1], film, film_re[i], film_im[i]);
+            if (dry)
+                add_harmonics(at.b[0], at.b[1], at.weight * wide_max(-at.gap, none), dry_re[i], dry_im[i]);
         }
-    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, film_re[0], load->re);
-    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, film_im[0], load->im);
-    const scalar F_y = load->re[1], F_z = load->im[1];
-    const scalar size = -on->part * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) /
-                        (F_y * F_y + F_z * F_z + 1e-30);
-    for (int p = 0; p < LAND_HARMONICS; p++) load->re[p] *= size, load->im[p] *= size;
+    sum_load(film_re, film_im, &by_film);
+    const scalar F_y = by_film.re[1], F_z = by_film.im[1];
+    add_load(-on->part * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) /
+                 (F_y * F_y + F_z * F_z + 1e-30),
+             &by_film, load);
     if (!dry) return;
-    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, dry_re[0], by_dry.re);
-    wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, dry_im[0], by_dry.im);
-    const scalar bed = -on->part * on->dry / (by_dry.re[0] + 1e-30);
-    for (int p = 0; p < LAND_HARMONICS; p++) {
-        load->re[p] += bed * by_dry.re[p];
-        load->im[p] += bed * by_dry.im[p];
-    }
+    sum_load(dry_re, dry_im, &by_dry);
+    add_load(-on->part * on->dry / (by_dry.re[0] + 1e-30), &by_dry, load);
 }
 
 // A vector (y, z) across the outer ring's axis along the axes of a half.
@@ -317,15 +323,6 @@ INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar
     force->spin = R * R * g * all;
 }
 
-// Rates yy, yz, zz along other axes: T^T D T.
-INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
-{
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k <= i; k++)
-            to[i + k] =
-                T[0][i] * (D[0] * T[0][k] + D[1] * T[1][k]) + T[1][i] * (D[1] * T[0][k] + D[2] * T[1][k]);
-}
-
 // The film of half h becomes, by on->part, that of its bent rim; on entry `force`, w->film and w->pressure are those of the round
 // land.
 INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at,
@@ -365,7 +362,7 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
         }
     }
     bent_friction(model->p, at, along, sum[BENT_N] + sum[BENT_ROUGH], &bent);
-    const scalar torque = couette * model->d->C_land * (0.5 / PI) * sum[BENT_COUETTE];
+    const scalar torque = couette * (model->d->C_land / on->C) * (0.5 / PI) * sum[BENT_COUETTE];
     bent.M_x -= torque * at->omega;
     bent.spin += torque;
     scalar *to = (scalar *)force;
@@ -456,13 +453,13 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
         land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
         land_turn(outer, half, wide_lane(by_film.y, i), wide_lane(by_film.z, i), on->film);
-        on->cap = wide_lane(cap, i), on->q2 = wide_lane(q2, i), on->kappa = wide_lane(eta, i);
+        on->q2 = wide_lane(q2, i);
         on->force = wide_lane(size, i), on->dry = wide_lane(N, i);
         on->part = 0.0;
         scalar on_rim = 0.0;  // power
         if (model->modes) {
             const scalar C_h = wide_lane(C, i);
-            on->C = C_h, on->kappa_C3 = on->kappa * (C_h * C_h * C_h);
+            on->C = C_h, on->kappa_C3 = wide_lane(eta, i) * (C_h * C_h * C_h);
             on->part = bent_part(d, on->force + on->dry);
             if (scalar_value(on->part) > 0.0) {
                 land_bend(model, w, h, outer, &at, wide_lane(heated, i) * d->couette, &force);
@@ -488,171 +485,6 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
             F[1] * at.v[0] + F[2] * at.v[1] + force.M_x * at.omega + on_rim + force.stored_rate;
     }
 }
-
-#ifndef DUAL
-// The bent film over the step's end: points that stay, their stiffness kappa C^3/h^3 dtheta.
-typedef struct {
-    wide b[BENT_POINTS / LANE_WIDTH][SQUEEZE], stiff[BENT_POINTS / LANE_WIDTH];
-} BentGrid;
-
-static void bent_grid(const Model *model, const LandPressure *on, BentGrid *grid)
-{
-    const BentPoints points = bent_points(on);
-    const wide inv_C = wide_set(1.0 / on->C),
-               kappa = wide_set(2.0 * PI / BENT_POINTS * on->kappa_C3 / (on->C * on->C * on->C));
-    for (int n = 0; n < BENT_POINTS / LANE_WIDTH; n++) {
-        const wide weight = bent_shapes(model->d, &points, n * LANE_WIDTH, grid->b[n]);
-        const wide gap = wide_set(on->C) - bent_dot(on->e, on->rim, grid->b[n]);
-        const wide open = bent_gap(gap * inv_C, model->p->cage.g_0);
-        grid->stiff[n] = kappa * weight / (open * open * open);
-    }
-}
-
-// Forces and rates of the film at the squeeze velocities V, along the half's axes.
-static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQUEEZE],
-                     double D[SQUEEZE_TERMS])
-{
-    enum { FORCES = 0, RATES = SQUEEZE, ALL = SQUEEZE + SQUEEZE_TERMS };
-
-    wide sum[EIGHTHS][ALL];
-    double total[ALL];
-    for (int part = 0; part < EIGHTHS; part++) {
-        wide to[ALL];
-        for (int n = 0; n < ALL; n++) to[n] = wide_set(0.0);
-        for (int n = part; n < BENT_POINTS / LANE_WIDTH; n += EIGHTHS) {
-            const wide *b = grid->b[n], W = bent_dot(V, V + 2, b);
-            const bits closing = wide_above(W, 0.0);
-            if (!wide_any(closing)) continue;
-            const wide rate = wide_select(closing, grid->stiff[n], wide_set(0.0)), load = rate * W;
-#pragma GCC unroll 6
-            for (int i = 0; i < SQUEEZE; i++) {
-                const wide by = rate * b[i];
-                to[FORCES + i] += load * b[i];
-#pragma GCC unroll 6
-                for (int k = 0; k <= i; k++)
-                    to[RATES + SQUEEZE_AT(i, k)] = wide_fma(by, b[k], to[RATES + SQUEEZE_AT(i, k)]);
-            }
-        }
-        memcpy(sum[part], to, sizeof to);
-    }
-    wide_column_sums(ALL, ALL, sum[0], total);
-    for (int i = 0; i < SQUEEZE; i++) F[i] = -total[FORCES + i];
-    memcpy(D, &total[RATES], SQUEEZE_TERMS * sizeof *D);
-}
-
-// y = D x of a symmetric matrix.
-INLINE void squeeze_times(const double D[SQUEEZE_TERMS], const double x[SQUEEZE], double y[SQUEEZE])
-{
-    for (int i = 0; i < SQUEEZE; i++) {
-        y[i] = 0.0;
-        for (int k = 0; k < SQUEEZE; k++) y[i] += D[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * x[k];
-    }
-}
-
-// Impulse gamma C S (1 + gamma S C S)^-1 S^-1 u of a film of the rates C on land and rim, S^2 their mobilities.
-static void squeeze_impulse(const double rate[SQUEEZE_TERMS], double gamma, const double root[SQUEEZE],
-                            const double u[SQUEEZE], double impulse[SQUEEZE])
-{
-    double A[SQUEEZE_TERMS], x[SQUEEZE], inv_D[SQUEEZE];
-    for (int i = 0; i < SQUEEZE; i++) {
-        x[i] = root[i] > 0.0 ? u[i] / root[i] : 0.0;
-        for (int k = 0; k <= i; k++)
-            A[SQUEEZE_AT(i, k)] = gamma * root[i] * root[k] * rate[SQUEEZE_AT(i, k)] + (i == k);
-    }
-
-    // A = L D L^T, x = A^-1 x
-    for (int i = 0; i < SQUEEZE; i++) {
-        for (int k = 1; k < i; k++)
-            for (int q = 0; q < k; q++) A[SQUEEZE_AT(i, k)] -= A[SQUEEZE_AT(i, q)] * A[SQUEEZE_AT(k, q)];
-        for (int k = 0; k < i; k++) {
-            const double l = A[SQUEEZE_AT(i, k)] * inv_D[k];
-            A[SQUEEZE_AT(i, i)] -= l * A[SQUEEZE_AT(i, k)];
-            A[SQUEEZE_AT(i, k)] = l;
-            x[i] -= l * x[k];
-        }
-        inv_D[i] = 1.0 / A[SQUEEZE_AT(i, i)];
-    }
-    for (int i = SQUEEZE - 1; i >= 0; i--) {
-        x[i] *= inv_D[i];
-        for (int k = i + 1; k < SQUEEZE; k++) x[i] -= A[SQUEEZE_AT(k, i)] * x[k];
-    }
-    for (int i = 0; i < SQUEEZE; i++) {
-        impulse[i] = 0.0;
-        for (int k = 0; k < SQUEEZE; k++)
-            impulse[i] += gamma * rate[i < k ? SQUEEZE_AT(k, i) : SQUEEZE_AT(i, k)] * root[k] * x[k];
-    }
-}
-
-static const int MOST_ITERATIONS = 8;  // of Newton's method on a film that is linear but for its ends
-static const double CONVERGED = 3e-2;  // part of the velocities that its last step may change
-
-void land_film_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
-                     const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to)
-{
-    const LandPressure *on = &w->pressure[h];
-    BentGrid grid;
-    bent_grid(model, on, &grid);
-    double start[SQUEEZE], D[SQUEEZE_TERMS], F[SQUEEZE], free[SQUEEZE], round[SQUEEZE_TERMS] = {0.0};
-    memcpy(start, on->V, sizeof on->V);
-    memcpy(&start[2], on->rim_V, sizeof on->rim_V);
-    for (int i = 0; i < 3; i++) round[i] = (1.0 - on->part) * on->round_rate[i];
-    for (int i = 0; i < SQUEEZE; i++)
-        free[i] = start[i] + residual[i] - gamma * root[i] * root[i] * on->film[i];
-    for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
-        // the law at the velocities V
-        double by_round[SQUEEZE];
-        bent_law(&grid, V, F, D);
-        for (int i = 0; i < SQUEEZE; i++) to->change[i] = V[i] - start[i];
-        squeeze_times(round, to->change, by_round);
-        for (int i = 0; i < SQUEEZE; i++)
-            F[i] = on->part * F[i] + (1.0 - on->part) * (i < 2 ? on->round_film[i] : 0.0) - by_round[i];
-        for (int i = 0; i < SQUEEZE_TERMS; i++) to->rate[i] = on->part * D[i] + round[i];
-
-        // Newton's step
-        double rest[SQUEEZE], impulse[SQUEEZE], step[SQUEEZE], resisted[SQUEEZE], most = 0.0, size = 0.0;
-        for (int i = 0; i < SQUEEZE; i++) rest[i] = free[i] + gamma * root[i] * root[i] * F[i] - V[i];
-        squeeze_impulse(to->rate, gamma, root, rest, impulse);
-        for (int i = 0; i < SQUEEZE; i++) step[i] = rest[i] - root[i] * root[i] * impulse[i];
-        squeeze_times(to->rate, step, resisted);
-        for (int i = 0; i < SQUEEZE; i++) {
-            V[i] += step[i];
-            to->change[i] += step[i];
-            to->film[i] = F[i] - resisted[i];
-            most = fmax(most, fabs(step[i]));
-            size = fmax(size, fabs(V[i]));
-        }
-        if (most <= CONVERGED * size) break;
-    }
-    for (int i = 0; i < SQUEEZE; i++) to->impulse[i] = gamma * (on->film[i] - to->film[i]);
-}
-
-double land_film_arrive(double gamma, const BentSolution solved[2], Work *w)
-{
-    double power = 0.0;
-    for (int h = 0; h < 2; h++) {
-        if (!land_is_bent(w, h)) continue;
-        const Rotor *half = &w->half[h];
-        LandPressure *on = &w->pressure[h];
-        LandFilm *film = &w->film[h];
-        const double *change = solved[h].change;
-        double T[2][2] = {{half->b_y[1], half->b_y[2]}, {half->b_z[1], half->b_z[2]}};
-        for (int i = 0; i < SQUEEZE; i++) {
-            const double v = i < 2 ? on->v[i] : on->rim_v[i - 2];
-            power += solved[h].film[i] * (v + change[i]) - on->film[i] * v;
-            on->film[i] = solved[h].film[i];
-        }
-        for (int i = 0; i < 2; i++) {
-            power -= change[i] * solved[h].impulse[i] / gamma;
-            on->V[i] += change[i];
-        }
-        for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];
-        double rate[3];
-        turn_rates(T, solved[h].rate, rate);
-        film->yy = rate[0], film->yz = rate[1], film->zz = rate[2];
-    }
-    return power;
-}
-#endif
 
 void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
 {

@@ -21,34 +21,11 @@ INLINE scalar land_growth_rate(const Derived *d, scalar omega)
     return scalar_value(grown) < (1.0 - LEAST_CLEARANCE) * d->C_land ? 2.0 * d->growth * omega : 0.0 * omega;
 }
 
-// Whether the film of half h bends its rim (land_bent.h).
-INLINE bool land_is_bent(const Work *w, int h)
-{
-    return scalar_value(w->pressure[h].part) > 0.0;
-}
-
 // Power that the growth of halves whose speed changes puts into the lands' dry contacts.
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot);
 
 // Harmonics of the loads on bent rims by the pressure in Work, 0 of others.
 void land_film_loads(const Model *model, const Work *w, LandLoad load[2]);
-
-// The film of a bent rim at the end of a step, along the half's axes: changes of the velocities of land and rim since the evaluation,
-// impulses that take them from the residual, forces and rates.
-typedef struct {
-    double change[SQUEEZE], impulse[SQUEEZE], film[SQUEEZE], rate[SQUEEZE_TERMS];
-} BentSolution;
-
-#ifndef DUAL
-// Solves the implicit step of half h for its land and bent rim: the velocities change by the residual with the film's force at the
-// evaluation, and root^2 gamma times what the law has at the end beyond it.  The Python reference has no twin of this.
-void land_film_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
-                     const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to);
-
-// Velocities, films and rates of bent rims become those of a step's end; returns what the films' power is more there, less
-// the part of it on the halves' bodies that is of the second order in the changes.
-double land_film_arrive(double gamma, const BentSolution solved[2], Work *w);
-#endif
 
 // Adds force and moment to both halves (Rotor F, M); sets their film rates, the pressures and loads on their rims, the dissipated power
 // and the elastic energy.

@@ -11,6 +11,7 @@
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
 //   pocket, oil             v.m of the ball by itself                    D
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
+//   land and bent rim       and its shapes                               Newton's method (land_bent.c)
 //   land, Couette and dry   spin s                                       film_spin
 //   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; k of tense rivets, pressed plates
 //   sticking, hole contact  v_y - s z, v_z + s y, half 1 - 0             stiffness k/(1 + gamma D), k_hole
