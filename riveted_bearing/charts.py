@@ -115,6 +115,7 @@ def spectra(figure, result):
     ax.set(
         xlabel=f"frequency [Hz]; {1e-3 * rate:g} samples per ms", ylabel="MPa/√Hz", xlim=(2.0 * rate / 1024, 0.5 * rate)
     )
+    ax.tick_params(axis="y", which="minor", labelsize=7)  # 3 and 4 of a decade stay apart
     for name, frequency in frequencies(result).items():
         if ax.get_xlim()[0] < frequency < ax.get_xlim()[1]:
             ax.axvline(frequency, color=MUTED, lw=0.8, ls=":")

@@ -42,8 +42,8 @@ def test_the_rivet_of_the_page_breaks(tmp_path):
     (tmp_path / "breaks.toml").write_text(scene)
     result = run(tmp_path / "breaks.toml")
     (k, place, first), *others = breaks(result)
-    assert f"rivet {k} breaks at {first:.2f} s and the\nothers within 3 ms after it" in text
-    assert len(others) == 8 and others[-1][2] - first < 3.05e-3
+    assert f"rivet {k} breaks at {first:.2f} s and the\nothers within 12 ms after it" in text
+    assert len(others) == 8 and others[-1][2] - first < 12e-3
     assert break_lines(result)[0] == f"rivet 3 broke in the {place} at {1e3 * first:.4g} ms"
 
 

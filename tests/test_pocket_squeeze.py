@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 from mechanics import Instance, View, Z, on_ball, pocket_loads, pocket_wrench, running_state
+from ribbon import RIBBON
 from scipy.integrate import quad, solve_ivp
 from scipy.sparse.linalg import spsolve
 from test_energy import power_and_rate
@@ -308,12 +309,13 @@ def test_the_linear_solve_has_the_film(core):
     assert np.abs(J).max() > 1.0
 
 
-def test_flooded_power_balance(core):
+@pytest.mark.parametrize("cage", [{}, RIBBON], ids=["machined", "ribbon"])
+def test_flooded_power_balance(core, cage):
     """dE/dt = supplied - dissipated with films in all pockets of rigid halves; observed 1e-9 of the power that goes around.
     Elastic halves: test_cage_elastic.py.
     """
     rng, felt = np.random.default_rng(4), 0.0
-    wet, dry = (core.model(parameters={"cage.pocket_filling": filling}) for filling in (1.0, 0.0))
+    wet, dry = (core.model(parameters=cage | {"cage.pocket_filling": filling}) for filling in (1.0, 0.0))
     for _ in range(5):
         y = running_state(wet, rng)
         power, rate = power_and_rate(wet, y)

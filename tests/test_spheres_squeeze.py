@@ -1,27 +1,23 @@
 """Film of oil between ball and sphere of a ribbon's half: Reynolds' equation on the whole cap and at a straight edge, the closed
-form, filling, floor, a ball that is pressed in, parts of a step, power.
+form, filling, floor, a ball that is pressed in, parts of a step.
 """
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from mechanics import Instance, View, Z, on_ball, pocket_loads, running_state
+from mechanics import Instance, Z, on_ball, pocket_loads
 from ribbon import RIBBON
 from scipy.integrate import quad
 from skfem import Basis, BilinearForm, ElementQuad2, LinearForm, MeshQuad, MeshQuad2, condense, solve
-from test_energy import power_and_rate
 from test_pocket_spheres import EDGE, FILLET, R_PITCH, WIDTH, E, R, on_pocket, one_ball
 
 from bearing_model.cage.common.spheres_squeeze import squeeze_edge
 from bearing_model.generated.variables import CageModel, Method
 
 TWINS = True
-ETA, SLACK, SLOW = (
-    6e-3,
-    1e-4,
-    1e-9,
-)  # default oil; R_c - R of tests/ribbon.py; so slow that the floor of the gap is below 4 nm
+ETA, SLACK = 6e-3, 1e-4  # default oil; R_c - R of tests/ribbon.py
+SLOW = 1e-9  # so slow that the floor of the gap is below 4 nm
 WET = {
     "cage.mu": 0.0,
     "cage.lambda": 0.0,
@@ -314,23 +310,6 @@ def test_the_linear_solve_has_the_film(core):
     assert np.abs(J).max() > 10.0
 
 
-def test_flooded_power_balance(core):
-    """dE/dt = supplied - dissipated with films in all pockets of rigid halves.  Elastic halves: test_cage_elastic.py."""
-    rng, felt = np.random.default_rng(4), 0.0
-    wet, dry = (core.model(parameters=RIBBON | {"cage.pocket_filling": filling}) for filling in (1.0, 0.0))
-    for _ in range(5):
-        y = running_state(wet, rng)
-        power, rate = power_and_rate(wet, y)
-        moving = 10.0 + pocket_loads(wet).max() * 20.0
-        assert rate == pytest.approx(power, abs=1e-8 * moving + 2e-6)
-        lost = []
-        for model in (wet, dry):
-            model.rhs(0.0, y)
-            lost.append(np.sum(View(core, model.work).pocket_dissipated[:Z]))
-        felt = max(felt, lost[0] - lost[1])
-    assert felt > 0.1
-
-
 @pytest.mark.c_only
 @pytest.mark.parametrize("cage", list(CageModel), ids=lambda cage: cage.name)
 @pytest.mark.parametrize(
@@ -338,7 +317,7 @@ def test_flooded_power_balance(core):
 )
 def test_energy_closes(core, method, tolerance, cage):
     """Supplied = stored + lost over 10 ms of flooded pockets to 0.1 % of what is lost.  The pockets' films lose 0.16 % here, in place of
-    2.5 % in dry contacts: the balance of the films by themselves is test_flooded_power_balance.
+    2.5 % in dry contacts: the balance of the films by themselves is test_flooded_power_balance in test_pocket_squeeze.py.
     """
     parameters = RIBBON | {"scene.cage": cage, "cage.pocket_filling": 1.0, "solver.method": method}
     bearing, lost, pockets = Instance(core, parameters, tolerance=tolerance), 0.0, 0.0

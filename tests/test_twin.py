@@ -637,7 +637,7 @@ def test_power_is_rate_of_energy(record_property):
     element keeps its account.
 
     Motions that are given go on with their velocities.  Tolerance: rounding of sums of some hundred terms; of joints
-    between elastic halves, whose law is a table of moves over loads, the table's error (observed 2.6e-3,
+    between elastic halves, whose law is a table of moves over loads, the table's error (observed 3.6e-3,
     test_cage_elastic.py).
     """
     worst = elastic = rolled = 0.0
@@ -649,8 +649,8 @@ def test_power_is_rate_of_energy(record_property):
             rolled = max(rolled, off)
             ys[:, variables.RING_BETA_DOT] = ys[:, variables.RING_GAMMA_DOT] = 0.0
             assert imbalance(under_way(parameters, {}, 1e-3), ys) < 1e-11  # nor does the housing tilt; observed 2e-12
-        elif "elastic" in scene:
-            elastic = off
+        elif model.modes is not None:
+            elastic = max(elastic, off)
         else:
             worst = max(worst, off)
     record_property("worst", plain(worst))
