@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from mechanics import Instance, Z, on_ball, pocket_loads
+from mechanics import Instance, on_ball, pocket_loads
 from ribbon import RIBBON
 from scipy.integrate import quad
 from skfem import Basis, BilinearForm, ElementQuad2, LinearForm, MeshQuad, MeshQuad2, condense, solve
