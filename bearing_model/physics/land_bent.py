@@ -134,12 +134,14 @@ def bent_solve(p, on, gamma, mobility, residual, V):
     round_rate = np.zeros((6, 6))
     round_rate[:2, :2] = (1.0 - on.part) * on.round_rate
     for _ in range(MOST_ITERATIONS):
+        closing = bent_dot(V, grid[0]) > 0.0
         F, D, _ = bent_law(p, on, V, grid)
         F, D = on.part * F - round_rate @ (V - start), on.part * D + round_rate
         F[:2] += (1.0 - on.part) * on.round_film
         step = np.linalg.solve(np.eye(6) + gamma * mobility[:, None] * D, free + gamma * mobility * F - V)
         V = V + step
-        if np.max(np.abs(step)) <= CONVERGED * np.max(np.abs(V)):
+        as_linear = np.all((bent_dot(V, grid[0]) > 0.0) == closing)
+        if as_linear or np.max(np.abs(step)) <= CONVERGED * np.max(np.abs(V)):
             break
     solved = F - D @ step
     return SimpleNamespace(V=V, change=V - start, impulse=gamma * (film - solved), film=solved, rates=D[:2, :2])

@@ -174,7 +174,7 @@ static void solve_bent_half(const Model *model, const Work *w, int h, const Half
         root[2 + i] = sqrt(mobility[i]);
         residual[2 + i] = gamma * step->rim_lack[h][i];
     }
-    bent_solve(model, w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
+    bent_solve(w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
     const double *impulse = step->bent[h].impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
                    half);

@@ -4,28 +4,25 @@
 //
 //     V = V^ + r + gamma Y (F(V) - F^)     V^, F^: at the evaluation, r: residual with F^, Y: mobilities of land and rim
 //
-// Newton's method, from the V of the last step, takes two iterations; its last step changes V by less than 3 %, and what the
-// film's ends move by then changes F by the square of that.
+// Newton's method, from the V of the last step, takes one or two iterations.  It ends when its step moves no point of the sums over
+// the film's ends, which is exact, or changes V by less than 3 %: what the ends move by then changes F by the square of that.
 #include "physics/land_bent.h"
 
-// The bent film over the step's end: points that stay, their stiffness kappa C^3/h^3 dtheta.
-typedef struct {
-    wide b[BENT_POINTS / LANE_WIDTH][SQUEEZE], stiff[BENT_POINTS / LANE_WIDTH];
-} BentGrid;
+enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH };
 
-static void bent_grid(const Model *model, const LandPressure *on, BentGrid *grid)
+// Points at which the film closes at the squeeze velocities V, a mask a packet.
+static void bent_closing(const BentGrid *grid, const double V[SQUEEZE], int closing[BENT_PACKETS])
 {
-    const BentPoints points = bent_points(on);
-    for (int n = 0; n < BENT_POINTS / LANE_WIDTH; n++) {
-        const BentPoint at = bent_point(model, on, &points, n * LANE_WIDTH);
-        memcpy(grid->b[n], at.b, sizeof at.b);
-        grid->stiff[n] = at.stiff;
+    for (int n = 0; n < BENT_PACKETS; n++) {
+        wide b[SQUEEZE];
+        for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
+        closing[n] = wide_mask(wide_above(bent_dot(V, V + 2, b), 0.0));
     }
 }
 
-// Forces and rates of the film at the squeeze velocities V, along the half's axes.
+// Forces and rates of the film at the squeeze velocities V, along the half's axes, and the points at which it closes.
 static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQUEEZE],
-                     double D[SQUEEZE_TERMS])
+                     double D[SQUEEZE_TERMS], int closes[BENT_PACKETS])
 {
     enum { FORCES = 0, RATES = SQUEEZE, ALL = SQUEEZE + SQUEEZE_TERMS };
 
@@ -34,11 +31,15 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], double F[SQU
     for (int part = 0; part < EIGHTHS; part++) {
         wide to[ALL];
         for (int n = 0; n < ALL; n++) to[n] = wide_set(0.0);
-        for (int n = part; n < BENT_POINTS / LANE_WIDTH; n += EIGHTHS) {
-            const wide *b = grid->b[n], W = bent_dot(V, V + 2, b);
+        for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
+            wide b[SQUEEZE];
+            for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
+            const wide W = bent_dot(V, V + 2, b);
             const bits closing = wide_above(W, 0.0);
-            if (!wide_any(closing)) continue;
-            const wide rate = wide_select(closing, grid->stiff[n], wide_set(0.0)), load = rate * W;
+            closes[n] = wide_mask(closing);
+            if (!closes[n]) continue;
+            const wide stiff = wide_load(&grid->stiff[n * LANE_WIDTH]);
+            const wide rate = wide_select(closing, stiff, wide_set(0.0)), load = rate * W;
 #pragma GCC unroll 6
             for (int i = 0; i < SQUEEZE; i++) {
                 const wide by = rate * b[i];
@@ -101,12 +102,11 @@ static void squeeze_impulse(const double rate[SQUEEZE_TERMS], double gamma, cons
 static const int MOST_ITERATIONS = 8;  // of Newton's method on a film that is linear but for its ends
 static const double CONVERGED = 3e-2;  // part of the velocities that its last step may change
 
-void bent_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
+void bent_solve(const Work *w, int h, double gamma, const double root[SQUEEZE],
                 const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to)
 {
     const LandPressure *on = &w->pressure[h];
-    BentGrid grid;
-    bent_grid(model, on, &grid);
+    const BentGrid *grid = &w->bent[h];
     double start[SQUEEZE], D[SQUEEZE_TERMS], F[SQUEEZE], free[SQUEEZE], round[SQUEEZE_TERMS] = {0.0};
     memcpy(start, on->V, sizeof on->V);
     memcpy(&start[2], on->rim_V, sizeof on->rim_V);
@@ -116,7 +116,8 @@ void bent_solve(const Model *model, const Work *w, int h, double gamma, const do
     for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         // the law at the velocities V
         double by_round[SQUEEZE];
-        bent_law(&grid, V, F, D);
+        int closed[BENT_PACKETS], closes[BENT_PACKETS];
+        bent_law(grid, V, F, D, closed);
         for (int i = 0; i < SQUEEZE; i++) to->change[i] = V[i] - start[i];
         squeeze_times(round, to->change, by_round);
         for (int i = 0; i < SQUEEZE; i++)
@@ -137,6 +138,8 @@ void bent_solve(const Model *model, const Work *w, int h, double gamma, const do
             size = fmax(size, fabs(V[i]));
         }
         if (most <= CONVERGED * size) break;
+        bent_closing(grid, V, closes);
+        if (memcmp(closed, closes, sizeof closed) == 0) break;  // as linear as the step
     }
     for (int i = 0; i < SQUEEZE; i++) to->impulse[i] = gamma * (on->film[i] - to->film[i]);
 }

@@ -152,8 +152,22 @@ INLINE void bent_film(const Model *model, const LandPressure *on, const BentPoin
     sum[BENT_ROUGH + 2] += rough * b[1];
 }
 
-// Sets all sums of one land.
-INLINE void bent_sums(const Model *model, const LandPressure *on, scalar total[BENT_SUMS])
+INLINE void bent_keep(const BentPoint *at, int m, BentGrid *grid)
+{
+    for (int i = 0; i < SQUEEZE; i++) wide_store(&grid->b[i][m], at->b[i]);
+    wide_store(&grid->stiff[m], at->stiff);
+    wide_store(&grid->behind[m], at->weight * wide_max(-at->gap, wide_set(0.0)));
+}
+
+// A packet of kept points: shapes, loads of the film at the velocities of on.
+INLINE wide bent_film_at(const BentGrid *grid, const LandPressure *on, int m, wide b[SQUEEZE])
+{
+    for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][m]);
+    return wide_load(&grid->stiff[m]) * wide_max(bent_dot(on->V, on->rim_V, b), wide_set(0.0));
+}
+
+// Sets all sums of one land and its points.
+INLINE void bent_sums(const Model *model, const LandPressure *on, BentGrid *grid, scalar total[BENT_SUMS])
 {
     const BentPoints points = bent_points(on);
     wide sum[EIGHTHS][BENT_SUMS];
@@ -164,6 +178,7 @@ INLINE void bent_sums(const Model *model, const LandPressure *on, scalar total[B
         for (int m = part * LANE_WIDTH; m < BENT_POINTS; m += 8) {
             const BentPoint at = bent_point(model, on, &points, m);
             bent_film(model, on, &at, to);
+            bent_keep(&at, m, grid);
             if (!wide_any(wide_above(-at.gap, 0.0))) continue;
             bent_dry(model->p, on, &at, to);
             dry = true;
@@ -195,7 +210,7 @@ typedef struct {
 // evaluation, and root^2 gamma times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of the
 // end.
 #define bent_solve FOR_ISA(bent_solve)
-void bent_solve(const Model *model, const Work *w, int h, double gamma, const double root[SQUEEZE],
+void bent_solve(const Work *w, int h, double gamma, const double root[SQUEEZE],
                 const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to);
 
 // Velocities, films and rates of bent rims become those of a step's end; returns what the films' power is more there, less

@@ -247,10 +247,8 @@ INLINE void add_load(scalar size, const LandLoad *load, LandLoad *to)
 }
 
 // Harmonics of the load on a bent rim: the film's with the size of its force along its direction, the dry contact's by the bedding.
-INLINE void bent_load(const Model *model, const LandPressure *on, LandLoad *load)
+INLINE void bent_load(const BentGrid *grid, const LandPressure *on, LandLoad *load)
 {
-    const BentPoints points = bent_points(on);
-    const wide none = wide_set(0.0);
     wide film_re[EIGHTHS][LAND_HARMONICS], film_im[EIGHTHS][LAND_HARMONICS];
     wide dry_re[EIGHTHS][LAND_HARMONICS], dry_im[EIGHTHS][LAND_HARMONICS];
     LandLoad by_film, by_dry;
@@ -264,12 +262,11 @@ INLINE void bent_load(const Model *model, const LandPressure *on, LandLoad *load
     }
     for (int first = 0; first < BENT_POINTS; first += 8)
         for (int i = 0; i < EIGHTHS; i++) {
-            const BentPoint at = bent_point(model, on, &points, first + i * LANE_WIDTH);
-            const wide film = at.stiff * wide_max(bent_dot(on->V, on->rim_V, at.b), none);
-            if (wide_any(wide_above(film, 0.0)))
-                add_harmonics(at.b[0], at.b[1], film, film_re[i], film_im[i]);
-            if (dry)
-                add_harmonics(at.b[0], at.b[1], at.weight * wide_max(-at.gap, none), dry_re[i], dry_im[i]);
+            const int m = first + i * LANE_WIDTH;
+            wide b[SQUEEZE];
+            const wide film = bent_film_at(grid, on, m, b);
+            if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, film_re[i], film_im[i]);
+            if (dry) add_harmonics(b[0], b[1], wide_load(&grid->behind[m]), dry_re[i], dry_im[i]);
         }
     sum_load(film_re, film_im, &by_film);
     const scalar F_y = by_film.re[1], F_z = by_film.im[1];
@@ -349,7 +346,7 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
     scalar back[2][2] = {{T[0][0], T[1][0]}, {T[0][1], T[1][1]}};
     turn_rates(back, round, on->round_rate);
     for (int i = 0; i < 2; i++) on->round_film[i] = on->film[i];
-    bent_sums(model, on, sum);
+    bent_sums(model, on, &w->bent[h], sum);
 
     // forces and friction
     LandForce bent = {.N_0 = sum[BENT_N_0], .stored = sum[BENT_STORED], .stored_rate = sum[BENT_STORED_RATE]};
@@ -486,12 +483,12 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     }
 }
 
-void land_film_loads(const Model *model, const Work *w, LandLoad load[2])
+void land_film_loads(const Work *w, LandLoad load[2])
 {
     for (int h = 0; h < 2; h++) {
         const LandPressure *on = &w->pressure[h];
         if (land_is_bent(w, h))
-            bent_load(model, on, &load[h]);
+            bent_load(&w->bent[h], on, &load[h]);
         else
             memset(&load[h], 0, sizeof load[h]);
     }

@@ -275,6 +275,12 @@ typedef struct {
     scalar round_film[2], round_rate[3];
 } LandPressure;
 
+// ---- the points of the film of one bent rim: shapes of land and rim, kappa C^3 dtheta/h^3 [N.s/m], depth behind the wall over the
+// clearance times dtheta; written by land_film_force ----
+typedef struct {
+    scalar b[SQUEEZE][BENT_POINTS], stiff[BENT_POINTS], behind[BENT_POINTS];
+} BentGrid;
+
 // ---- harmonics Re and Im G_p of the radial load on one rim [N], p = 0...LAND_HIGHEST; written by land_film_force ----
 typedef struct {
     scalar re[LAND_HARMONICS], im[LAND_HARMONICS];
@@ -360,6 +366,7 @@ typedef struct {
     scalar land_elastic, land_growth[2];
     LandFilm film[2];
     LandPressure pressure[2];
+    BentGrid bent[2];  // of rims that are bent
     LandLoad land[2];  // of rigid halves
 
     // what one kind of cage has

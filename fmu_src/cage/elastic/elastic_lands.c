@@ -123,7 +123,7 @@ static void sweep_again(const Derived *d, const Answers *before, scalar part, co
 static void find_rows(const Model *model, const Work *w, PathRows *rows)
 {
     LandLoad land[2];
-    land_film_loads(model, w, land);
+    land_film_loads(w, land);
     const scalar *re[2] = {land[0].re, land[1].re}, *im[2] = {land[0].im, land[1].im};
     memset(rows, 0, sizeof *rows);
     half_path_add_lands(&model->d->land_path, re, im, rows);
