@@ -161,20 +161,17 @@ void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step,
 static void solve_bent_half(const Model *model, const Work *w, int h, const HalfFilm *f, CageStep *step,
                             HalfVelocity *half)
 {
-    const double *mobility = model->modes->mobility, gamma = step->gamma, *b_y = w->half[h].b_y,
-                 *b_z = w->half[h].b_z;
+    const double gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
     const double *late = &step->late[h];
     const double u_y =
         half->y + late[Y_CAGE_V_Y - Y_CAGE_V_X] + (half->gamma + late[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X]) * f->x;
     const double u_z =
         half->z + late[Y_CAGE_V_Z - Y_CAGE_V_X] - (half->beta + late[Y_CAGE_BETA_DOT - Y_CAGE_V_X]) * f->x;
-    double root[SQUEEZE], residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
-    root[0] = root[1] = sqrt(1.0 / f->m + f->x * f->x / f->J_t);
-    for (int i = 0; i < RIM; i++) {
-        root[2 + i] = sqrt(mobility[i]);
-        residual[2 + i] = gamma * step->rim_lack[h][i];
-    }
-    bent_solve(w, h, gamma, root, residual, step->squeeze[h], &step->bent[h]);
+    double mobility[SQUEEZE], residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
+    mobility[0] = mobility[1] = 1.0 / f->m + f->x * f->x / f->J_t;
+    memcpy(&mobility[2], model->modes->mobility, sizeof model->modes->mobility);
+    for (int i = 0; i < RIM; i++) residual[2 + i] = gamma * step->rim_lack[h][i];
+    bent_solve(w, h, gamma, mobility, residual, step->squeeze[h], &step->bent[h]);
     const double *impulse = step->bent[h].impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
                    half);

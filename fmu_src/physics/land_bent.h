@@ -200,17 +200,17 @@ INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
 }
 
 // The film of a bent rim at the end of a step, along the half's axes: changes of the velocities of land and rim since the evaluation,
-// impulses that take them from the residual, forces and rates.
+// impulses that take them from the residual, forces, and rates yy, yz, zz.
 typedef struct {
-    double change[SQUEEZE], impulse[SQUEEZE], film[SQUEEZE], rate[SQUEEZE_TERMS];
+    double change[SQUEEZE], impulse[SQUEEZE], film[SQUEEZE], rate[3];
 } BentSolution;
 
 #ifndef DUAL
 // Solves the implicit step of half h for its land and bent rim: the velocities change by the residual with the film's force at the
-// evaluation, and root^2 gamma times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of the
+// evaluation, and gamma mobility times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of the
 // end.
 #define bent_solve FOR_ISA(bent_solve)
-void bent_solve(const Work *w, int h, double gamma, const double root[SQUEEZE],
+void bent_solve(const Work *w, int h, double gamma, const double mobility[SQUEEZE],
                 const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to);
 
 // Velocities, films and rates of bent rims become those of a step's end; returns what the films' power is more there, less
