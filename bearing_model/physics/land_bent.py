@@ -16,7 +16,8 @@ The sums are over points that Sommerfeld's substitution of a round land of the s
 leave 0.05 % of the force in the median and 1 % in the worst twentieth of gaps down to -3 um.
 
 A film whose force is less than 1 % of the sum of the preloads leaves the rim round; from 2 % on it bends it, between them a
-smooth part of the film is that of the bent rim.  Smoothness: that of land_film.py.
+smooth part of the film is that of the bent rim.  Its other waves, which load the rivets statically (elastic_lands.py), begin at 2 %
+and are whole from 4 % on.  Smoothness: that of land_film.py.
 
 Arrays are [..., half], of land and rim [6, ..., half], of points [..., half, point].
 """
@@ -31,7 +32,10 @@ from bearing_model.physics.hertz import hertz_damped
 from bearing_model.physics.traction import traction_asperity_share
 
 BENT_EPS = 0.9  # largest eps of the points
-FAINT = 0.01  # load on a rim over the sum of the preloads that leaves it round
+FAINT, FAINT_STILL = (
+    0.01,
+    0.02,
+)  # loads on a rim over the sum of the preloads: leave it round; their other waves are left out
 BENT_POINTS = 48
 PSI = 2.0 * np.pi * np.arange(BENT_POINTS) / BENT_POINTS
 
@@ -42,9 +46,11 @@ def smooth_part(x):
     return x * x * (3.0 - 2.0 * x)
 
 
-def bent_part(d, load):
-    """Part of films of these loads [N] that bends the rims."""
-    return smooth_part(load / (FAINT * np.sum(d.P) + 1e-30) - 1.0)
+def film_part(d, faint, load):
+    """Part of films of these loads [N] that are not faint: none up to `faint` times the sum of the preloads, all from twice that
+    on.
+    """
+    return smooth_part(load / (faint * np.sum(d.P) + 1e-30) - 1.0)
 
 
 def bent_shapes(e, C):

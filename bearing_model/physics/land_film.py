@@ -47,7 +47,7 @@ from bearing_model.generated.variables import Lubrication, Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.physics.land_bent import bent_dot, bent_grid, bent_part, bent_sums
+from bearing_model.physics.land_bent import FAINT, FAINT_STILL, bent_dot, bent_grid, bent_sums, film_part
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
 
@@ -167,6 +167,7 @@ class LandPressure:
     film: np.ndarray  # force of the film there [2, ..., half] [N]; of bent rims with that on the shapes [6, ..., half]
     dry: np.ndarray  # load of the dry contact [N]
     part: np.ndarray  # part of the film that bends the rim
+    still: np.ndarray  # part of its other waves
     # of bent rims: clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], motion of the rim's shapes [m], its velocity and
     # squeeze velocity [m/s], forces on them [N]; forces and rates of the round land
     C: np.ndarray = None
@@ -186,15 +187,15 @@ class LandPressure:
 
 
 def land_film_loads(model, w):
-    """Harmonics of the part of the loads that bends the rims [N], two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
+    """Harmonics of the loads on bent rims that are not faint [N], two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
     on = w.pressure
     b, weight, x, gap = bent_grid(model.p, on)
     film = weight * maximum(bent_dot(np.concatenate([on.V, on.rim_V]), b), 0.0) / gap**3
     dry, waves = weight * maximum(-x, 0.0), harmonics_at(b[0], b[1])
     G, B = ([np.sum(load[..., None] * wave, axis=-2) for wave in waves] for load in (film, dry))
     F_y, F_z = G[0][..., 1], G[1][..., 1]
-    size = -on.part * maximum(-(on.film[0] * F_y + on.film[1] * F_z), 0.0) / (F_y * F_y + F_z * F_z + 1e-30)
-    bed = -on.part * on.dry / (B[0][..., 0] + 1e-30)
+    size = -on.still * maximum(-(on.film[0] * F_y + on.film[1] * F_z), 0.0) / (F_y * F_y + F_z * F_z + 1e-30)
+    bed = -on.still * on.dry / (B[0][..., 0] + 1e-30)
     return tuple(size[..., None] * by_film + bed[..., None] * by_dry for by_film, by_dry in zip(G, B, strict=True))
 
 
@@ -333,9 +334,10 @@ def land_film_force(model, w):
         rates=np.array([[yy, yz], [yz, zz]]),
     )
     w.land, on_rim, part = None, 0.0, 0.0 * e
-    w.pressure = on = LandPressure(e_h, V_h, film_h, N, part)
+    w.pressure = on = LandPressure(e_h, V_h, film_h, N, part, part)
     if model.modes:
-        on.C, on.kappa_C3, on.part = C + 0.0 * e, kappa * C**3 + 0.0 * e, bent_part(d, size + N)
+        on.C, on.kappa_C3 = C + 0.0 * e, kappa * C**3 + 0.0 * e
+        on.part, on.still = film_part(d, FAINT, size + N), film_part(d, FAINT_STILL, size + N)
         if np.any(np.real(on.part) > 0.0):
             land_bend(model, w, on, T, (v_y, v_z, omega), heated * d.couette, does)
             on_rim = np.sum(on.rim_force * on.rim_v, axis=0)

@@ -61,13 +61,20 @@ static void rim_motions(const Model *model, const double *modes, double rim[2][R
 static void push_rims(const Model *model, double part, const double *impulse, double *modes)
 {
     const double scale = part * ROOT_HALF / model->p->cage.m;
+    double S[RIM], D[RIM], size = 0.0;
     for (int c = 0; c < RIM; c++) {
-        const double S = scale * (impulse[RIM + c] + impulse[c]), D = scale * (impulse[RIM + c] - impulse[c]);
-        if (S == 0.0 && D == 0.0) continue;
-        for (int i = 0; i < N_MODES; i++) {
-            modes[i] += S * model->modes->rim[c][i];
-            modes[N_MODES + i] += D * model->modes->rim[c][i];
+        S[c] = scale * (impulse[RIM + c] + impulse[c]), D[c] = scale * (impulse[RIM + c] - impulse[c]);
+        size += fabs(S[c]) + fabs(D[c]);
+    }
+    if (size == 0.0) return;
+    for (int i = 0; i < N_MODES; i += LANE_WIDTH) {
+        wide by_S = wide_load(&modes[i]), by_D = wide_load(&modes[N_MODES + i]);
+        for (int c = 0; c < RIM; c++) {
+            const wide shape = wide_load(&model->modes->rim[c][i]);
+            by_S += S[c] * shape, by_D += D[c] * shape;
         }
+        wide_store(&modes[i], by_S);
+        wide_store(&modes[N_MODES + i], by_D);
     }
 }
 

@@ -270,12 +270,12 @@ INLINE void bent_load(const BentGrid *grid, const LandPressure *on, LandLoad *lo
         }
     sum_load(film_re, film_im, &by_film);
     const scalar F_y = by_film.re[1], F_z = by_film.im[1];
-    add_load(-on->part * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) /
+    add_load(-on->still * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) /
                  (F_y * F_y + F_z * F_z + 1e-30),
              &by_film, load);
     if (!dry) return;
     sum_load(dry_re, dry_im, &by_dry);
-    add_load(-on->part * on->dry / (by_dry.re[0] + 1e-30), &by_dry, load);
+    add_load(-on->still * on->dry / (by_dry.re[0] + 1e-30), &by_dry, load);
 }
 
 // A vector (y, z) across the outer ring's axis along the axes of a half.
@@ -452,12 +452,13 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
         land_turn(outer, half, wide_lane(by_film.y, i), wide_lane(by_film.z, i), on->film);
         on->q2 = wide_lane(q2, i);
         on->force = wide_lane(size, i), on->dry = wide_lane(N, i);
-        on->part = 0.0;
+        on->part = on->still = 0.0;
         scalar on_rim = 0.0;  // power
         if (model->modes) {
             const scalar C_h = wide_lane(C, i);
             on->C = C_h, on->kappa_C3 = wide_lane(eta, i) * (C_h * C_h * C_h);
-            on->part = bent_part(d, on->force + on->dry);
+            on->part = film_part(d, FAINT, on->force + on->dry);
+            on->still = film_part(d, FAINT_STILL, on->force + on->dry);
             if (scalar_value(on->part) > 0.0) {
                 land_bend(model, w, h, outer, &at, wide_lane(heated, i) * d->couette, &force);
                 for (int n = 0; n < RIM; n++) on_rim += on->rim_force[n] * on->rim_v[n];
@@ -487,7 +488,7 @@ void land_film_loads(const Work *w, LandLoad load[2])
 {
     for (int h = 0; h < 2; h++) {
         const LandPressure *on = &w->pressure[h];
-        if (land_is_bent(w, h))
+        if (land_is_felt(w, h))
             bent_load(&w->bent[h], on, &load[h]);
         else
             memset(&load[h], 0, sizeof load[h]);

@@ -24,7 +24,7 @@ INLINE scalar land_growth_rate(const Derived *d, scalar omega)
 // Power that the growth of halves whose speed changes puts into the lands' dry contacts.
 scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot);
 
-// Harmonics of the loads on bent rims by the pressure in Work, 0 of others.
+// Harmonics of the loads on bent rims by the pressure in Work, 0 of faint films.
 void land_film_loads(const Work *w, LandLoad load[2]);
 
 // Adds force and moment to both halves (Rotor F, M); sets their film rates, the pressures and loads on their rims, the dissipated power

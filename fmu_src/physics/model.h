@@ -266,12 +266,12 @@ typedef struct {
 
 // ---- what decides the pressure on one rim, along the half's axes; written by land_film.c, the velocities and forces of a bent
 // one again by land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], gap function q^2, sizes of the film's
-// force and of the dry contact's [N]; of elastic halves the part of the film that bends the rim; where it is not 0, the
+// force and of the dry contact's [N]; of elastic halves the parts of the film that bends the rim and of its other waves; where the first is not 0, the
 // clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its velocity and squeeze velocity [m/s], forces
 // on the rim's shapes and, by the film alone, on land and rim [N]; film and rates of the round land ----
 typedef struct {
     scalar e[2], V[2], q2, force, dry;
-    scalar part, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM], film[SQUEEZE];
+    scalar part, still, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM], film[SQUEEZE];
     scalar round_film[2], round_rate[3];
 } LandPressure;
 

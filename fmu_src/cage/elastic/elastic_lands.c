@@ -14,7 +14,7 @@
 // Delta V, as between rigid halves (joint_slip.h).
 //
 // The second and the third wave of the load bend the rims and so the film's own gap: they act on the modes (land_bent.h), which
-// carry the bonded loads of the joints to 2 %, and leave only Delta P and dm here.  Films that leave the rims round are left out.
+// carry the bonded loads of the joints to 2 %, and leave only Delta P and dm here.  Faint films are left out.
 // Smoothness: that of the law, C1.
 #include "cage/elastic/elastic_lands.h"
 
@@ -132,7 +132,7 @@ static void find_rows(const Model *model, const Work *w, PathRows *rows)
 bool elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
                    JointShear *shear)
 {
-    if (!land_is_bent(w, 0) && !land_is_bent(w, 1)) return false;
+    if (!land_is_felt(w, 0) && !land_is_felt(w, 1)) return false;
     const Derived *d = model->d;
     const JointLaw *law = &rivet_table.half.law;
     const ElasticJoints *by_modes = &w->elastic.joints;
