@@ -51,8 +51,7 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
 static void rim_motions(const Model *model, const double *modes, double rim[2][RIM])
 {
     double S[RIM], D[RIM];
-    elastic_rim(model->modes, modes, S);
-    elastic_rim(model->modes, modes + N_MODES, D);
+    elastic_rims(model->modes, modes, modes + N_MODES, S, D);
     for (int i = 0; i < RIM; i++)
         rim[0][i] = ROOT_HALF * (S[i] - D[i]), rim[1][i] = ROOT_HALF * (S[i] + D[i]);
 }

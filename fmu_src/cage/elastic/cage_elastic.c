@@ -100,8 +100,7 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
         w->elastic.reach[h] = w->elastic.reach_others[h] + elastic_dot(half->widest, moved);
         w->elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q[h]);
         w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q_dot[h]);
-        elastic_rim(half, w->elastic.q[h], w->rim[h]);
-        elastic_rim(half, w->elastic.q_dot[h], w->rim_v[h]);
+        elastic_rims(half, w->elastic.q[h], w->elastic.q_dot[h], w->rim[h], w->rim_v[h]);
     }
 }
 

@@ -172,22 +172,37 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, sca
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);
 
-// Motions of the rim's shapes by coordinates or their rates.
-INLINE void elastic_rim(const ElasticHalf *half, const scalar *q, scalar motion[RIM])
+// Motions of the rim's shapes by coordinates x, and by y.
+INLINE void elastic_rims(const ElasticHalf *half, const scalar *x, const scalar *y, scalar by_x[RIM],
+                         scalar by_y[RIM])
 {
-    for (int c = 0; c < RIM; c++) {
-        scalar part[8] = {0};
-        for (int i = 0; i < N_MODES; i += 8)
-            for (int k = 0; k < 8; k++) part[k] += half->rim[c][i + k] * q[i + k];
-        motion[c] = ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    enum { BOTH = 2 * RIM };
+
+    wide part[EIGHTHS][BOTH];
+    scalar sum[BOTH];
+    for (int n = 0; n < EIGHTHS; n++) {
+        for (int c = 0; c < BOTH; c++) part[n][c] = wide_set(0.0);
+        for (int i = n * LANE_WIDTH; i < N_MODES; i += 8)
+            for (int c = 0; c < RIM; c++) {
+                const wide shape = wide_load(&half->rim[c][i]);
+                part[n][c] += shape * wide_load(&x[i]);
+                part[n][RIM + c] += shape * wide_load(&y[i]);
+            }
     }
+    wide_column_sums(BOTH, BOTH, part[0], sum);
+    memcpy(by_x, sum, RIM * sizeof *sum);
+    memcpy(by_y, &sum[RIM], RIM * sizeof *sum);
 }
 
 // Sum over the modes in one order for every lane width.
 INLINE scalar elastic_sum(const scalar *x, const scalar *y)
 {
-    scalar part[8] = {0};
-    for (int i = 0; i < N_MODES; i += 8)
-        for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    wide part[EIGHTHS];
+    scalar sum;
+    for (int n = 0; n < EIGHTHS; n++) {
+        part[n] = wide_set(0.0);
+        for (int i = n * LANE_WIDTH; i < N_MODES; i += 8) part[n] += wide_load(&x[i]) * wide_load(&y[i]);
+    }
+    wide_column_sums(1, 1, part, &sum);
+    return sum;
 }
