@@ -515,3 +515,11 @@ INLINE void wide_column_sums(int n, int columns, const wide *x, scalar *sum)
             ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
     }
 }
+
+// Sum of one such column.
+INLINE scalar wide_eight_sum(const wide part[EIGHTHS])
+{
+    scalar sum;
+    wide_column_sums(1, 1, part, &sum);
+    return sum;
+}

@@ -23,6 +23,11 @@ INLINE void octet_add_floats(scalar w, const float *x, octet *sum)
 {
     for (int i = 0; i < 8; i++) sum->x[i] += w * x[i];
 }
+
+INLINE void octet_store_sum(const octet *x, const octet *y, scalar *to)
+{
+    for (int i = 0; i < 8; i++) to[i] = x->x[i] + y->x[i];
+}
 #else
 typedef union {
     double x[8];
@@ -67,6 +72,12 @@ INLINE void octet_add(double w, const octet *x, octet *sum)
 {
     octet_add_from(w, x->x, sum);
 }
+
+// to = x + y.
+INLINE void octet_store_sum(const octet *x, const octet *y, double *to)
+{
+    for (int i = 0; i < 8; i += LANE_WIDTH) wide_store(&to[i], wide_load(&x->x[i]) + wide_load(&y->x[i]));
+}
 #endif
 
 // sum += w_0 rows_0 + w_1 rows_1 + ...: rows of a number of octets each, even and odd ones by themselves.
@@ -87,6 +98,5 @@ INLINE void octets_add_rows(int count, const scalar *w, int octets, const double
 // to = sum + odd.
 INLINE void octets_store_sum(int octets, const octet *sum, const octet *odd, scalar *to)
 {
-    for (int b = 0; b < octets; b++)
-        for (int i = 0; i < 8; i++) to[8 * b + i] = sum[b].x[i] + odd[b].x[i];
+    for (int b = 0; b < octets; b++) octet_store_sum(&sum[b], &odd[b], &to[8 * b]);
 }

@@ -67,15 +67,6 @@ void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD
     pads_follow(half, D, PAD_IN, IN_OCTETS, half->in[0], IN_PADS, to);
 }
 
-// Sum over the modes in one order for every lane width.
-static scalar elastic_dot(const double *x, const scalar *y)
-{
-    scalar part[8] = {0};
-    for (int i = 0; i < N_MODES; i += 8)
-        for (int k = 0; k < 8; k++) part[k] += x[i + k] * y[i + k];
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
 {
     const ElasticHalf *half = model->modes;

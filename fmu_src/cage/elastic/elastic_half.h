@@ -198,11 +198,20 @@ INLINE void elastic_rims(const ElasticHalf *half, const scalar *x, const scalar 
 INLINE scalar elastic_sum(const scalar *x, const scalar *y)
 {
     wide part[EIGHTHS];
-    scalar sum;
     for (int n = 0; n < EIGHTHS; n++) {
         part[n] = wide_set(0.0);
         for (int i = n * LANE_WIDTH; i < N_MODES; i += 8) part[n] += wide_load(&x[i]) * wide_load(&y[i]);
     }
-    wide_column_sums(1, 1, part, &sum);
-    return sum;
+    return wide_eight_sum(part);
+}
+
+// The same with constants.
+INLINE scalar elastic_dot(const double *x, const scalar *y)
+{
+    wide part[EIGHTHS];
+    for (int n = 0; n < EIGHTHS; n++) {
+        part[n] = wide_set(0.0);
+        for (int i = n * LANE_WIDTH; i < N_MODES; i += 8) part[n] += wide_load(&x[i]) * wide_load(&y[i]);
+    }
+    return wide_eight_sum(part);
 }

@@ -41,16 +41,6 @@ INLINE double wall_sign(bool back, int side, int c, int part)
     return c == 0 ? side * mirrored : mirrored;
 }
 
-// Eight sums side by side, and all of them together, in one order for every lane width.
-enum { PARTS = 8 / LANE_WIDTH };
-
-INLINE scalar all_sums(const wide sums[PARTS])
-{
-    scalar part[8];
-    for (int i = 0; i < PARTS; i++) wide_store(&part[i * LANE_WIDTH], sums[i]);
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
 // The coordinates a' and b' in a pocket of the coordinates q, and back for forces: those of a pair turned by nu.
 typedef struct {
     const double *cos_a, *cos_b, *sin_nu;
@@ -115,15 +105,15 @@ scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallP
 {
     const NormalMotion normal = normal_motion(half, side, j, at);
     const Turn turn = turn_of(half, j);
-    wide sums[PARTS];
-    for (int i = 0; i < PARTS; i++) sums[i] = wide_set(0.0);
+    wide sums[EIGHTHS];
+    for (int i = 0; i < EIGHTHS; i++) sums[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
-        for (int i = 0; i < PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             sums[i] = wide_fma(normal_motions(&normal, 0, m), turned_a(&turn, m, q), sums[i]);
             sums[i] = wide_fma(normal_motions(&normal, 1, m), turned_b(&turn, m, q), sums[i]);
         }
-    return all_sums(sums);
+    return wide_eight_sum(sums);
 }
 
 void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape)
@@ -148,16 +138,16 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 
     // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x
     // + n_t u_chi,t)
-    wide value[4], tilted[3][4], rates[3][PARTS], tilts[PARTS];
+    wide value[4], tilted[3][4], rates[3][EIGHTHS], tilts[EIGHTHS];
     for (int t = 0; t < 4; t++) {
         const scalar n_x = at->n_x[j], n_t = at->n_t[j], slope = inward * at->slope[t][j];
         value[t] = wide_set(at->value[t][j]);
         tilted[0][t] = wide_set(n_t * at->value[t][j] + n_x * slope);
         tilted[2][t] = wide_set(n_t * slope - n_x * at->value[t][j]);
     }
-    for (int i = 0; i < PARTS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
+    for (int i = 0; i < EIGHTHS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
-        for (int i = 0; i < PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
             const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
@@ -176,8 +166,8 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
                     if (c != 1) tilts[i] = wide_fma(sign * tilt, place[part], tilts[i]);
                 }
         }
-    for (int c = 0; c < 3; c++) wall->u_dot[c][j] = all_sums(rates[c]);
-    wall->tilt[j] = all_sums(tilts) / S;
+    for (int c = 0; c < 3; c++) wall->u_dot[c][j] = wide_eight_sum(rates[c]);
+    wall->tilt[j] = wide_eight_sum(tilts) / S;
 }
 
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
@@ -267,11 +257,11 @@ INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool b
                      const scalar *q, scalar u[3], WallShape *shape)
 {
     const Turn turn = turn_of(half, j);
-    wide sums[3][PARTS];
+    wide sums[3][EIGHTHS];
     for (int c = 0; c < 3; c++)
-        for (int i = 0; i < PARTS; i++) sums[c][i] = wide_set(0.0);
+        for (int i = 0; i < EIGHTHS; i++) sums[c][i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
-        for (int i = 0; i < PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
             wide by[3][2];
@@ -283,7 +273,7 @@ INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool b
                     sums[c][i] = wide_fma(motion, place[part], sums[c][i]);
                 }
         }
-    for (int c = 0; c < 3; c++) u[c] = all_sums(sums[c]);
+    for (int c = 0; c < 3; c++) u[c] = wide_eight_sum(sums[c]);
 }
 
 void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
@@ -301,14 +291,14 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, b
                           const scalar *q, const scalar *q_dot, RibbonWall *wall)
 {
     const Turn turn = turn_of(half, j);
-    wide rates[3][PARTS], rows[WALL_RADII][4][PARTS];
-    for (int i = 0; i < PARTS; i++) {
+    wide rates[3][EIGHTHS], rows[WALL_RADII][4][EIGHTHS];
+    for (int i = 0; i < EIGHTHS; i++) {
         for (int c = 0; c < 3; c++) rates[c][i] = wide_set(0.0);
         for (int a = 0; a < radii; a++)
             for (int t = 0; t < 4; t++) rows[a][t][i] = wide_set(0.0);
     }
     for (int block = 0; block < ENTRY_OCTETS; block++)
-        for (int i = 0; i < PARTS; i++) {
+        for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
             const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
@@ -329,11 +319,11 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, b
                 }
             }
         }
-    for (int c = 0; c < 3; c++) wall->u_dot[c] = all_sums(rates[c]);
+    for (int c = 0; c < 3; c++) wall->u_dot[c] = wide_eight_sum(rates[c]);
     wall->over_chi = wall->over_radius = 0.0;
     for (int a = 0; a < radii; a++)
         for (int t = 0; t < 4; t++) {
-            const scalar row = all_sums(rows[a][t]);
+            const scalar row = wide_eight_sum(rows[a][t]);
             wall->over_chi += nodes->over_chi[a][t] * row;
             wall->over_radius += nodes->over_radius[a][t] * row;
         }
