@@ -36,14 +36,19 @@ def test_the_program_and_the_report_say_what_changed(tmp_path):
 
 
 def test_the_rivet_of_the_page_breaks(tmp_path):
-    """The block of docs/changing.md, at the time that the page states."""
+    """The block of docs/changing.md: the rivet that the page names, in the times that six seeds have, a quarter wider (a chaotic run's
+    time of damage changes with rounding).
+    """
     text = PAGE.read_text()
     scene = re.search(r"## Rivets that break\n\n```toml\n(.*?)```", text, re.S)[1]
     (tmp_path / "breaks.toml").write_text(scene)
     result = run(tmp_path / "breaks.toml")
     (k, place, first), *others = breaks(result)
-    assert f"rivet {k} breaks at {first:.2f} s and the\nothers within 12 ms after it" in text
-    assert len(others) == 8 and others[-1][2] - first < 12e-3
+    low, high, apart = re.search(
+        rf"rivet {k} breaks first, after ([\d.]+) to ([\d.]+) s\n.* the others within (\d+) ms", text
+    ).groups()
+    assert 0.75 * float(low) < first < 1.25 * float(high)
+    assert len(others) == 8 and others[-1][2] - first < 1.25e-3 * float(apart)
     assert break_lines(result)[0] == f"rivet 3 broke in the {place} at {1e3 * first:.4g} ms"
 
 
