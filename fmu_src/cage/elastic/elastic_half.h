@@ -58,10 +58,11 @@ struct ElasticHalf {
     double turn[Z][3][ENTRIES];  // at the pockets: cos nu of the a, of the b, sin nu
     // U by node, radius by radius of a ribbon, value and slope, (x, r, t), U' of the a and U'' of the b
     double wall[WALL_RADII * WALL_NODES][2][3][2][ENTRIES];
-    int nodes;                                      // of the walls' angle
-    int radii;                                      // of the walls' radius: 1 unless the table is a ribbon's
-    double radius[WALL_RADII];                      // [m]
-    double chi[WALL_NODES];                         // [rad]
+    int nodes;                    // of the walls' angle
+    int radii;                    // of the walls' radius: 1 unless the table is a ribbon's
+    double radius[WALL_RADII];    // [m]
+    double per_gaps[WALL_RADII];  // 1 over the product of the distances to both others [1/m2]
+    double chi[WALL_NODES];       // [rad]
     double step[WALL_NODES], inv_step[WALL_NODES];  // from a node to the next one [rad], its inverse
     // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
     double reach_2;        // largest |u|^2 / sum omega^2 q^2 of the others [s2]
@@ -107,9 +108,10 @@ typedef struct {
     ball_array tilt;      // slope of n.u across n, u the motion: how much the normal turns
 } WallMotion;
 
-// Motions (x, r, t) of one wall by all a' and b'.
+// Motions (x, r, t) of one wall by all a' and, times by_b, by all b'.
 typedef struct {
     scalar motion[3][2][ENTRIES];
+    double by_b;
 } WallShape;
 
 // Places of a packet of balls from j on, on the half at side (+1 or -1).
@@ -134,10 +136,12 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
                         mode_array modal);
 
-// Nodes of the wall of a ribbon's pocket around a place, and their weights for the motion there and its slopes.
+// Nodes of the wall of a ribbon's pocket around a place: weights of the cubic over chi and of the parabola over the radius, for the value
+// and for the slopes over both.
 typedef struct {
     int node;
-    scalar value[WALL_RADII][4], over_chi[WALL_RADII][4], over_radius[WALL_RADII][4];
+    scalar value[4], slope[4], along[WALL_RADII], along_slope[WALL_RADII];
+    scalar row[WALL_RADII][4];  // of the motion itself, by the table's rows
 } RibbonNodes;
 
 // The nodes around the angle chi at the radius.
@@ -146,8 +150,8 @@ void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, Ribbo
 
 // Motion (x, r, t) there by those coordinates q that move all pockets alike, on the side t < 0 (back) or t > 0 of a pocket.
 #define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
-void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, RibbonNodes *nodes, const scalar *q,
-                       scalar u[3]);
+void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes,
+                       const scalar *q, scalar u[3]);
 
 // Motion there by all coordinates q, in pocket j; shapes for ribbon_wall and elastic_wall_force.
 #define ribbon_wall_moved FOR_ISA(ribbon_wall_moved)

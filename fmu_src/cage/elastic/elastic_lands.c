@@ -42,12 +42,14 @@ static void answer(const Derived *d, const ball_array P, Answers *to)
                            wide_load(&to->load[2][k])};
         law_places(law, L, wide_load(&P[k]), k, &at);
     }
-    for (int k = 0; k < LANES; k++) {
-        scalar move[3] = {0.0, 0.0, 0.0}, rivet[3] = {0.0, 0.0, 0.0}, energy;
+    memset(to->move, 0, sizeof to->move);
+    memset(to->rivet, 0, sizeof to->rivet);
+    for (int k = 0; k < Z; k++) {
+        scalar move[3], rivet[3] = {0.0, 0.0, 0.0}, energy;
         const scalar load[3] = {to->load[0][k], to->load[1][k], to->load[2][k]};
-        if (k < Z && d->intact[k] > 0.0)
+        if (d->intact[k] > 0.0)
             law_answer(law, &at, k, load[1], move, rivet, &energy);
-        else if (k < Z)
+        else
             law_free(law->K_0, load, move);
         for (int i = 0; i < 3; i++) to->move[i][k] = move[i], to->rivet[i][k] = rivet[i];
     }

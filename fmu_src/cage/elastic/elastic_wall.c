@@ -19,7 +19,7 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wid
         inv_step = wide_select(beyond, wide_set(half->inv_step[n]), inv_step);
     }
     wide_store(below, node);
-    for (int i = 0, k = j; i < LANE_WIDTH; i++, k++) {
+    for (int i = 0, k = j; i < LANE_WIDTH && k < Z; i++, k++) {
         at->node[k] = (int)scalar_value(below[i]);
         at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
     }
@@ -34,11 +34,16 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wid
     }
 }
 
-// Sign of the real (0) and the imaginary part (1) of component c on that side of the pocket and of the split.
-INLINE double wall_sign(bool back, int side, int c, int part)
+// Signs of the motions (x, r, t) by the real parts a' on that side of the pocket and of the split; those by the imaginary parts b'
+// have them times `by_b`.
+typedef struct {
+    double of[3], by_b;
+} WallSigns;
+
+INLINE WallSigns wall_signs(bool back, int side)
 {
-    const double mirrored = back && (c == 2) == (part == 0) ? -1.0 : 1.0;
-    return c == 0 ? side * mirrored : mirrored;
+    const double mirrored = back ? -1.0 : 1.0;
+    return (WallSigns){{side, 1.0, mirrored}, mirrored};
 }
 
 // The coordinates a' and b' in a pocket of the coordinates q, and back for forces: those of a pair turned by nu.
@@ -74,20 +79,22 @@ INLINE wide back_to_b(const Turn *turn, int m, wide a, wide b)
     return wide_fma(wide_load(&turn->cos_b[m]), b, wide_load(&turn->sin_nu[m]) * a);
 }
 
-// Motions of a wall along the contact's normal by a few a' (part 0) or b' (1) side by side.
+// Motions of a wall along the contact's normal by a few a' or b' side by side; by b' without their sign.
 typedef struct {
     const double (*from)[3][2][ENTRIES];
-    wide weight[2][2][4];  // [part][x, t][term]
+    wide weight[2][4];  // [x, t][term]
+    double by_b;
 } NormalMotion;
 
 INLINE NormalMotion normal_motion(const ElasticHalf *half, int side, int j, const WallPlaces *at)
 {
-    NormalMotion n = {half->wall[at->node[j]], {{{wide_set(0.0)}}}};
-    for (int part = 0; part < 2; part++)
-        for (int c = 0; c < 2; c++)
-            for (int t = 0; t < 4; t++)
-                n.weight[part][c][t] = wide_set(wall_sign(at->back[j], side, 2 * c, part) *
-                                                (c == 0 ? at->n_x[j] : at->n_t[j]) * at->value[t][j]);
+    const WallSigns sign = wall_signs(at->back[j], side);
+    NormalMotion n = {half->wall[at->node[j]], {{wide_set(0.0)}}, sign.by_b};
+    const scalar n_x = sign.of[0] * at->n_x[j], n_t = sign.of[2] * at->n_t[j];
+    for (int t = 0; t < 4; t++) {
+        n.weight[0][t] = wide_set(n_x * at->value[t][j]);
+        n.weight[1][t] = wide_set(n_t * at->value[t][j]);
+    }
     return n;
 }
 
@@ -97,7 +104,7 @@ INLINE wide normal_motions(const NormalMotion *n, int part, int m)
     wide by[2] = {wide_set(0.0), wide_set(0.0)};
     for (int t = 0; t < 4; t++)
         for (int c = 0; c < 2; c++)
-            by[c] = wide_fma(n->weight[part][c][t], wide_load(&n->from[t][2 * c][part][m]), by[c]);
+            by[c] = wide_fma(n->weight[c][t], wide_load(&n->from[t][2 * c][part][m]), by[c]);
     return by[0] + by[1];
 }
 
@@ -111,7 +118,7 @@ scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallP
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
             sums[i] = wide_fma(normal_motions(&normal, 0, m), turned_a(&turn, m, q), sums[i]);
-            sums[i] = wide_fma(normal_motions(&normal, 1, m), turned_b(&turn, m, q), sums[i]);
+            sums[i] = wide_fma(normal_motions(&normal, 1, m), normal.by_b * turned_b(&turn, m, q), sums[i]);
         }
     return wide_eight_sum(sums);
 }
@@ -122,7 +129,7 @@ void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlac
     const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        const wide by_a = normal_motions(&normal, 0, m), by_b = normal_motions(&normal, 1, m);
+        const wide by_a = normal_motions(&normal, 0, m), by_b = normal.by_b * normal_motions(&normal, 1, m);
         wide_store(&shape[m], back_to_a(&turn, m, by_a, by_b));
         wide_store(&b[m], back_to_b(&turn, m, by_a, by_b));
     }
@@ -134,36 +141,36 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 {
     const double (*from)[3][2][ENTRIES] = half->wall[at->node[j]];
     const Turn turn = turn_of(half, j);
-    const double inward = at->inside[j] ? (at->back[j] ? -side : side) : 0.0;
+    const WallSigns sign = wall_signs(at->back[j], side);
+    const double inward = at->inside[j] ? sign.by_b * side : 0.0;
 
     // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x
     // + n_t u_chi,t)
-    wide value[4], tilted[3][4], rates[3][EIGHTHS], tilts[EIGHTHS];
+    wide value[3][4], tilted[3][4], rates[3][EIGHTHS], tilts[EIGHTHS];
     for (int t = 0; t < 4; t++) {
         const scalar n_x = at->n_x[j], n_t = at->n_t[j], slope = inward * at->slope[t][j];
-        value[t] = wide_set(at->value[t][j]);
-        tilted[0][t] = wide_set(n_t * at->value[t][j] + n_x * slope);
-        tilted[2][t] = wide_set(n_t * slope - n_x * at->value[t][j]);
+        for (int c = 0; c < 3; c++) value[c][t] = wide_set(sign.of[c] * at->value[t][j]);
+        tilted[0][t] = wide_set(sign.of[0] * (n_t * at->value[t][j] + n_x * slope));
+        tilted[2][t] = wide_set(sign.of[2] * (n_t * slope - n_x * at->value[t][j]));
     }
+    shape->by_b = sign.by_b;
     for (int i = 0; i < EIGHTHS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
-            const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
+            const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
+            const wide rate[2] = {turned_a(&turn, m, q_dot), sign.by_b * turned_b(&turn, m, q_dot)};
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    const wide sign = wide_set(wall_sign(at->back[j], side, c, part));
                     wide u = wide_set(0.0), tilt = wide_set(0.0);
                     for (int t = 0; t < 4; t++) {
                         const wide U = wide_load(&from[t][c][part][m]);
-                        u = wide_fma(value[t], U, u);
+                        u = wide_fma(value[c][t], U, u);
                         if (c != 1) tilt = wide_fma(tilted[c][t], U, tilt);
                     }
-                    const wide motion = sign * u;
-                    wide_store(&shape->motion[c][part][m], motion);
-                    rates[c][i] = wide_fma(motion, rate[part], rates[c][i]);
-                    if (c != 1) tilts[i] = wide_fma(sign * tilt, place[part], tilts[i]);
+                    wide_store(&shape->motion[c][part][m], u);
+                    rates[c][i] = wide_fma(u, rate[part], rates[c][i]);
+                    if (c != 1) tilts[i] = wide_fma(tilt, place[part], tilts[i]);
                 }
         }
     for (int c = 0; c < 3; c++) wall->u_dot[c][j] = wide_eight_sum(rates[c]);
@@ -181,6 +188,7 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
             by[part] = F[0] * wide_load(&shape->motion[0][part][m]) +
                        F[1] * wide_load(&shape->motion[1][part][m]) +
                        F[2] * wide_load(&shape->motion[2][part][m]);
+        by[1] *= shape->by_b;
         wide_store(&modal[m], wide_load(&modal[m]) + back_to_a(&turn, m, by[0], by[1]));
         wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
     }
@@ -189,47 +197,42 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 }
 
 // ---- ribbons --------------------------------------------------------------------------------------------------------
-// Weights of the cubic over chi and of the parabola over the radius, for the value and for the slopes over both.
 void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, RibbonNodes *nodes)
 {
     int node = 0;
     while (node < half->nodes - 2 && scalar_value(chi) >= half->chi[node + 1]) node++;
     const double step = half->step[node], inv = half->inv_step[node];
     const scalar u = (chi - half->chi[node]) * inv, v = 1.0 - u;
-    const scalar value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
-                             -step * u * u * v};
-    const scalar slope[4] = {-6.0 * u * v * inv, v * (v - 2.0 * u), 6.0 * u * v * inv, u * (u - 2.0 * v)};
-    scalar along[WALL_RADII] = {1.0}, along_slope[WALL_RADII] = {0.0};
+    nodes->node = node;
+    nodes->value[0] = v * v * (1.0 + 2.0 * u), nodes->slope[0] = -6.0 * u * v * inv;
+    nodes->value[1] = step * u * v * v, nodes->slope[1] = v * (v - 2.0 * u);
+    nodes->value[2] = u * u * (1.0 + 2.0 * v), nodes->slope[2] = 6.0 * u * v * inv;
+    nodes->value[3] = -step * u * u * v, nodes->slope[3] = u * (u - 2.0 * v);
+    nodes->along[0] = 1.0, nodes->along_slope[0] = 0.0;
     if (half->radii > 1) {
         const double *at = half->radius, r = scalar_value(radius);
         const bool within = r > at[0] && r < at[WALL_RADII - 1];
         radius = scalar_min(scalar_max(radius, at[0]), at[WALL_RADII - 1]);
         for (int a = 0; a < WALL_RADII; a++) {
             const int b = (a + 1) % WALL_RADII, c = (a + 2) % WALL_RADII;
-            const double inv_product = 1.0 / ((at[a] - at[b]) * (at[a] - at[c]));
-            along[a] = (radius - at[b]) * (radius - at[c]) * inv_product;
-            along_slope[a] = within ? (2.0 * radius - at[b] - at[c]) * inv_product : 0.0 * radius;
+            nodes->along[a] = (radius - at[b]) * (radius - at[c]) * half->per_gaps[a];
+            nodes->along_slope[a] =
+                within ? (2.0 * radius - at[b] - at[c]) * half->per_gaps[a] : 0.0 * radius;
         }
     }
-    nodes->node = node;
     for (int a = 0; a < half->radii; a++)
-        for (int t = 0; t < 4; t++) {
-            nodes->value[a][t] = along[a] * value[t];
-            nodes->over_chi[a][t] = along[a] * slope[t];
-            nodes->over_radius[a][t] = along_slope[a] * value[t];
-        }
+        for (int t = 0; t < 4; t++) nodes->row[a][t] = nodes->along[a] * nodes->value[t];
 }
 
 // Motions (x, r, t) by a few a' (part 0) and b' (1) side by side, without their signs.  radii: that of the half, where it is
 // written as a constant the loops are unrolled.
-INLINE void ribbon_motions(const ElasticHalf *half, int radii, int node, scalar weight[WALL_RADII][4], int m,
-                           wide u[3][2])
+INLINE void ribbon_motions(const ElasticHalf *half, int radii, const RibbonNodes *nodes, int m, wide u[3][2])
 {
     for (int c = 0; c < 3; c++) u[c][0] = u[c][1] = wide_set(0.0);
     for (int a = 0; a < radii; a++) {
-        const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + node];
+        const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
         for (int t = 0; t < 4; t++) {
-            const wide part = wide_set(weight[a][t]);
+            const wide part = wide_set(nodes->row[a][t]);
             for (int c = 0; c < 3; c++) {
                 u[c][0] = wide_fma(part, wide_load(&from[t][c][0][m]), u[c][0]);
                 u[c][1] = wide_fma(part, wide_load(&from[t][c][1][m]), u[c][1]);
@@ -238,37 +241,40 @@ INLINE void ribbon_motions(const ElasticHalf *half, int radii, int node, scalar 
     }
 }
 
-void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, RibbonNodes *nodes, const scalar *q,
-                       scalar u[3])
+void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes,
+                       const scalar *q, scalar u[3])
 {
+    const WallSigns sign = wall_signs(back, side);
     u[0] = u[1] = u[2] = 0.0;
     for (int i = 0; i < half->uniforms; i++) {
         const int m = half->uniform_at[i];
         for (int a = 0; a < half->radii; a++) {
             const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
             for (int t = 0; t < 4; t++)
-                for (int c = 0; c < 3; c++) u[c] += nodes->value[a][t] * from[t][c][0][m] * q[m];
+                for (int c = 0; c < 3; c++) u[c] += nodes->row[a][t] * from[t][c][0][m] * q[m];
         }
     }
-    for (int c = 0; c < 3; c++) u[c] *= wall_sign(back, side, c, 0);
+    for (int c = 0; c < 3; c++) u[c] *= sign.of[c];
 }
 
 INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool back, RibbonNodes *nodes,
                      const scalar *q, scalar u[3], WallShape *shape)
 {
     const Turn turn = turn_of(half, j);
+    const WallSigns sign = wall_signs(back, side);
     wide sums[3][EIGHTHS];
+    shape->by_b = sign.by_b;
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < EIGHTHS; i++) sums[c][i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
             wide by[3][2];
-            ribbon_motions(half, radii, nodes->node, nodes->value, m, by);
+            ribbon_motions(half, radii, nodes, m, by);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    const wide motion = wide_set(wall_sign(back, side, c, part)) * by[c][part];
+                    const wide motion = sign.of[c] * by[c][part];
                     wide_store(&shape->motion[c][part][m], motion);
                     sums[c][i] = wide_fma(motion, place[part], sums[c][i]);
                 }
@@ -291,42 +297,39 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, b
                           const scalar *q, const scalar *q_dot, RibbonWall *wall)
 {
     const Turn turn = turn_of(half, j);
-    wide rates[3][EIGHTHS], rows[WALL_RADII][4][EIGHTHS];
-    for (int i = 0; i < EIGHTHS; i++) {
-        for (int c = 0; c < 3; c++) rates[c][i] = wide_set(0.0);
-        for (int a = 0; a < radii; a++)
-            for (int t = 0; t < 4; t++) rows[a][t][i] = wide_set(0.0);
-    }
+    const WallSigns sign = wall_signs(back, side);
+    wide rates[3][EIGHTHS], over_chi[EIGHTHS], over_radius[EIGHTHS];
+    for (int i = 0; i < EIGHTHS; i++)
+        rates[0][i] = rates[1][i] = rates[2][i] = over_chi[i] = over_radius[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
-            const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
+            const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
+            const wide rate[2] = {turned_a(&turn, m, q_dot), sign.by_b * turned_b(&turn, m, q_dot)};
             wide along[3][2];
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    along[c][part] = wide_set(wall_sign(back, side, c, part) * n[c]) * place[part];
+                    along[c][part] = (sign.of[c] * n[c]) * place[part];
                     rates[c][i] = wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], rates[c][i]);
                 }
             for (int a = 0; a < radii; a++) {
                 const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
+                wide by_value = wide_set(0.0), by_slope = wide_set(0.0);
                 for (int t = 0; t < 4; t++) {
-                    wide row = rows[a][t][i];
+                    wide row = wide_set(0.0);
                     for (int c = 0; c < 3; c++)
                         for (int part = 0; part < 2; part++)
                             row = wide_fma(along[c][part], wide_load(&from[t][c][part][m]), row);
-                    rows[a][t][i] = row;
+                    by_value = wide_fma(wide_set(nodes->value[t]), row, by_value);
+                    by_slope = wide_fma(wide_set(nodes->slope[t]), row, by_slope);
                 }
+                over_chi[i] = wide_fma(wide_set(nodes->along[a]), by_slope, over_chi[i]);
+                over_radius[i] = wide_fma(wide_set(nodes->along_slope[a]), by_value, over_radius[i]);
             }
         }
     for (int c = 0; c < 3; c++) wall->u_dot[c] = wide_eight_sum(rates[c]);
-    wall->over_chi = wall->over_radius = 0.0;
-    for (int a = 0; a < radii; a++)
-        for (int t = 0; t < 4; t++) {
-            const scalar row = wide_eight_sum(rows[a][t]);
-            wall->over_chi += nodes->over_chi[a][t] * row;
-            wall->over_radius += nodes->over_radius[a][t] * row;
-        }
+    wall->over_chi = wide_eight_sum(over_chi);
+    wall->over_radius = wide_eight_sum(over_radius);
 }
 
 void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
@@ -342,13 +345,14 @@ void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const Ribb
 INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn, bool back,
                            RibbonNodes *nodes, const scalar n[3], scalar *shape, scalar *b)
 {
+    const WallSigns sign = wall_signs(back, side);
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
         wide by[2] = {wide_set(0.0), wide_set(0.0)}, motion[3][2];
-        ribbon_motions(half, radii, nodes->node, nodes->value, m, motion);
+        ribbon_motions(half, radii, nodes, m, motion);
         for (int part = 0; part < 2; part++)
             for (int c = 0; c < 3; c++)
-                by[part] =
-                    wide_fma(wide_set(wall_sign(back, side, c, part) * n[c]), motion[c][part], by[part]);
+                by[part] = wide_fma(wide_set(sign.of[c] * n[c]), motion[c][part], by[part]);
+        by[1] *= sign.by_b;
         wide_store(&shape[m], back_to_a(turn, m, by[0], by[1]));
         wide_store(&b[m], back_to_b(turn, m, by[0], by[1]));
     }
