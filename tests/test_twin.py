@@ -767,16 +767,16 @@ def test_statistics(core, record_property):
 
 
 def test_running_statistics(core):
-    """The same numbers, weights and floor give the same mean, RMS, quantile and maximum."""
+    """The same numbers, steps and floor give the same mean, RMS, quantile and maximum."""
     rng = np.random.default_rng(6)
     value, weight = (
         np.where(rng.uniform(size=2000) < 0.3, 0.0, rng.lognormal(1.0, 3.0, 2000)),
         rng.uniform(1e-6, 1e-5, 2000),
     )
     channel, c = StatisticsChannel(1e-3), core.new("StatisticsChannel")
-    channel.add(weight, value)
-    for w, v in zip(weight, value, strict=True):
-        core.lib.statistics_add(c, 1e-3, w, v)
+    channel.add(weight[1:], value[:-1], value[1:])
+    for h, before, now in zip(weight[1:], value[:-1], value[1:], strict=True):
+        core.lib.statistics_add(c, 1e-3, h, before, now)
     assert channel.mean == pytest.approx(core.lib.statistics_mean(c), rel=1e-12)
     assert channel.rms == pytest.approx(core.lib.statistics_rms(c), rel=1e-12)
     assert channel.max == c.max

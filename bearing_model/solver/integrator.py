@@ -76,6 +76,11 @@ class Results:
         raise KeyError(name)
 
 
+def starts(last, ends):
+    """Values at the starts of steps by those at their ends, rows, and the last one before them, if there was one."""
+    return np.concatenate([[ends[0] if last is None else last], ends[:-1]])
+
+
 @dataclass
 class Record:
     """Peaks, statistics and fatigue over accepted steps, as the FMU keeps them."""
@@ -87,6 +92,9 @@ class Record:
     mid: list = field(default_factory=lambda: [StatisticsChannel(STRESS_FLOOR) for _ in range(Z + 1)])
     fatigue_head: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
     fatigue_mid: list = field(default_factory=lambda: [FatigueChannel() for _ in range(Z)])
+    # at the end of the last step, for the statistics: pocket forces, stresses of each rivet and of the worst one
+    end_force: np.ndarray | None = None
+    end_stress: dict = field(default_factory=dict)
     duty_time: float = 0.0
     omega_time: float = 0.0
     eccentricity_time: float = 0.0
@@ -109,8 +117,9 @@ class Record:
         p, counts = self.p, (t >= self.p.start.settle) & (self.p.scene.statistics == Switch.ON)
         weight = np.repeat(h[:, None], Z, axis=1)
         Q_c = pocket_loads(w)
-        self.force.add(weight[counts].ravel(), Q_c[counts].ravel())
-        self.duty_time += np.sum((weight * (Q_c > 0.0))[counts])
+        before, self.end_force = starts(self.end_force, Q_c), Q_c[-1]
+        self.force.add(weight[counts].ravel(), before[counts].ravel(), Q_c[counts].ravel())
+        self.duty_time += np.sum((0.5 * weight * ((before > 0.0) * 1.0 + (Q_c > 0.0)))[counts])
         peaks = {"cage.F_pocket_peak": np.max(Q_c)}
         peaks |= self.add_stress(model, t, h, counts, w) if p.scene.stress >= Stress.PEAK else no_stress()
         if p.joint.wear > 0.0:
@@ -130,9 +139,10 @@ class Record:
         standing = np.flatnonzero(self.breakage.holds(self.p))
         for name, channel, statistics, fatigue in channels:
             stress = sigma[..., channel]
-            for k in range(Z):
-                statistics[k].add(h[counts], stress[counts, k])
-            statistics[Z].add(h[counts], np.max(stress, axis=1)[counts])
+            now = np.column_stack([stress, np.max(stress, axis=1)])
+            before, self.end_stress[name] = starts(self.end_stress.get(name), now), now[-1]
+            for k in range(Z + 1):
+                statistics[k].add(h[counts], before[counts, k], now[counts, k])
             if self.p.scene.stress == Stress.FATIGUE:
                 laws = self.laws(name)
                 for values in stress[t >= self.p.start.settle]:

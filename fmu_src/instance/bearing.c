@@ -19,19 +19,36 @@
 static void add_force(InstanceState *s, const Work *w, bool counts, double h)
 {
     for (int j = 0; j < Z; j++) {
-        const double Q_c = w->pocket[0].Q[j] + w->pocket[1].Q[j];
-        s->force_peak = scalar_max(s->force_peak, Q_c);
+        const double now = w->pocket[0].Q[j] + w->pocket[1].Q[j];
+        const double before = s->end.force_known ? s->end.force[j] : now;
+        s->force_peak = scalar_max(s->force_peak, now);
+        s->end.force[j] = now;
         if (!counts) continue;
-        statistics_add(&s->force, FORCE_FLOOR, h, Q_c);
-        if (Q_c > 0.0) s->duty_time += h;
+        statistics_add(&s->force, FORCE_FLOOR, h, before, now);
+        s->duty_time += 0.5 * h * ((before > 0.0) + (now > 0.0));
     }
+    s->end.force_known = true;
+}
+
+// Counts stresses of each rivet and of the worst one.
+static void count_stress(InstanceState *s, bool counts, double h, const StepEnd *now)
+{
+    const StepEnd *before = s->end.stress_known ? &s->end : now;
+    for (int k = 0; counts && k < STRESS_CHANNELS; k++) {
+        statistics_add(&s->head[k], STRESS_FLOOR, h, before->head[k], now->head[k]);
+        statistics_add(&s->mid[k], STRESS_FLOOR, h, before->mid[k], now->mid[k]);
+    }
+    memcpy(s->end.head, now->head, sizeof now->head);
+    memcpy(s->end.mid, now->mid, sizeof now->mid);
+    s->end.stress_known = true;
 }
 
 static void add_stress(Bearing *b, bool counts, double h)
 {
     InstanceState *s = &b->s;
     JointLoads load;
-    double sigma[RIVET_CHANNELS][Z], head_max = 0.0, mid_max = 0.0;
+    double sigma[RIVET_CHANNELS][Z];
+    StepEnd now = {0};
     const bool fatigue = s->p.scene.stress == STRESS_FATIGUE && s->integrator.t >= s->p.start.settle;
 
     // stress of all rivets
@@ -39,16 +56,13 @@ static void add_stress(Bearing *b, bool counts, double h)
     b->kernels.rivet_rom_stress(&rivet_table, &load, b->d.fit_eff, false, sigma);
     const double *head = sigma[HEAD_P1], *mid = sigma[MID_VM];
 
-    // peaks, statistics and fatigue of each rivet, statistics of the worst one
+    // peaks, fatigue and statistics
     for (int k = 0; k < Z; k++) {
         s->head_peak[k] = scalar_max(s->head_peak[k], head[k]);
         s->mid_peak[k] = scalar_max(s->mid_peak[k], mid[k]);
-        head_max = scalar_max(head_max, head[k]);
-        mid_max = scalar_max(mid_max, mid[k]);
-        if (counts) {
-            statistics_add(&s->head[k], STRESS_FLOOR, h, head[k]);
-            statistics_add(&s->mid[k], STRESS_FLOOR, h, mid[k]);
-        }
+        now.head[k] = head[k], now.mid[k] = mid[k];
+        now.head[WORST_RIVET] = scalar_max(now.head[WORST_RIVET], head[k]);
+        now.mid[WORST_RIVET] = scalar_max(now.mid[WORST_RIVET], mid[k]);
         if (fatigue && rivet_holds(&s->p, &s->breakage, k)) {
             const FatigueLaw law = fatigue_law(&s->p, k),
                              in_hole = fatigue_law_in_hole(&law, b->d.fit_eff[k]);
@@ -56,10 +70,7 @@ static void add_stress(Bearing *b, bool counts, double h)
             fatigue_push(&s->fatigue_mid[k], &in_hole, mid[k]);
         }
     }
-    if (counts) {
-        statistics_add(&s->head[WORST_RIVET], STRESS_FLOOR, h, head_max);
-        statistics_add(&s->mid[WORST_RIVET], STRESS_FLOOR, h, mid_max);
-    }
+    count_stress(s, counts, h, &now);
 }
 
 static void add_cage(Bearing *b, double h)
@@ -89,7 +100,10 @@ static void accepted_step(void *context, double h, const Work *w)
     InstanceState *s = &b->s;
     const bool counts = s->p.scene.statistics == SWITCH_ON && s->integrator.t >= s->p.start.settle;
     add_force(s, w, counts, h);
-    if (s->p.scene.stress >= STRESS_PEAK) add_stress(b, counts, h);
+    if (s->p.scene.stress >= STRESS_PEAK)
+        add_stress(b, counts, h);
+    else
+        s->end.stress_known = false;
     if (counts) add_cage(b, h);
     if (s->p.joint.wear > 0.0) add_wear(b, h);
 }

@@ -698,6 +698,8 @@ static bool check_recorded(Bearing *b, double time)
     bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
                 values_are_sane(sums, sizeof sums / sizeof sums[0]);
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
+    fine &= values_are_amounts(s->end.force, Z) && values_are_sane(s->end.head, STRESS_CHANNELS) &&
+            values_are_sane(s->end.mid, STRESS_CHANNELS);
     fine = saved_is(b, fine, "peaks and sums") &&
            saved_is(b, event_state_is_valid(&s->event), "counts of events") &&
            saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets") &&

@@ -18,6 +18,12 @@ static const double STRESS_FLOOR = 1e3;  // [Pa]
 // Channels of the stress statistics: each rivet, and the worst rivet at each instant.
 enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };
 
+// What the statistics count at the end of a step: pocket forces [N], stresses of each rivet and of the worst one [Pa].
+typedef struct {
+    int force_known, stress_known;  // else there was no step yet, or none with stress
+    double force[Z], head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
+} StepEnd;
+
 // The saved state: all that the instance's future depends on, in plain bytes.
 typedef struct {
     Parameters p;                // of the next step
@@ -38,6 +44,7 @@ typedef struct {
     // eccentricity
     double dislocation_max;
     double duty_time, omega_time, eccentricity_time;
+    StepEnd end;  // of the last step
     StatisticsChannel force, head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
     FatigueChannel fatigue_head[Z], fatigue_mid[Z];
     Breakage breakage;

@@ -24,16 +24,23 @@ static double edge_of(int bin)
                  bin / STATISTICS_PER_OCTAVE);
 }
 
-void statistics_add(StatisticsChannel *channel, double floor, double weight, double value)
+static void count(StatisticsChannel *channel, double floor, double weight, double value)
 {
-    channel->time += weight;
-    channel->first += weight * value;
-    channel->second += weight * value * value;
     if (value > channel->max) channel->max = value;
     if (value < floor)
         channel->below += weight;
     else
         channel->weight[bin_of(value / floor)] += weight;
+}
+
+void statistics_add(StatisticsChannel *channel, double floor, double h, double before, double now)
+{
+    const double weight = 0.5 * h;
+    channel->time += h;
+    channel->first += weight * (before + now);
+    channel->second += weight * (before * before + now * now);
+    count(channel, floor, weight, before);
+    count(channel, floor, weight, now);
 }
 
 double statistics_mean(const StatisticsChannel *channel)

@@ -1,5 +1,6 @@
-// Running statistics over time, weighted by the length of the steps: mean, RMS, largest value and quantiles
-// of positive quantities.
+// Running statistics over time: mean, RMS, largest value and quantiles of positive quantities.  The values at both ends
+// of a step count for half of its length each.  Were the value at its end to count for all of it, the shorter steps into
+// a pulse would weigh less than the longer ones out of it: 99.9 % of the pocket force would err by up to 2 % at any tolerance.
 #pragma once
 
 #include <stdbool.h>
@@ -21,7 +22,8 @@ typedef struct {
     double weight[STATISTICS_BINS];
 } StatisticsChannel;
 
-void statistics_add(StatisticsChannel *channel, double floor, double weight, double value);
+// Adds a step of length h from the value `before` to the value `now`.
+void statistics_add(StatisticsChannel *channel, double floor, double h, double before, double now);
 double statistics_mean(const StatisticsChannel *channel);
 double statistics_rms(const StatisticsChannel *channel);
 
