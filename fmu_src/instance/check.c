@@ -30,11 +30,27 @@ static bool check_variables(Bearing *b, Causality causality, const void *values)
     return variables_allow(causality, values, 0.0, report_error, b);
 }
 
+// Whether all inputs lie within their limits; a NaN does not.
+static bool inputs_lie_within(const Inputs *u)
+{
+    const double *value = (const double *)u;
+    bool fine = true;
+    for (int i = 0; i < N_INPUTS; i++)
+        fine &= value[i] >= INPUT_LIMITS[i][0] && value[i] <= INPUT_LIMITS[i][1];
+    return fine;
+}
+
+// Checks inputs that the caller asks for; the table with its messages is for those beyond a limit.
+static bool check_given(Bearing *b, const Inputs *u)
+{
+    return inputs_lie_within(u) || check_variables(b, CAUSALITY_INPUT, u);
+}
+
 // Checks inputs that a trajectory reaches: its polynomial may round a limit that the caller asks for by a few
 // units of the last place.
 static bool check_reached(Bearing *b, const Inputs *u)
 {
-    return variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
+    return inputs_lie_within(u) || variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
 }
 
 // Where the motions that are given lead within a step of length h.  A motion that is catching up with the given one
@@ -108,15 +124,14 @@ bool check_inputs(Bearing *b, double h)
     Inputs u = b->s.u[0], turning = u;
     if (!check_motions(b, h)) return false;
     if (!input_trajectory_varies(&trajectory))
-        return check_variables(b, CAUSALITY_INPUT, &u) &&
-               (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
+        return check_given(b, &u) && (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
     input_trajectory_at(&trajectory, h, &u);
     for (int i = 0; i < N_INPUTS; i++) {
         const double tau = -u_1[i] / u_2[i];
         if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
     }
-    return check_variables(b, CAUSALITY_INPUT, &b->s.u[0]) && check_reached(b, &u) &&
-           check_reached(b, &turning) && check_temperatures(b, &b->s.u[0]) && check_temperatures(b, &u);
+    return check_given(b, &b->s.u[0]) && check_reached(b, &u) && check_reached(b, &turning) &&
+           check_temperatures(b, &b->s.u[0]) && check_temperatures(b, &u);
 }
 
 // Logs value and limit unless the condition holds.

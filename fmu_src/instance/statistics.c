@@ -37,6 +37,10 @@ void statistics_add(StatisticsChannel *channel, double floor, double h, double b
 {
     const double weight = 0.5 * h;
     channel->time += h;
+    if (before == 0.0 && now == 0.0) {  // most balls touch no pocket
+        channel->below += h;
+        return;
+    }
     channel->first += weight * (before + now);
     channel->second += weight * (before * before + now * now);
     count(channel, floor, weight, before);

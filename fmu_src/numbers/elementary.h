@@ -4,6 +4,18 @@
 
 #include "numbers/lanes.h"
 
+// Whether any of the numbers is not 0: by their bits without the sign, because comparisons are made one by one.
+static inline bool any_not_zero(const double *x, int count)
+{
+    uint64_t any = 0;
+    for (int i = 0; i < count; i++) {
+        uint64_t bits;
+        memcpy(&bits, &x[i], sizeof bits);
+        any |= bits << 1;
+    }
+    return any != 0;
+}
+
 #ifndef DUAL
 
 static inline double portable_exp(double x)

@@ -43,6 +43,8 @@ typedef struct {
 
 extern const Variable VARIABLES[N_VARIABLES];  // in the order of value references
 
+extern const double INPUT_LIMITS[N_INPUTS][2];  // least and largest value of each number in Inputs
+
 // The variable of a value reference and the index of its element; NULL if there is none.
 const Variable *variable_find(unsigned value_reference, int *element);
 

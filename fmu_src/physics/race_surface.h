@@ -36,9 +36,7 @@
 // Whether any of this race's waves has an amplitude.
 static inline bool race_waves_given(const double amplitude[WAVES])
 {
-    bool any = false;
-    for (int i = 0; i < WAVES; i++) any |= amplitude[i] != 0.0;
-    return any;
+    return any_not_zero(amplitude, WAVES);
 }
 
 // Whether these are the sizes of a spall.

@@ -190,14 +190,12 @@ void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 
 
 bool input_trajectory_varies(const InputTrajectory *trajectory)
 {
-    const double *derivative = (const double *)&trajectory->u[1];
     const bool gravity = trajectory->gravity[0] != 0.0 || trajectory->gravity[1] != 0.0;
     bool varies = trajectory->pulse_r != 0.0 || trajectory->pulse_a != 0.0;
     varies |= gravity && trajectory->u[0].frame.omega != 0.0;  // gravity turns in the frame
     if (trajectory->angles_matter != 0.0)  // races that are not perfect turn with their rings
         varies |= trajectory->u[0].shaft.omega != 0.0 || trajectory->u[0].housing.omega != 0.0;
-    for (int i = 0; i < INPUT_ORDERS * N_INPUTS; i++) varies |= derivative[i] != 0.0;
-    return varies;
+    return varies || any_not_zero((const double *)&trajectory->u[1], INPUT_ORDERS * N_INPUTS);
 }
 
 void input_trajectory_rates_at(const InputTrajectory *trajectory, double t, Inputs *u, Inputs *u_dot)

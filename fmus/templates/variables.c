@@ -21,3 +21,10 @@ const Variable VARIABLES[N_VARIABLES] = {
      , {{ "offsetof(Parameters, given.%s)" % (v | given_member) if v.derives else 0 }}},
 {% endfor %}
 };
+
+// min, max
+const double INPUT_LIMITS[N_INPUTS][2] = {
+{% for v in table.of("input") | sort(attribute="vr") %}
+    [offsetof(Inputs, {{ v.path }}) / sizeof(double)] = { {{- v.limits[0] | c_number }}, {{ v.limits[1] | c_number -}} },
+{% endfor %}
+};
