@@ -262,7 +262,7 @@ def problems(records):
         elif r["expected"] == "run" and r["outcome"] == "discarded":
             yield where + f"discarded at t = {r['t']:g} s: {r['message']}"
         elif r["admissible"] and r["outcome"] == "finished" and r["ratio"] > 20.0:
-            yield where + f"{r['ratio']:.1f} times the working point's run time"
+            yield where + f"run time {r['ratio']:.0f}"
 
 
 # ------------------------------------------------------------------------------------------------------------ long runs

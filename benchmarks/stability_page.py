@@ -83,21 +83,20 @@ def write_page(path, problems):
     text = f"""# Stability
 
 `benchmarks/stability.py` runs random and extreme scenes to their ends.
-Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}, processor times of one core.
+Measured {data["date"][:10]} at commit {data["commit"]} on {data["machine"]["processor"]}.
 Scenes whose rivets have closed forms run with rigid halves only.
 
 """
     text += table(
         ("cage halves", "scenes", "finished", "refused", "discarded", "crashed", "hung", "not finite"), counts
     )
-    text += "Further faults would be an admissible scene refused, an impossible scene that runs,\n"
-    text += "and a run time above 20 times the working point's.\n"
+    text += "Faults are also an admissible scene refused, an impossible one that runs and a run time above 20.\n"
     text += ("Faults:\n\n" + "".join(f"- {line}\n" for line in bad) if bad else "No fault occurred.\n") + "\n"
     text += FAMILIES
     text += table(("family", "scenes", "energy", "rejected, %", "run time"), family_rows(records))
     text += energy_text(records)
     text += elastic_text(elastic["records"]) if elastic else ""
-    text += "## Events\n\nScenes with at least one onset, by the logger and `event.*`:\n\n"
+    text += "## Events\n\nScenes with at least one onset:\n\n"
     kinds = event_rows(records)
     text += table([kind for kind, _ in kinds], [[count for _, count in kinds]])
     text += "## Refusals\n\nEvery refusal names the value and its limit.\n\n"
