@@ -490,6 +490,9 @@ static void records(void)
 {
     amount_refused(AT(force_peak), "force peak");
     amount_refused(AT(duty_time), "duty time");
+    range_refused(AT(end.force_known), 0, 1, "force_known");
+    range_refused(AT(end.stress_known), 0, 1, "stress_known");
+    for (size_t j = 0; j < Z; j++) amount_refused(AT(end.force) + 8 * j, "force of the last end");
     for (size_t k = 0; k < Z; k++) {
         amount_refused(AT(head_peak) + 8 * k, "head peak");
         amount_refused(AT(mid_peak) + 8 * k, "middle peak");
@@ -532,6 +535,8 @@ static bool holds_int(size_t at)
                                   offsetof(InstanceState, p_now.given),
                                   offsetof(InstanceState, integrator.f_is_current),
                                   offsetof(InstanceState, initialized),
+                                  offsetof(InstanceState, end.force_known),
+                                  offsetof(InstanceState, end.stress_known),
                                   offsetof(InstanceState, history.steps),
                                   offsetof(InstanceState, lag.count)};
     for (size_t i = 0; i < sizeof ints / sizeof ints[0]; i++)

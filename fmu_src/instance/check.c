@@ -703,6 +703,13 @@ static bool lag_is_valid(const MotionLag *lag)
            values_are_sane(mismatch, 2);
 }
 
+static bool step_end_is_valid(const StepEnd *end)
+{
+    return (end->force_known == 0 || end->force_known == 1) &&
+           (end->stress_known == 0 || end->stress_known == 1) && values_are_amounts(end->force, Z) &&
+           values_are_sane(end->head, STRESS_CHANNELS) && values_are_sane(end->mid, STRESS_CHANNELS);
+}
+
 // Of each rivet and of all balls together, over the time since the start; every ball adds its own time to the
 // pocket forces.
 static bool check_recorded(Bearing *b, double time)
@@ -713,8 +720,7 @@ static bool check_recorded(Bearing *b, double time)
     bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
                 values_are_sane(sums, sizeof sums / sizeof sums[0]);
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
-    fine &= values_are_amounts(s->end.force, Z) && values_are_sane(s->end.head, STRESS_CHANNELS) &&
-            values_are_sane(s->end.mid, STRESS_CHANNELS);
+    fine &= step_end_is_valid(&s->end);
     fine = saved_is(b, fine, "peaks and sums") &&
            saved_is(b, event_state_is_valid(&s->event), "counts of events") &&
            saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets") &&
