@@ -56,8 +56,8 @@ def test_steps_of_unequal_lengths_weigh_by_the_trapezoidal_rule(core):
     """Mean and RMS as numpy's trapezoidal rule has them; the quantile of pulses whose rise has short steps and whose fall
     long ones is that of the pulses.
 
-    Half sines of height 1 for a tenth of the time; 99 % is the quantile at 0.9 of the pulses, sin(0.45 pi) = 0.98769; at
-    99.9 % sin(0.495 pi).  Were the value at a step's end to count for all of it, the falls would count four times as much.
+    Half sines of height 1: for the part a of its time each is above cos(a pi/2).  The rise has four
+    times as many steps as the fall.  Mean and RMS to rounding tell these weights from those of the values at the ends alone.
     """
     rise, fall = np.linspace(0.0, 0.5, 2001), np.linspace(0.5, 1.0, 501)[1:]
     phase = np.concatenate([rise, fall, [10.0]])
