@@ -23,11 +23,16 @@ from bearing_model.generated.variables import (
     N_ALL_STATES,
     STATE_SLICES,
     CageModel,
+    Lubrication,
     Method,
+    TiltMode,
+    Traction,
     Z,
 )
 from bearing_model.instance.energy import energy_terms, energy_total
+from bearing_model.physics import land_film
 from bearing_model.physics.derived import default_table
+from bearing_model.physics.land_bent import bent_foresee
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.powers import net_power
 from bearing_model.physics.rhs import jacobian, rhs
@@ -55,6 +60,8 @@ SCENES = (
 )
 OF_RIBBON = RIBBON | {"cage.unbalance": 2e-6}  # on the machined half's modes
 BENT = {"joint.preload": 0.5, "scene.lubrication": 2}  # films bend both rims
+# the same where gaps close: films that would throw their rims at the predicted velocities
+JAMMED = BENT | {"cage.guide_clearance": 3e-5, "cage.g_0": 0.1}
 WET_RIBBON = OF_RIBBON | {"cage.pocket_filling": 1.0}
 BLOCKS = STATE_SLICES | {name: getattr(variables, name.upper()) for name in ELASTIC_SCALES}
 
@@ -102,12 +109,13 @@ def test_twins_are_equal(core, scene, isa, record_property):
 
 @pytest.mark.parametrize(
     "scene",
-    [*SCENES[:3], SCENES[-1], BENT, OF_RIBBON, WET_RIBBON],
-    ids=[0, 1, 2, 4, "bent", "ribbon", "flooded ribbon"],
+    [*SCENES[:3], SCENES[-1], BENT, JAMMED, OF_RIBBON, WET_RIBBON],
+    ids=[0, 1, 2, 4, "bent", "jammed", "ribbon", "flooded ribbon"],
 )
-def test_step_equals_the_dense_step(core, scene, record_property):
+def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
     """Two steps in a row and their substeps in both twins, in units of the error scales (observed 2e-12)."""
-    rng, worst = np.random.default_rng(6), 0.0
+    rng, worst, foreseen = np.random.default_rng(6), 0.0, []
+    monkeypatch.setattr(land_film, "bent_foresee", lambda *given: foreseen.append(bent_foresee(*given)) or foreseen[-1])
     c, model = core.model(ELASTIC | scene), Model.of(ELASTIC | scene)
     scale = model.d.scale
     for _ in range(3):
@@ -127,7 +135,7 @@ def test_step_equals_the_dense_step(core, scene, record_property):
             for name in ("rim", "squeeze"):
                 found, expected = np.array([list(row) for row in getattr(state.cage, name)]), getattr(end.cage, name)
                 np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8 * np.abs(expected).max())
-                assert scene != BENT or np.all(expected != 0.0)
+                assert scene not in (BENT, JAMMED) or np.all(expected != 0.0)
             np.testing.assert_allclose(list(state.cage.fast.T)[:Z], end.cage.fast.T, rtol=1e-9)
             np.testing.assert_allclose(
                 list(state.cage.fast.rigid),
@@ -137,6 +145,7 @@ def test_step_equals_the_dense_step(core, scene, record_property):
             )
     record_property("worst", float(worst))
     assert worst < 1e-9
+    assert any(foreseen) == (scene == JAMMED)
 
 
 @pytest.mark.parametrize(
@@ -377,6 +386,37 @@ def test_momentum_is_kept():
     np.testing.assert_allclose(h0.F + h1.F, 0.0, atol=1e-12 * np.abs(h1.F).max())
     total = h0.M + h1.M + np.cross(h0.x[:, 0], h0.F[:, 0])[:, None] + np.cross(h1.x[:, 0], h1.F[:, 0])[:, None]
     assert np.abs(total).max() < 1e-11 * np.abs(h1.M).max()
+
+
+@pytest.mark.c_only
+def test_energy_of_a_jammed_cage(core, record_property):
+    """26 um of clearance under 6 mrad of given tilt for 10 ms: both lands bite, gamma Y D of their films is a million.  Supplied =
+    stored + lost, to 1 % of what is lost (observed 0.1 %); steps of 1 us at least in the mean (observed 3 us, 5 ns by Runge-Kutta).
+    """
+    jam = {
+        "bearing.P_d": -9.7e-6,
+        "bearing.f_i": 0.5246,
+        "bearing.f_e": 0.5284,
+        "cage.pocket_clearance": 2.15e-5,
+        "cage.guide_clearance": 2.63e-5,
+        "cage.mu": 0.22,
+        "joint.preload": 0.0,
+        "joint.fit": -1.37e-4,
+        "oil.eta": 9.5e-3,
+        "scene.traction": Traction.POINT,
+        "scene.lubrication": Lubrication.FILM,
+        "ring.tilt_mode": TiltMode.PRESCRIBED,
+    }
+    load = {"shaft.omega": -160.0, "shaft.F_y": -3450.0, "shaft.F_z": -1360.0, "shaft.F_x": 350.0}
+    bearing = Instance(core, ELASTIC | jam, load | {"shaft.tilt_y": -1.1e-3, "shaft.tilt_z": -6.2e-3})
+    lost = 0.0
+    for i in range(100):
+        bearing.step(1e-4 * (i + 1))
+        lost += 1e-4 * bearing.output("bearing.power_loss")
+    off = abs(bearing.output("bearing.energy_residual")) / lost
+    record_property("off", off)
+    assert off < 0.01
+    assert bearing.output("solver.steps") < 10_000
 
 
 @pytest.mark.c_only

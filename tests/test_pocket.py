@@ -1,5 +1,7 @@
 """Ball and pocket: cylinder, energy shared by the halves, momentum, power, friction and its film."""
 
+import itertools
+
 import numpy as np
 import pytest
 from mechanics import (
@@ -123,9 +125,9 @@ def test_the_split_is_pushed_open(core):
 # --------------------------------------------------------------------------------------------------------------- energy
 
 
-def random_scene(core, rng, **changes):
+def random_scene(core, rng, gap=GAP, **changes):
     """Balls against their pockets, halves displaced, tilted, turning and moving."""
-    m = core.model(parameters=changes)
+    m = core.model(parameters={"cage.pocket_clearance": 2.0 * gap} | changes)
     bodies = []
     for half in m.work.half:
         body = {
@@ -137,7 +139,7 @@ def random_scene(core, rng, **changes):
         pose(core, half, **body)
         bodies.append(body)
     phi, angle = 2.0 * np.pi * np.arange(Z) / Z, rng.uniform(-np.pi, np.pi, Z)
-    S = GAP + rng.uniform(5e-6, 30e-6, Z)
+    S = gap + rng.uniform(5e-6, 30e-6, Z)
     ball = {
         "x": S * np.sin(angle),
         "r": R_PITCH + rng.uniform(-1e-4, 1e-4, Z),
@@ -154,45 +156,46 @@ def random_scene(core, rng, **changes):
     return m, w, ball, bodies
 
 
-def work(m, chord, delta):
-    """Work of pressing a ball in by delta, where a half bears what lies beyond its chord of the patch: the load over
-    the approach, by Gauss in its root.
+def work(m, chord, R_c, delta):
+    """Work of pressing a ball in by delta, where a half bears what lies beyond its chord of the patch, whose half length a is R_c at
+    most: the load over the approach, by Gauss in its root between the roots at which a becomes the chord and R_c.
     """
     K, a_delta = m.d.pocket.K, m.d.pocket.a_delta
-    if delta <= 0.0:
-        return 0.0
-    from_ = min((chord / a_delta) ** 2, delta)  # up to here the patch lies on one side
     node, weight = np.polynomial.legendre.leggauss(8)
-    root = 0.5 * (np.sqrt(from_) + np.sqrt(delta)) + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * node
-    xi = chord / (a_delta * root)
-    load = K * root**3 * (0.5 + 0.75 * (xi - xi**3 / 3.0))
-    return (chord > 0.0) * 0.4 * K * from_**2.5 + 0.5 * (np.sqrt(delta) - np.sqrt(from_)) * np.sum(
-        weight * load * 2.0 * root
-    )
+    roots = np.sort(np.minimum([0.0, abs(chord) / a_delta, R_c / a_delta, np.inf], np.sqrt(max(delta, 0.0))))
+    total = 0.0
+    for low, high in itertools.pairwise(roots):
+        root = 0.5 * (high + low) + 0.5 * (high - low) * node
+        xi = np.clip(chord / np.minimum(a_delta * root, R_c), -1.0, 1.0)
+        total += 0.5 * (high - low) * np.sum(weight * K * root**3 * (0.5 + 0.75 * (xi - xi**3 / 3.0)) * 2.0 * root)
+    return total
 
 
-def energy(m, place, body, j, side):
+def energy(m, gap, place, body, j, side):
     """Elastic energy of one ball and one half from their global places."""
     phi = 2.0 * np.pi * j / Z
     a, b_y, b_z = body["frame"].T
     p = place - body["x"]
     x, t = p @ a, p @ np.cross(a, b_y * np.cos(phi) + b_z * np.sin(phi))
     S = np.hypot(x, t)
-    delta = max(S - GAP, 0.0)
-    return work(m, side * (R + GAP) * x / S, delta)
+    return work(m, side * (R + gap) * x / S, R + gap, S - gap)
 
 
 def turned(body, rotation):
     return body | {"frame": Rotation.from_rotvec(rotation).as_matrix() @ body["frame"]}
 
 
-def test_forces_are_the_gradient_of_the_energy(core):
+@pytest.mark.parametrize("gap", [GAP, 1.2e-5], ids=["usual", "close"])
+def test_forces_are_the_gradient_of_the_energy(core, gap):
     """Force on ball, force and moment on each half by central differences of the energy over their places and turns.
 
-    Difference over 1e-9 m and 1e-9/R rad: truncation (1e-9/delta)^2, rounding 1e-7; observed 2e-7 of the largest force.
+    Difference over 1e-9 m and 1e-9/R rad: truncation (1e-9/delta)^2, rounding 1e-7; observed 2e-7 of the largest force.  Patches in
+    a close pocket are as long as its radius.
     """
     rng = np.random.default_rng(1)
-    m, w, ball, bodies = random_scene(core, rng, **FRICTIONLESS)
+    m, w, ball, bodies = random_scene(core, rng, gap, **FRICTIONLESS)
+    longest = m.d.pocket.a_delta * np.sqrt(np.max(np.asarray(w.delta_c)[:, :Z]))
+    assert (longest > 1.1 * (R + gap)) == (gap < GAP)
     axes = frames(ball["theta"])
     sides = (-1, 1)
     F, M = on_ball(w)
@@ -203,13 +206,16 @@ def test_forces_are_the_gradient_of_the_energy(core):
         for index, (side, body) in enumerate(zip(sides, bodies, strict=True)):
             steps = h * np.eye(3)
             gradient = np.array(
-                [(energy(m, place + e, body, j, side) - energy(m, place - e, body, j, side)) / (2 * h) for e in steps]
+                [
+                    (energy(m, gap, place + e, body, j, side) - energy(m, gap, place - e, body, j, side)) / (2 * h)
+                    for e in steps
+                ]
             )
             spin = np.array(
                 [
                     (
-                        energy(m, place, turned(body, e / R_PITCH), j, side)
-                        - energy(m, place, turned(body, -e / R_PITCH), j, side)
+                        energy(m, gap, place, turned(body, e / R_PITCH), j, side)
+                        - energy(m, gap, place, turned(body, -e / R_PITCH), j, side)
                     )
                     for e in steps
                 ]
@@ -264,7 +270,7 @@ def test_power_balance(core, lubrication):
                     "x": body["x"] + body["v"] * t,
                     "frame": Rotation.from_rotvec(body["Omega"] * t).as_matrix() @ body["frame"],
                 }
-                return energy(m, place + v * t, moved, j, side)
+                return energy(m, GAP, place + v * t, moved, j, side)
 
             stored += (at(1e-9) - at(-1e-9)) / 2e-9
         # of F times 1 m/s; observed 3e-7

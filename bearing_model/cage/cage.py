@@ -258,6 +258,19 @@ def bent_halves(w):
     return np.zeros(2, dtype=bool) if not w.pressure else np.ravel(np.real(w.pressure.part)) > 0.0
 
 
+def land_lever(model, h):
+    """Lever of the land from the centre of mass of half h [m]."""
+    return (2 * h - 1) * model.p.cage.land_x - model.d.com_x[h]
+
+
+def cage_squeeze(model, gamma):
+    """Changes of the squeeze velocities of lands and bent rims per force over half a step, gamma [s]: [2, 6] [m/s/N]; None of rigid halves."""
+    if not model.modes:
+        return None
+    by = [1.0 / model.p.cage.m + land_lever(model, h) ** 2 / model.d.J_t for h in range(2)]
+    return gamma * np.array([np.append(np.full(2, land), model.modes.mobility) for land in by])
+
+
 def cage_bent_solve(model, gamma, w, step, residual, delta):
     """The velocities of halves with bent rims in delta [12] by the residual: land and rim together, the law at the step's end.
 
@@ -266,23 +279,20 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
     """
     p, d, less = model.p, model.d, 0.0
     for h in np.flatnonzero(bent_halves(w)):
-        on, half, spin = w.pressure.of(h), w.half[h], float(w.film[h].spin[0])
-        for name in vars(on):
-            value = getattr(on, name)
-            setattr(on, name, None if value is None else np.squeeze(value))
-        x = (2 * h - 1) * p.cage.land_x - d.com_x[h]
+        on, half, spin, x = w.pressure.of(h), w.half[h], float(w.film[h].spin[0]), land_lever(model, h)
         B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
         axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
-        mobility = np.append(np.full(2, 1.0 / p.cage.m + x * x / d.J_t), model.modes.mobility)
-        start = np.concatenate([axes @ B @ (residual + step.late)[HALF[:, h]], gamma * step.rim_lack[h]])
-        solved = bent_solve(p, on, gamma, mobility, start, step.squeeze[h])
+        late = axes @ B @ step.late[HALF[:, h]]
+        start = np.concatenate([axes @ B @ residual[HALF[:, h]] + late, gamma * step.rim_lack[h]])
+        solved = bent_solve(p, on, gamma, w.squeeze_by[h], start, step.squeeze[h])
         inertia = np.array([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p])
         change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia
         change[5] /= 1.0 + gamma * spin / d.J_p
         delta[HALF[:, h]] = change
         step.squeeze[h], step.impulse[h] = solved.V, solved.impulse
         v = np.concatenate([on.v, on.rim_v])
-        less += solved.film @ (v + solved.change) - on.film @ v - solved.change[:2] @ solved.impulse[:2] / gamma
+        less += solved.film @ (v + solved.change) - on.film @ v
+        less -= (solved.change[:2] - late) @ solved.impulse[:2] / gamma
         rates = axes.T @ solved.rates @ axes
         w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))
     return less

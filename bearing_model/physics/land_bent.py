@@ -124,30 +124,86 @@ def bent_sums(model, on):
     )
 
 
-MOST_ITERATIONS = 8  # of Newton's method on a film that is linear but for its ends
-CONVERGED = 3e-2  # part of the velocities that its last step may change
+MOST_ITERATIONS = 100  # of Newton's method on a film that is linear but for its ends
+WHOLE = 2  # of them that are not shortened
+MISSED = 1e-2  # load that a linear law may miss / its largest force
+MOST_HALVINGS = 50
+LEVEL = 0.1  # slope of the merit at the end of a step / at its start
+STIFF = 100.0  # change of the velocities by a film / velocities
 
 
-def bent_solve(p, on, gamma, mobility, residual, V):
-    """The implicit step of one land and its bent rim: velocities change by the residual [6] with the film's force at the
-    evaluation, and gamma mobility times what the law has at the end beyond it.  on: of this half; V: squeeze velocities to
-    begin with [6].
+def squeeze_slope(on, grid, by, start, free, V, step):
+    """Function of s: slope of the merit sum (V - free)^2/(2 by) + Psi(V), F = -dPsi/dV, at V + s step, and what it rises by with s."""
+    b, weight, _, gap = grid
+    stiff, rest = weight * on.kappa_C3 / on.C**3 / gap**3, (1.0 - on.part) * on.round_rate
+    W, w, held = bent_dot(V, b), bent_dot(step, b), by > 0.0  # a shape that no mode has stays
+    slope = np.sum((step * (V - free))[held] / by[held])
+    slope -= step[:2] @ ((1.0 - on.part) * on.round_film - rest @ (V - start)[:2])
+    rise = np.sum(step[held] ** 2 / by[held]) + step[:2] @ rest @ step[:2]
 
-    Returns squeeze velocities, their change, impulse of the film and its force [6], its rates yy, yz, zz [2, 2].
+    def slope_at(s):
+        rate = np.where(W + s * w > 0.0, stiff * w, 0.0)
+        return slope + s * rise + on.part * np.sum(rate * (W + s * w)), rise + on.part * np.sum(rate * w)
+
+    return slope_at
+
+
+def squeeze_part(slope_at):
+    """Part of a step, 1 or less, at whose end the merit falls no more: Newton's method on its slope, between bounds that it narrows."""
+    level, low, high, s = LEVEL * abs(slope_at(0.0)[0]), 0.0, 1.0, 1.0
+    for _ in range(MOST_HALVINGS):
+        slope, rise = slope_at(s)
+        if abs(slope) <= level or (s == 1.0 and slope < 0.0):
+            break
+        low, high = (s, high) if slope < 0.0 else (low, s)
+        s = s - slope / rise
+        if not low < s < high:
+            s = 0.5 * (low + high)
+    return s
+
+
+def squeeze_find(p, on, by, start, free, V):
+    """V = free + by F(V) from a guess V [6] by Newton's method, whose steps are as long as the merit falls; start: V of the evaluation, to
+    which the round film belongs.  Returns V, the force F and its rates D.
     """
-    start, film, grid = np.concatenate([on.V, on.rim_V]), on.film, bent_grid(p, on)
-    free = start + residual - gamma * mobility * film
-    round_rate = np.zeros((6, 6))
+    grid, round_rate = bent_grid(p, on), np.zeros((6, 6))
+    stiff = grid[1] * on.kappa_C3 / on.C**3 / grid[3] ** 3
     round_rate[:2, :2] = (1.0 - on.part) * on.round_rate
-    for _ in range(MOST_ITERATIONS):
+    for iteration in range(MOST_ITERATIONS):
         closing = bent_dot(V, grid[0]) > 0.0
         F, D, _ = bent_law(p, on, V, grid)
         F, D = on.part * F - round_rate @ (V - start), on.part * D + round_rate
         F[:2] += (1.0 - on.part) * on.round_film
-        step = np.linalg.solve(np.eye(6) + gamma * mobility[:, None] * D, free + gamma * mobility * F - V)
-        V = V + step
-        as_linear = np.all((bent_dot(V, grid[0]) > 0.0) == closing)
-        if as_linear or np.max(np.abs(step)) <= CONVERGED * np.max(np.abs(V)):
+        step = np.linalg.solve(np.eye(6) + by[:, None] * D, free + by * F - V)
+        part = 1.0 if iteration < WHOLE else squeeze_part(squeeze_slope(on, grid, by, start, free, V, step))
+        step = part * step
+        V, F = V + step, F - D @ step
+        W = bent_dot(V, grid[0])
+        missed = np.sum(np.where((W > 0.0) != closing, stiff * np.abs(W), 0.0))
+        if part == 1.0 and on.part * missed <= MISSED * np.max(np.abs(F)):
             break
-    solved = F - D @ step
-    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (film - solved), film=solved, rates=D[:2, :2])
+    return V, F, D
+
+
+def bent_foresee(p, on, by, film):
+    """Whether the film [6] of a half at the predicted velocities would change them a hundred times over in the step, by: change per
+    force [6]; then on.V and on.rim_V become the velocities that it leaves of them.
+    """
+    start = np.concatenate([on.V, on.rim_V])
+    if np.max(np.abs(by * film)) <= STIFF * np.max(np.abs(start)):
+        return False
+    V, _, _ = squeeze_find(p, on, by, start, start, start)
+    on.V, on.rim_V = V[:2], V[2:]
+    return True
+
+
+def bent_solve(p, on, gamma, by, residual, V):
+    """The implicit step of one land and its bent rim: velocities change by the residual [6] with the film's force at the
+    evaluation, and by times what the law has at the end beyond it.  on: of this half; by: change of the velocities per force [6];
+    V: squeeze velocities to begin with [6].
+
+    Returns squeeze velocities, their change, impulse of the film and its force [6], its rates yy, yz, zz [2, 2].
+    """
+    start = np.concatenate([on.V, on.rim_V])
+    V, film, D = squeeze_find(p, on, by, start, start + residual - by * on.film, V)
+    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (on.film - film), film=film, rates=D[:2, :2])

@@ -38,7 +38,7 @@ spreads the points of the sum so that it is exact but for the film's ends.  The 
 gap of a round land.  Of elastic halves the bending changes the film: land_bent.py.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -47,7 +47,15 @@ from bearing_model.generated.variables import Lubrication, Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_pair
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
-from bearing_model.physics.land_bent import FAINT, FAINT_STILL, bent_dot, bent_grid, bent_sums, film_part
+from bearing_model.physics.land_bent import (
+    FAINT,
+    FAINT_STILL,
+    bent_dot,
+    bent_foresee,
+    bent_grid,
+    bent_sums,
+    film_part,
+)
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
 
@@ -181,8 +189,8 @@ class LandPressure:
     round_rate: np.ndarray = None
 
     def of(self, h):
-        """That of one half."""
-        values = {name: None if x is None else np.asarray(x)[..., h] for name, x in vars(self).items()}
+        """That of one half, of one state."""
+        values = {name: None if x is None else np.squeeze(np.asarray(x)[..., h]) for name, x in vars(self).items()}
         return LandPressure(**values)
 
 
@@ -204,6 +212,20 @@ def turn_rates(T, D):
     return np.einsum("ik...,ij...,jl...->kl...", T, D, T)
 
 
+def foreseen(p, w, on, film):
+    """The pressure with the velocities that films leave of predicted ones, where they are too stiff for these; None where no film is."""
+    seen = None
+    for h in np.flatnonzero(np.ravel(np.real(on.part)) > 0.0) if w.squeeze_by is not None else ():
+        half = on.of(h)
+        if not bent_foresee(p, half, w.squeeze_by[h], np.squeeze(film[..., h])):
+            continue
+        seen = seen or replace(on, V=on.V.copy(), rim_V=on.rim_V.copy())
+        seen.V[..., h], seen.rim_V[..., h] = (
+            x.reshape(of.shape) for x, of in ((half.V, on.V[..., h]), (half.rim_V, on.rim_V[..., h]))
+        )
+    return seen
+
+
 def land_bend(model, w, on, T, motion, couette, force):
     """The films become, by on.part, those of bent rims; on entry `force`, w.film and on are those of the round lands.
 
@@ -223,6 +245,9 @@ def land_bend(model, w, on, T, motion, couette, force):
     on.rim_V[1::2] += turn * on.rim[0::2]
     on.round_film, on.round_rate = on.film, turn_rates(np.swapaxes(T, 0, 1), force.rates)
     sums = bent_sums(model, on)
+    seen = foreseen(p, w, on, sums.film)
+    if seen:
+        sums = bent_sums(model, seen)
 
     # friction of dry contact and asperities, in a direction as that of a round land
     R, back = 0.5 * p.cage.D_o, np.swapaxes(T, 0, 1)

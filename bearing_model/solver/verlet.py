@@ -32,6 +32,7 @@ from bearing_model.cage.cage import (
     cage_predict,
     cage_remember,
     cage_split,
+    cage_squeeze,
 )
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
@@ -315,7 +316,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     weight: 1/(tolerance scale) of each state.  blocks: function of (model, t, y, w, gamma) that gives the Blocks; any A
     and K keep the second order.
     """
-    gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
+    gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work(cage_squeeze(model, 0.5 * h))
     (y, cage, middle), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
     y[V] += gamma * a - removed
     cage_predict(model, gamma, middle, cage, start.cage, y)

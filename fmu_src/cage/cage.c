@@ -107,6 +107,11 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
         return;
     }
     memcpy(&y[Y_MODE_S], &y_0[Y_MODE_S], (N_ALL_STATES - Y_MODE_S) * sizeof *y);
+    for (int i = 0; i < 2; i++) {
+        double *by = w->squeeze_by[i];
+        by[0] = by[1] = step->gamma * land_mobility(model, land_lever(model, i));
+        for (int k = 0; k < RIM; k++) by[2 + k] = step->gamma * model->modes->mobility[k];
+    }
     push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
     step->substep = cage_substeps_advance(model, h, &memory->fast, f, y, &step->foreseen, w);
 }
@@ -164,21 +169,19 @@ void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step,
 }
 
 // v = (1 + gamma A)^-1 v of a half and its bent rim, by the law at the end of the step (land_bent.c).
-static void solve_bent_half(const Model *model, const Work *w, int h, const HalfFilm *f, CageStep *step,
-                            HalfVelocity *half)
+static void solve_bent_half(const Work *w, int h, const HalfFilm *f, CageStep *step, HalfVelocity *half)
 {
-    const double gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
-    const double *late = &step->late[h];
-    const double u_y =
-        half->y + late[Y_CAGE_V_Y - Y_CAGE_V_X] + (half->gamma + late[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X]) * f->x;
-    const double u_z =
-        half->z + late[Y_CAGE_V_Z - Y_CAGE_V_X] - (half->beta + late[Y_CAGE_BETA_DOT - Y_CAGE_V_X]) * f->x;
-    double mobility[SQUEEZE], residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
-    mobility[0] = mobility[1] = 1.0 / f->m + f->x * f->x / f->J_t;
-    memcpy(&mobility[2], model->modes->mobility, sizeof model->modes->mobility);
+    const double gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z, *late = &step->late[h];
+    BentSolution *bent = &step->bent[h];
+    const double late_y = late[Y_CAGE_V_Y - Y_CAGE_V_X] + late[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * f->x;
+    const double late_z = late[Y_CAGE_V_Z - Y_CAGE_V_X] - late[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * f->x;
+    const double u_y = half->y + half->gamma * f->x + late_y, u_z = half->z - half->beta * f->x + late_z;
+    double residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
     for (int i = 0; i < RIM; i++) residual[2 + i] = gamma * step->rim_lack[h][i];
-    bent_solve(w, h, gamma, mobility, residual, step->squeeze[h], &step->bent[h]);
-    const double *impulse = step->bent[h].impulse;
+    bent->late[0] = b_y[1] * late_y + b_y[2] * late_z;
+    bent->late[1] = b_z[1] * late_y + b_z[2] * late_z;
+    bent_solve(w, h, gamma, residual, step->squeeze[h], bent);
+    const double *impulse = bent->impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
                    half);
     half->s /= 1.0 + f->spin;
@@ -192,7 +195,7 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
         half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
         if (land_is_bent(w, h))
-            solve_bent_half(model, w, h, &f[h], step, &half[h]);
+            solve_bent_half(w, h, &f[h], step, &half[h]);
         else
             half_film_solve(&f[h], &half[h]);
     }

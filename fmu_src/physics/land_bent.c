@@ -1,11 +1,16 @@
 // The film of a bent rim in the implicit step.  gamma times the rates of land and rim is a thousand in a stiff gap, so that one linear
 // solve at the predicted velocities would leave forces of kilonewtons.  At the places of the step's end, which stay, the film is
-// linear in the squeeze velocities V but for its ends, and the gradient of a convex function:
+// linear in the squeeze velocities V but for its ends, and F the gradient of a concave function -Psi:
 //
 //     V = V^ + r + gamma Y (F(V) - F^)     V^, F^: at the evaluation, r: residual with F^, Y: mobilities of land and rim
 //
-// Newton's method, from the V of the last step, takes one or two iterations.  It ends when its step moves no point of the sums over
-// the film's ends, which is exact, or changes V by less than 3 %: what the ends move by then changes F by the square of that.
+// V minimizes the convex sum of (V - free)^2/(2 gamma Y) and Psi(V), free = V^ + r - gamma Y F^.  Newton's method, from the V of the last
+// step, takes one or two iterations.  It ends when the points of the sums that its step moves over the film's ends carry less than 1 % of
+// F.  Where a closed gap makes gamma Y D a million, steps would run to and fro over the ends: from the third on they are as long as
+// the sum falls.
+//
+// There F(V^) would be a thousand kilonewtons too.  What a half's tilt does to it in the second order, 1e-5 of it, is not in Y and would
+// be left when V is solved.  The evaluation has therefore the film at the velocities that it leaves of V^, those with r = 0 and F^ = 0.
 #include "physics/land_bent.h"
 
 enum {
@@ -13,16 +18,6 @@ enum {
     ROW = 8,
     WAVE_SUMS = 16
 };  // 13 waves; both in packets of eight
-
-// Points at which the film closes at the squeeze velocities V, a mask a packet.
-static void bent_closing(const BentGrid *grid, const double V[SQUEEZE], int closing[BENT_PACKETS])
-{
-    for (int n = 0; n < BENT_PACKETS; n++) {
-        wide b[SQUEEZE];
-        for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
-        closing[n] = wide_mask(wide_above(bent_dot(V, V + 2, b), 0.0));
-    }
-}
 
 // A law of land and rim, linear about the squeeze velocities: forces along the half's axes, rates in rows of eight for packets.
 typedef struct {
@@ -87,7 +82,8 @@ static void rates_of_waves(const double sum[WAVE_SUMS], double rate[SQUEEZE][ROW
 }
 
 // That of the film at the squeeze velocities V, F = -D V, and the points at which the film closes.
-static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law, int closes[BENT_PACKETS])
+static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law,
+                     bits closes[BENT_PACKETS])
 {
     wide sum[EIGHTHS][WAVE_SUMS];
     double total[WAVE_SUMS];
@@ -97,9 +93,8 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *
         for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
             wide b[SQUEEZE];
             for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
-            const bits closing = wide_above(bent_dot(V, V + 2, b), 0.0);
-            closes[n] = wide_mask(closing);
-            if (!closes[n]) continue;
+            const bits closing = closes[n] = wide_above(bent_dot(V, V + 2, b), 0.0);
+            if (!wide_any(closing)) continue;
             add_waves(wide_select(closing, wide_load(&grid->stiff[n * LANE_WIDTH]), wide_set(0.0)), b, to);
         }
         memcpy(sum[part], to, sizeof to);
@@ -145,42 +140,172 @@ static void squeeze_solve(const SqueezeLaw *law, const double by[SQUEEZE], const
     for (int i = 0; i < SQUEEZE; i++) x[i] = A[i][SQUEEZE];
 }
 
-static const int MOST_ITERATIONS = 8;  // of Newton's method on a film that is linear but for its ends
-static const double CONVERGED = 3e-2;  // part of the velocities that its last step may change
+// V = free + by F(V): by = gamma Y; start: V at the evaluation, to which the round film belongs.
+typedef struct {
+    const LandPressure *on;
+    const BentGrid *grid;
+    const double *by;
+    double start[SQUEEZE], free[SQUEEZE];
+} Squeeze;
 
-void bent_solve(const Work *w, int h, double gamma, const double mobility[SQUEEZE],
-                const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to)
+static Squeeze squeeze_of(const Work *w, int h)
 {
     const LandPressure *on = &w->pressure[h];
-    const BentGrid *grid = &w->bent[h];
-    double start[SQUEEZE], by[SQUEEZE], free[SQUEEZE];
-    SqueezeLaw law;
-    memcpy(start, on->V, sizeof on->V);
-    memcpy(&start[2], on->rim_V, sizeof on->rim_V);
-    for (int i = 0; i < SQUEEZE; i++) {
-        by[i] = gamma * mobility[i];
-        free[i] = start[i] + residual[i] - by[i] * on->film[i];
-        to->change[i] = V[i] - start[i];
+    Squeeze of = {.on = on, .grid = &w->bent[h], .by = w->squeeze_by[h]};
+    memcpy(of.start, on->V, sizeof on->V);
+    memcpy(&of.start[2], on->rim_V, sizeof on->rim_V);
+    return of;
+}
+
+// The convex sum along V + s x: velocities of the points, its slope without the bent film at s = 0 and what that rises by with s.
+typedef struct {
+    wide W[BENT_PACKETS], w[BENT_PACKETS];
+    double slope, rise;
+} SqueezeLine;
+
+static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const double x[SQUEEZE],
+                         SqueezeLine *line)
+{
+    const LandPressure *on = of->on;
+    const double rest = 1.0 - on->part, *rate = on->round_rate;
+    for (int n = 0; n < BENT_PACKETS; n++) {
+        wide b[SQUEEZE];
+        for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&of->grid->b[i][n * LANE_WIDTH]);
+        line->W[n] = bent_dot(V, V + 2, b);
+        line->w[n] = bent_dot(x, x + 2, b);
     }
+    line->slope = line->rise = 0.0;
+    for (int i = 0; i < SQUEEZE; i++) {
+        if (of->by[i] == 0.0) continue;  // of a shape that no mode has
+        line->slope += x[i] * (V[i] - of->free[i]) / of->by[i];
+        line->rise += x[i] * x[i] / of->by[i];
+    }
+    for (int i = 0; i < 2; i++) {
+        const double y = V[0] - of->start[0], z = V[1] - of->start[1];
+        line->slope -= rest * x[i] * (on->round_film[i] - (rate[i] * y + rate[i + 1] * z));
+        line->rise += rest * x[i] * (rate[i] * x[0] + rate[i + 1] * x[1]);
+    }
+}
+
+// Slope at s and what it rises by.
+static void slope_at(const Squeeze *of, const SqueezeLine *line, double s, double slope[2])
+{
+    wide sum[EIGHTHS][2];
+    for (int part = 0; part < EIGHTHS; part++) {
+        sum[part][0] = sum[part][1] = wide_set(0.0);
+        for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
+            const wide W = line->W[n] + s * line->w[n], stiff = wide_load(&of->grid->stiff[n * LANE_WIDTH]);
+            const wide rate = wide_select(wide_above(W, 0.0), stiff * line->w[n], wide_set(0.0));
+            sum[part][0] += rate * W;
+            sum[part][1] += rate * line->w[n];
+        }
+    }
+    wide_column_sums(2, 2, sum[0], slope);
+    slope[0] = line->slope + s * line->rise + of->on->part * slope[0];
+    slope[1] = line->rise + of->on->part * slope[1];
+}
+
+static const int MOST_HALVINGS = 50;
+static const double LEVEL = 0.1;  // slope of an end / slope of the start
+
+// Part of a step x, 1 or less, at whose end the sum falls no more: Newton's method on its slope, between bounds that it narrows.
+static double squeeze_part(const Squeeze *of, const double V[SQUEEZE], const double x[SQUEEZE])
+{
+    SqueezeLine line;
+    double at[2], low = 0.0, high = 1.0, s = 1.0;
+    squeeze_line(of, V, x, &line);
+    slope_at(of, &line, 0.0, at);
+    const double level = LEVEL * fabs(at[0]);
+    for (int i = 0; i < MOST_HALVINGS; i++) {
+        slope_at(of, &line, s, at);
+        if (fabs(at[0]) <= level || (s == 1.0 && at[0] < 0.0)) break;
+        if (at[0] < 0.0)
+            low = s;
+        else
+            high = s;
+        const double next = s - at[0] / at[1];
+        s = low < next && next < high ? next : 0.5 * (low + high);
+    }
+    return s;
+}
+
+static const int MOST_ITERATIONS = 100;  // of Newton's method on a film that is linear but for its ends
+static const int WHOLE = 2;              // of them that are not shortened
+static const double MISSED = 1e-2;       // load that a linear law may miss / its largest force
+
+// Load of the points on whose side of the film's end the law `closed` has them wrong at V.
+static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const bits closed[BENT_PACKETS])
+{
+    wide sum[EIGHTHS];
+    for (int part = 0; part < EIGHTHS; part++) {
+        sum[part] = wide_set(0.0);
+        for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
+            wide b[SQUEEZE];
+            for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
+            const wide W = bent_dot(V, V + 2, b);
+            const bits missed = wide_above(W, 0.0) ^ closed[n];
+            if (!wide_any(missed)) continue;
+            const wide load = wide_load(&grid->stiff[n * LANE_WIDTH]) * wide_abs(W);
+            sum[part] += wide_select(missed, load, wide_set(0.0));
+        }
+    }
+    return wide_eight_sum(sum);
+}
+
+// Solves for V, which it takes from a guess; law: film and rates there.
+static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
+{
     for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
-        int closed[BENT_PACKETS], closes[BENT_PACKETS];
-        double rest[SQUEEZE], step[SQUEEZE], most = 0.0, size = 0.0;
-        bent_law(grid, V, &law, closed);
-        add_round(on, to->change, &law);
-        for (int i = 0; i < SQUEEZE; i++) rest[i] = free[i] + by[i] * law.F[i] - V[i];
-        squeeze_solve(&law, by, rest, step);
-        take_rates(&law, step, law.F);
+        bits closed[BENT_PACKETS];
+        double change[SQUEEZE], rest[SQUEEZE], step[SQUEEZE], most = 0.0;
+        for (int i = 0; i < SQUEEZE; i++) change[i] = V[i] - of->start[i];
+        bent_law(of->grid, V, law, closed);
+        add_round(of->on, change, law);
+        for (int i = 0; i < SQUEEZE; i++) rest[i] = of->free[i] + of->by[i] * law->F[i] - V[i];
+        squeeze_solve(law, of->by, rest, step);
+        const double part = iteration < WHOLE ? 1.0 : squeeze_part(of, V, step);
+        if (part < 1.0)
+            for (int i = 0; i < SQUEEZE; i++) step[i] *= part;
+        take_rates(law, step, law->F);
         for (int i = 0; i < SQUEEZE; i++) {
             V[i] += step[i];
-            to->change[i] += step[i];
-            most = scalar_max(most, fabs(step[i]));
-            size = scalar_max(size, fabs(V[i]));
+            most = scalar_max(most, fabs(law->F[i]));
         }
-        if (most <= CONVERGED * size) break;
-        bent_closing(grid, V, closes);
-        if (memcmp(closed, closes, sizeof closed) == 0) break;  // as linear as the step
+        if (part == 1.0 && of->on->part * load_missed(of->grid, V, closed) <= MISSED * most) break;
     }
+}
+
+static const double STIFF = 100.0;  // change of the velocities by the film / velocities
+
+bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], LandPressure *seen)
+{
+    Squeeze of = squeeze_of(w, h);
+    SqueezeLaw law;
+    double V[SQUEEZE], most = 0.0, size = 0.0;
     for (int i = 0; i < SQUEEZE; i++) {
+        most = scalar_max(most, fabs(of.by[i] * film[i]));
+        size = scalar_max(size, fabs(of.start[i]));
+    }
+    if (most <= STIFF * size) return false;
+    memcpy(of.free, of.start, sizeof of.free);
+    memcpy(V, of.start, sizeof V);
+    squeeze_find(&of, V, &law);
+    *seen = w->pressure[h];
+    memcpy(seen->V, V, sizeof seen->V);
+    memcpy(seen->rim_V, &V[2], sizeof seen->rim_V);
+    return true;
+}
+
+void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZE], double V[SQUEEZE],
+                BentSolution *to)
+{
+    const LandPressure *on = &w->pressure[h];
+    Squeeze of = squeeze_of(w, h);
+    SqueezeLaw law;
+    for (int i = 0; i < SQUEEZE; i++) of.free[i] = of.start[i] + residual[i] - of.by[i] * on->film[i];
+    squeeze_find(&of, V, &law);
+    for (int i = 0; i < SQUEEZE; i++) {
+        to->change[i] = V[i] - of.start[i];
         to->film[i] = law.F[i];
         to->impulse[i] = gamma * (on->film[i] - law.F[i]);
     }
@@ -204,7 +329,7 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
             on->film[i] = solved[h].film[i];
         }
         for (int i = 0; i < 2; i++) {
-            power -= change[i] * solved[h].impulse[i] / gamma;
+            power -= (change[i] - solved[h].late[i]) * solved[h].impulse[i] / gamma;
             on->V[i] += change[i];
         }
         for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];
@@ -212,5 +337,6 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
         turn_rates(T, solved[h].rate, rate);
         film->yy = rate[0], film->yz = rate[1], film->zz = rate[2];
     }
+    memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     return power;
 }

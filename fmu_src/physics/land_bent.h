@@ -209,21 +209,26 @@ INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
 }
 
 // The film of a bent rim at the end of a step, along the half's axes: changes of the velocities of land and rim since the evaluation,
-// impulses that take them from the residual, forces, and rates yy, yz, zz.
+// those of the land that are not of the solve, impulses that take them from the residual, forces, and rates yy, yz, zz.
 typedef struct {
-    double change[SQUEEZE], impulse[SQUEEZE], film[SQUEEZE], rate[3];
+    double change[SQUEEZE], late[2], impulse[SQUEEZE], film[SQUEEZE], rate[3];
 } BentSolution;
 
 #ifndef DUAL
+// Whether the film at the predicted velocities of half h would change them a hundred times over in the step; then `seen` has the velocities
+// that it leaves of them.
+#define bent_foresee FOR_ISA(bent_foresee)
+bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], LandPressure *seen);
+
 // Solves the implicit step of half h for its land and bent rim: the velocities change by the residual with the film's force at the
-// evaluation, and gamma mobility times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of the
-// end.
+// evaluation, and by w->squeeze_by times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of
+// the end.
 #define bent_solve FOR_ISA(bent_solve)
-void bent_solve(const Work *w, int h, double gamma, const double mobility[SQUEEZE],
-                const double residual[SQUEEZE], double V[SQUEEZE], BentSolution *to);
+void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZE], double V[SQUEEZE],
+                BentSolution *to);
 
 // Velocities, films and rates of bent rims become those of a step's end; returns what the films' power is more there, less
-// the part of it on the halves' bodies that is of the second order in the changes.
+// the part of it on the halves' bodies that is of the second order in the changes by the solve.
 #define bent_arrive FOR_ISA(bent_arrive)
 double bent_arrive(double gamma, const BentSolution solved[2], Work *w);
 #endif

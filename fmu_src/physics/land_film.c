@@ -347,6 +347,11 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
     turn_rates(back, round, on->round_rate);
     for (int i = 0; i < 2; i++) on->round_film[i] = on->film[i];
     bent_sums(model, on, &w->bent[h], sum);
+#ifndef DUAL
+    LandPressure seen;
+    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], &seen))
+        bent_sums(model, &seen, &w->bent[h], sum);
+#endif
 
     // forces and friction
     LandForce bent = {.N_0 = sum[BENT_N_0], .stored = sum[BENT_STORED], .stored_rate = sum[BENT_STORED_RATE]};

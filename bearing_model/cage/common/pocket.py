@@ -50,12 +50,14 @@ def pocket_mu(model, ln_U, ln_Q, mixed):
 
 def pocket_share(d, h, n_x, delta):
     """Parts w of the load and e of the energy that half h has of a contact at n_x, and de/dn_x."""
-    xi_n = (2 * h - 1) * d.pocket_radius / (d.pocket.a_delta * np.sqrt(maximum(delta, 1e-30)))
+    inv_a = d.pocket_radius / (d.pocket.a_delta * np.sqrt(maximum(delta, 1e-30)))
+    q, xi_n = minimum(inv_a, 1.0), (2 * h - 1) * maximum(inv_a, 1.0)
     xi = maximum(minimum(xi_n * n_x, 1.0), -1.0)
-    xi_2 = xi * xi
+    xi_2, q_5 = xi * xi, q**5
     w = 0.5 + xi * (0.75 - 0.25 * xi_2)
     e = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2))
-    return w, e, 15.0 / 16.0 * (1.0 - xi_2) * (1.0 - xi_2) * xi_n
+    slope, later = 15.0 / 16.0 * (1.0 - xi_2) * (1.0 - xi_2) * xi_n, 0.75 * (1.0 - xi_2) * xi_n
+    return w, e * q_5 + w * (1.0 - q_5), slope * q_5 + later * (1.0 - q_5)
 
 
 def pocket_gap(model, w, h):

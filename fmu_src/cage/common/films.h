@@ -21,13 +21,24 @@ typedef struct {
 } HalfFilm;
 
 #ifndef DUAL
+// Lever of the land from the centre of mass of half h.
+INLINE double land_lever(const Model *model, int h)
+{
+    return (h == 0 ? -model->p->cage.land_x : model->p->cage.land_x) - model->d->com_x[h];
+}
+
+// Velocity of the land per impulse there.
+INLINE double land_mobility(const Model *model, double lever)
+{
+    return 1.0 / model->p->cage.m + lever * lever / model->d->J_t;
+}
+
 // The film of half h.
 INLINE HalfFilm half_film(const Model *model, const LandFilm *film, int h, double gamma)
 {
     const Parameters *p = model->p;
     const double m = p->cage.m, J_p = model->d->J_p, J_t = model->d->J_t;
-    const double x = (h == 0 ? -p->cage.land_x : p->cage.land_x) - model->d->com_x[h];
-    const double inv_m = 1.0 / m + x * x / J_t;  // of the land against a force there
+    const double x = land_lever(model, h), inv_m = land_mobility(model, x);
     const double yy = gamma * film->yy, yz = gamma * film->yz, zz = gamma * film->zz;
 
     // (1 + gamma C inv_m)^-1 gamma C, by Cramer's rule; it is symmetric.

@@ -51,11 +51,15 @@ typedef struct {
 INLINE PocketShare pocket_share(const Derived *d, int h, wide n_x, wide delta)
 {
     const wide one = wide_set(1.0), a = d->pocket.a_delta * wide_sqrt(wide_max(delta, wide_set(1e-30)));
-    const wide xi_n = (h == 0 ? -1.0 : 1.0) * d->pocket_radius / a;
+    const wide inv_a = d->pocket_radius / a, q = wide_min(inv_a, one), q_2 = q * q, q_5 = q_2 * q_2 * q;
+    const wide xi_n = (h == 0 ? -1.0 : 1.0) * wide_max(inv_a, one);
     const wide xi = wide_max(wide_min(xi_n * n_x, one), -one), xi_2 = xi * xi, rest = 1.0 - xi_2;
-    return (PocketShare){.load = 0.5 + xi * (0.75 - 0.25 * xi_2),
-                         .energy = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2)),
-                         .slope = 15.0 / 16.0 * rest * rest * xi_n};
+    const wide load = 0.5 + xi * (0.75 - 0.25 * xi_2);
+    const wide energy = 0.5 + xi * (15.0 / 16.0 - xi_2 * (0.625 - 3.0 / 16.0 * xi_2));
+    return (PocketShare){.load = load,
+                         .energy = energy * q_5 + load * (1.0 - q_5),
+                         .slope =
+                             (15.0 / 16.0 * rest * rest * xi_n) * q_5 + (0.75 * rest * xi_n) * (1.0 - q_5)};
 }
 
 // Force across n: dV/dn_x grad n_x, grad n_x = (n_t a - n_x e_t) n_t/S.
