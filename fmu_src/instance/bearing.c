@@ -456,6 +456,7 @@ static void inputs_reach(const Parameters *p, double t_0, double t, Inputs u[INP
 {
     InputTrajectory given;
     Inputs end;
+    if (!any_not_zero((const double *)&u[1], INPUT_ORDERS * N_INPUTS)) return;
     input_trajectory_update(p, u, t_0, t, &given);
     input_trajectory_at(&given, t, &end);
     u[0] = end;

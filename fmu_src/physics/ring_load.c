@@ -29,8 +29,8 @@ static void clear_loads(Inputs *u)
 // Rate of velocity i over the last step; 0 before there was one.
 static double mean_rate(const MotionHistory *history, const Inputs *given, int i)
 {
-    return history->steps > 0 ? (((const double *)given)[MOTION[i].velocity] - history->v[i]) / history->h
-                              : 0.0;
+    const double change = ((const double *)given)[MOTION[i].velocity] - history->v[i];
+    return history->steps > 0 && change != 0.0 ? change / history->h : 0.0;
 }
 
 static double minmod(double x, double y)
@@ -98,8 +98,11 @@ void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1]
         if (a == 0.0 && jerk == 0.0 && history->steps == 2)
             a = fmax(-limit, fmin(limit, minmod(mean_rate(history, given, i), history->a[i])));
 
+        const double d_x = in[0][q] - x_0, d_v = in[0][v] - v_0;
+        if (d_x == 0.0 && d_v == 0.0 && v_0 == 0.0 && a == 0.0 && jerk == 0.0) continue;  // at rest
+
         // a motion that is far behind the given one catches up over more than this step
-        const double d_x = in[0][q] - x_0, d_v = in[0][v] - v_0, T = catch_up_time(d_x, d_v, h, limit);
+        const double T = catch_up_time(d_x, d_v, h, limit);
         if (T > h) {
             out[1][v] = out[2][q] = a + (6.0 * d_x / T + 4.0 * d_v) / T;
             out[2][v] = jerk - (12.0 * d_x / T + 6.0 * d_v) / (T * T);
@@ -173,8 +176,8 @@ void pulse_average(const Parameters *p, double t, double half, InputTrajectory *
 void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 1], double t_0, double t,
                              InputTrajectory *trajectory)
 {
-    const int i = pulse_index(p, t);
-    const bool active = has_pulses(p) && i >= 0 && t < pulse_start(p, i) + p->pulse.duration;
+    const int i = has_pulses(p) ? pulse_index(p, t) : -1;
+    const bool active = i >= 0 && t < pulse_start(p, i) + p->pulse.duration;
     trajectory->t_0 = t_0;
     memcpy(trajectory->u, u, sizeof trajectory->u);
     trajectory->pulse_r = active ? p->pulse.F_r : 0.0;
