@@ -10,6 +10,7 @@ from ribbon import RIBBON
 
 from bearing_model.cage.cage import cage_loads
 from bearing_model.cage.elastic import cage_substeps
+from bearing_model.cage.elastic.cage_elastic import wall_amplitudes
 from bearing_model.cage.elastic.elastic_half import IN, ROOT, joints_out, mode_order
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape
 from bearing_model.cage.elastic.half_modes import OUT
@@ -386,6 +387,28 @@ def test_momentum_is_kept():
     np.testing.assert_allclose(h0.F + h1.F, 0.0, atol=1e-12 * np.abs(h1.F).max())
     total = h0.M + h1.M + np.cross(h0.x[:, 0], h0.F[:, 0])[:, None] + np.cross(h1.x[:, 0], h1.F[:, 0])[:, None]
     assert np.abs(total).max() < 1e-11 * np.abs(h1.M).max()
+
+
+def test_walls_move_no_farther_than_their_reach():
+    """Random motions of all modes: no wall (x, t) goes farther than the reach, by which balls are passed over, at any angle between the
+    nodes; the farthest of single pairs comes to 0.6 of it at least, so that little is passed over in vain.
+    """
+    model, rng, closest = Model.of(ELASTIC), np.random.default_rng(11), 0.0
+    half = model.modes
+    angles = np.pi * (rng.uniform(-1.0, 1.0, (200, Z)))
+    shape, _ = elastic_wall_shape(half, 1, np.sin(angles), np.cos(angles))  # [3, place, Z, n]
+    single = np.sqrt(half.omega) * rng.standard_normal(half.n)
+    for case in range(60):
+        q = rng.standard_normal(half.n) * half.omega ** rng.uniform(-2.0, 0.0)
+        if case < half.pairs:
+            q = np.where(np.isin(np.arange(half.n), [case, half.b + case]), single, 0.0)
+        moved = wall_amplitudes(half, q)
+        reach = np.sum((half.widest + half.widest_others) * moved)
+        u = np.hypot(*np.sum(shape[[0, 2]] * q, axis=-1))
+        assert u.max() < reach
+        if case < half.pairs:
+            closest = max(closest, u.max() / reach)
+    assert closest > 0.6
 
 
 @pytest.mark.c_only

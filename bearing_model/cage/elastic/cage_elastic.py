@@ -67,6 +67,14 @@ def cage_elastic_in(half, D):
     return ROOT * np.einsum("...i,ikz->k...z", D, half.pad[:, IN])
 
 
+def wall_amplitudes(half, q):
+    """Amplitudes of the modes by their coordinates q [..., n], of a pair at the place of its a."""
+    amplitude = np.abs(q)
+    a, b = slice(half.pairs), slice(half.b, half.b + half.pairs)
+    amplitude[..., a] = np.sqrt(q[..., a] ** 2 + q[..., b] ** 2)
+    return amplitude
+
+
 def cage_elastic_kinematics(model, y, w):
     """Coordinates of both halves [..., 1, n], reach of their walls, inertia that the modes add, motions of the pads against
     each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t).
@@ -74,11 +82,11 @@ def cage_elastic_kinematics(model, y, w):
     half, e = model.modes, w.elastic
     S, D, S_dot, D_dot = (y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     e.q, e.q_dot = ([(s - d)[..., None, :] / ROOT, (s + d)[..., None, :] / ROOT] for s, d in ((S, D), (S_dot, D_dot)))
-    others = np.where(half.uniform, 0.0, half.omega)
-    e.reach_others = [np.sqrt(half.reach_2 * np.sum((others * q) ** 2, axis=-1)) for q in map(np.real, e.q)]
+    moved = [wall_amplitudes(half, np.real(q)) for q in e.q]
+    e.reach_others = [np.sum(half.widest_others * amplitude, axis=-1) for amplitude in moved]
     e.reach = [
-        reach + np.sum(half.widest * np.abs(q), axis=-1)
-        for reach, q in zip(e.reach_others, map(np.real, e.q), strict=True)
+        others + np.sum(half.widest * amplitude, axis=-1)
+        for others, amplitude in zip(e.reach_others, moved, strict=True)
     ]
     e.more_J, e.more_J_dot = ([2.0 * np.sum(half.centrifugal * q, axis=-1) for q in both] for both in (e.q, e.q_dot))
     e.pad_out, e.pad_in, e.pad_in_dot = (

@@ -49,8 +49,11 @@ class ElasticHalf:
     R: np.ndarray  # compliance that the modes leave between the pads of a joint, out of the plane [3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
     k_hole: np.ndarray  # what is left of the holes' [Z] [N/m]
-    reach_2: float  # largest |u|^2 of a wall / sum omega^2 q^2 [s2] by modes that do not move all pockets alike
-    widest: np.ndarray  # largest |u|/|q| by the others, else 0 [n]
+    pairs: int  # modes of one frequency in twos, whose a come first and whose b first among the b
+    b: int  # where the b begin
+    # largest |u|/|q| of a wall, of a pair's a over the amplitude of both: by modes that move all pockets alike, else 0; by the others [n]
+    widest: np.ndarray
+    widest_others: np.ndarray
     compliance: float  # that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     mirrored: np.ndarray
@@ -100,6 +103,7 @@ def elastic_half_derive(p, d, table):
     uniform = (modes.harmonic[entry] == 0) & (part == 0.0)
     # [nodes, n]; between them a quarter farther at most
     u_2 = np.sum(pocket[..., slice(None) if ribbon else [0, 2], :] ** 2, axis=(-2, -1)).reshape(-1, len(entry))
+    widest, paired = 1.25 * np.sqrt(np.max(u_2, axis=0)), modes.parity[entry] == 0
     wall = residual.wall[..., WALL_NODE]
     mirrored = frequencies_2(
         p.cage.m,
@@ -126,9 +130,10 @@ def elastic_half_derive(p, d, table):
         slope=unit * np.moveaxis(modes.slope[entry], 0, -3),
         radii=modes.radii,
         centrifugal=cage_centrifugal(p, table) * np.sqrt(table.half.m) * spin_load(table.modes)[order],
-        reach_2=1.5625
-        * np.max(np.sum(np.where(uniform, 0.0, np.where(modes.parity[entry] == 0, 0.5, 1.0) * u_2 / omega**2), axis=1)),
-        widest=np.where(uniform, 1.25 * np.sqrt(np.max(u_2, axis=0)), 0.0),
+        pairs=int(np.sum(paired & (part == 0.0))),
+        b=int(np.sum(part == 0.0)),
+        widest=np.where(uniform, widest, 0.0),
+        widest_others=np.where(uniform | (paired & (part > 0.0)), 0.0, widest),
         R=np.linalg.inv(law.stiffness),
         series=series,
         k_hole=k_hole,

@@ -82,12 +82,14 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     cage_elastic_in(half, D, w->elastic.pad_in);
     cage_elastic_in(half, D_dot, w->elastic.pad_in_dot);
     for (int h = 0; h < 2; h++) {
-        mode_array stored, moved;
-        for (int i = 0; i < MODES; i++) {
-            stored[i] = half->weight[i] * w->elastic.q[h][i];
-            moved[i] = fabs(scalar_value(w->elastic.q[h][i]));
+        const scalar *q = w->elastic.q[h], *q_b = &q[half->count[0]];
+        mode_array moved;
+        for (int i = 0; i < MODES; i++) moved[i] = fabs(scalar_value(q[i]));
+        for (int m = 0; m < half->pairs; m++) {
+            const double a = scalar_value(q[m]), b = scalar_value(q_b[m]);
+            moved[m] = sqrt(a * a + b * b);
         }
-        w->elastic.reach_others[h] = sqrt(half->reach_2 * scalar_value(elastic_sum(stored, w->elastic.q[h])));
+        w->elastic.reach_others[h] = elastic_dot(half->widest_others, moved);
         w->elastic.reach[h] = w->elastic.reach_others[h] + elastic_dot(half->widest, moved);
         w->elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q[h]);
         w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q_dot[h]);

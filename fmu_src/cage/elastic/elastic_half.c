@@ -232,19 +232,21 @@ static void take_forces(const Parameters *p, ElasticHalf *half)
 static void find_reach(bool ribbon, ElasticHalf *half)
 {
     const double unit_2 = rivet_table.half.m;
-    for (int i = 0; i < half->n; i++) half->weight[i] = half->uniform[i] ? 0.0 : half->omega_2[i];
-    for (int node = 0; node < half->radii * half->nodes; node++) {
-        double sum = 0.0;
-        for (int i = 0; i < half->n; i++) {
+    half->pairs = 0;
+    for (int i = 0; i < half->n; i++) {
+        double most = 0.0;
+        for (int node = 0; node < half->radii * half->nodes; node++) {
             const double *U = wall_of(&rivet_table.modes, half, half->entry[i]) + 12 * node;
-            double u_2 = unit_2 * (U[0] * U[0] + U[1] * U[1] + U[4] * U[4] + U[5] * U[5]);  // x and t
-            if (ribbon) u_2 += unit_2 * (U[2] * U[2] + U[3] * U[3]);
-            if (half->uniform[i])
-                half->widest[i] = fmax(half->widest[i], 1.25 * sqrt(u_2));
-            else
-                sum += (half->pair[i] ? 0.5 : 1.0) * u_2 / half->omega_2[i];
+            double u_2 = U[0] * U[0] + U[1] * U[1] + U[4] * U[4] + U[5] * U[5];  // x and t
+            if (ribbon) u_2 += U[2] * U[2] + U[3] * U[3];
+            most = fmax(most, 1.25 * sqrt(unit_2 * u_2));
         }
-        half->reach_2 = fmax(half->reach_2, 1.5625 * sum);
+        const bool is_a = i < half->count[0];
+        if (half->pair[i] && is_a) half->pairs++;
+        if (half->uniform[i])
+            half->widest[i] = most;
+        else if (!half->pair[i] || is_a)
+            half->widest_others[i] = most;
     }
 }
 

@@ -41,15 +41,16 @@ enum { ENTRY_OCTETS = ENTRIES / 8 };
 enum { WALL_NODES = 16, WALL_RADII = 3 };  // of a wall, at most
 
 struct ElasticHalf {
-    int n, count[2];                                 // modes; coordinates a and b
-    int entry[MODES];                                // of the table, of each coordinate
-    double omega_2[MODES], damping[MODES];           // omega^2, 2 zeta omega
-    double centrifugal[MODES];                       // modal force per (rad/s)^2
-    double rim[RIM][MODES];                          // of the rim's shapes at the land (land_bent.h)
-    double mobility[RIM];                            // velocity of a shape by an impulse on it [1/kg]
-    bool uniform[MODES];                             // moves all joints alike and does not twist them
-    int uniforms, uniform_at[MODES];                 // the coordinates of these
-    bool pair[MODES];                                // one of two modes of the same frequency
+    int n, count[2];                        // modes; coordinates a and b
+    int entry[MODES];                       // of the table, of each coordinate
+    double omega_2[MODES], damping[MODES];  // omega^2, 2 zeta omega
+    double centrifugal[MODES];              // modal force per (rad/s)^2
+    double rim[RIM][MODES];                 // of the rim's shapes at the land (land_bent.h)
+    double mobility[RIM];                   // velocity of a shape by an impulse on it [1/kg]
+    bool uniform[MODES];                    // moves all joints alike and does not twist them
+    int uniforms, uniform_at[MODES];        // the coordinates of these
+    bool pair[MODES];                       // one of two modes of the same frequency
+    int pairs;                              // these, whose a come first and whose b first among the b
     _Alignas(64) double out[MODES][8 * OUT_OCTETS];  // motions of the pads against each other by S, in rows
     _Alignas(64) double in[MODES][8 * IN_OCTETS];    // and by D
     // the same, a and b by themselves, modes side by side; of a joint that is its own mirror image one half
@@ -64,11 +65,10 @@ struct ElasticHalf {
     double per_gaps[WALL_RADII];  // 1 over the product of the distances to both others [1/m2]
     double chi[WALL_NODES];       // [rad]
     double step[WALL_NODES], inv_step[WALL_NODES];  // from a node to the next one [rad], its inverse
-    // how far a wall can move: modes that move all pockets alike by themselves, all others by Cauchy's inequality
-    double reach_2;        // largest |u|^2 / sum omega^2 q^2 of the others [s2]
-    double weight[MODES];  // omega^2 of the others, 0 of those
-    double widest[MODES];  // largest |u|/|q| of those, 0 of the others
-    double compliance;     // of a wall along its normal, by the residual, less that in Hertz's [m/N]
+    // how far a wall can move: largest |u|/|q| of each mode, of a pair's a over the amplitude of both
+    double widest[MODES];         // of modes that move all pockets alike, else 0
+    double widest_others[MODES];  // of the others, else 0
+    double compliance;            // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     // what the modes leave between the pads of a joint, out of the plane: compliance and its inverse
     double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];
     double series;     // part of the friction states' stiffness that is left in series with the residual
