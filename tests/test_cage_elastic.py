@@ -412,6 +412,28 @@ def test_walls_move_no_farther_than_their_reach():
 
 
 @pytest.mark.c_only
+def test_a_step_does_not_need_the_work_before_it(core):
+    """A ribbon's walls that balls press keep their shapes from the evaluation for the next step: with them and without them, in another
+    Work, the same bits.
+    """
+    rng, pressed = np.random.default_rng(6), 0
+    scene, other = core.model(ELASTIC | OF_RIBBON), core.model(ELASTIC | OF_RIBBON)
+    weight = 1.0 / Model.of(ELASTIC | OF_RIBBON).d.scale
+    for _ in range(4):
+        state, _ = scene.verlet(0.0, 3e-6, scene.verlet_evaluate(0.0, running_state(scene, rng)), weight)
+        fast, known = state.cage.fast, scene.work.elastic.pressed
+        for h in range(2):
+            for k in np.flatnonzero(list(fast.touch_k[h])):
+                assert list(known[h][k].place)[3:5] == [fast.touch_chi[h][k], fast.touch_radius[h][k]]
+                pressed += 1
+        for wall in (wall for half in other.work.elastic.pressed for wall in half):
+            wall.place[5] = 0.0
+        ends = [c.verlet(0.0, 7e-6, state, weight)[0] for c in (scene, other)]
+        assert list(ends[0].y) == list(ends[1].y)
+    assert pressed > 10
+
+
+@pytest.mark.c_only
 def test_energy_of_a_jammed_cage(core, record_property):
     """26 um of clearance under 6 mrad of given tilt for 10 ms: both lands bite, gamma Y D of their films is a million.  Supplied =
     stored + lost, to 1 % of what is lost (observed 0.1 %); steps of 1 us at least in the mean (observed 3 us, 5 ns by Runge-Kutta).

@@ -50,7 +50,9 @@ from bearing_model.physics.traction import Q_FLOOR
 TIP = 1e-7  # over which the two ends of an arc change places [m]
 LEAST = 1e-12  # load of a pocket that counts as touched [N]
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
-NEWTON = 5  # steps for the wall's compliance
+NEWTON = 5  # steps for the wall's compliance, at most
+# last step, whose error is its square over the approach [m]; derivatives, one step behind, have all steps
+SETTLED = 1e-12
 
 
 def arc_reach(rim, u, v):
@@ -176,14 +178,16 @@ def spheres_approach(d, c, q):
     with the stiffness 3 Q/(2 delta) along n and Q/|q| across it; V with the energy of the wall there.
     """
     V, Q, n, delta = spheres_contact(d, *q)
-    give = [0.0 * x for x in q]
+    give, moving, exact = [0.0 * x for x in q], np.real(Q) > 0.0, any(np.iscomplexobj(x) for x in q)
     for _ in range(NEWTON):
         along = 1.0 / (1.0 + 1.5 * c * Q / maximum(delta, APPROACH_FLOOR))
         across = 1.0 / (1.0 + c * Q / np.sqrt(sum((x - s) ** 2 for x, s in zip(q, give, strict=True)) + TIP**2))
         off = [c * Q * n_i - s for n_i, s in zip(n, give, strict=True)]
         normal = (along - across) * sum(n_i * o for n_i, o in zip(n, off, strict=True))
-        give = [s + across * o + normal * n_i for s, o, n_i in zip(give, off, n, strict=True)]
+        step = [np.where(moving, across * o + normal * n_i, 0.0) for o, n_i in zip(off, n, strict=True)]
+        give = [s + d_s for s, d_s in zip(give, step, strict=True)]
         V, Q, n, delta = spheres_contact(d, *(x - s for x, s in zip(q, give, strict=True)))
+        moving = moving & (exact | (np.real(sum(s * s for s in step)) > SETTLED**2))
     return V + 0.5 * c * Q * Q, Q, n, delta
 
 

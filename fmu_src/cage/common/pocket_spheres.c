@@ -185,14 +185,19 @@ void spheres_rigid(const Model *model, Work *w)
 
 static const double APPROACH_FLOOR = 1e-12;  // least approach in the stiffness 3 Q/(2 delta) [m]
 
-enum { NEWTON = 5 };  // steps for the wall's compliance
+enum { NEWTON = 5 };  // steps for the wall's compliance, at most
+
+// Last step, whose error is its square over the approach [m].  Derivatives, one step behind, have all steps.
+static const double SETTLED = 1e-12;
 
 // The contact with the compliance c of the wall under it in series: the ball is at q - c Q n, by Newton's method with the
 // stiffness 3 Q/(2 delta) along n and Q/|q| across it; V with the energy of the wall there.
 INLINE SphereContact sphere_approach(const Spheres *s, wide slack, wide c, const SphereGap *gap)
 {
     SphereContact at = sphere_contact(s, slack, gap->x, gap->r, gap->t);
-    wide x = wide_set(0.0), r = x, t = x;  // by which the wall gives way
+    const wide zero = wide_set(0.0);
+    wide x = zero, r = zero, t = zero;  // by which the wall gives way
+    bits moving = wide_above(at.Q, 0.0);
     for (int i = 0; i < NEWTON; i++) {
         const wide off_x = gap->x - x, off_r = gap->r - r, off_t = gap->t - t, cQ = c * at.Q;
         const wide along = 1.0 / (1.0 + 1.5 * cQ / wide_max(at.delta, wide_set(APPROACH_FLOOR)));
@@ -200,43 +205,54 @@ INLINE SphereContact sphere_approach(const Spheres *s, wide slack, wide c, const
             1.0 / (1.0 + cQ / wide_sqrt(off_x * off_x + off_r * off_r + off_t * off_t + TIP * TIP));
         const wide e_x = cQ * at.n_x - x, e_r = cQ * at.n_r - r, e_t = cQ * at.n_t - t;
         const wide normal = (along - across) * (at.n_x * e_x + at.n_r * e_r + at.n_t * e_t);
-        x += across * e_x + normal * at.n_x;
-        r += across * e_r + normal * at.n_r;
-        t += across * e_t + normal * at.n_t;
+        const wide d_x = across * e_x + normal * at.n_x, d_r = across * e_r + normal * at.n_r,
+                   d_t = across * e_t + normal * at.n_t;
+        x += wide_select(moving, d_x, zero);
+        r += wide_select(moving, d_r, zero);
+        t += wide_select(moving, d_t, zero);
         at = sphere_contact(s, slack, gap->x - x, gap->r - r, gap->t - t);
+#ifndef DUAL
+        moving &= wide_above(d_x * d_x + d_r * d_r + d_t * d_t, SETTLED * SETTLED);
+        if (!wide_any(moving)) break;
+#endif
     }
     at.V += 0.5 * c * at.Q * at.Q;
     return at;
 }
 
-// The place where a ball at q touches the wall, and its slopes over q.  chi is clamped to the table's first node, the seam of
-// the fillet, beyond which it has no slope.
+// The places where the balls of a packet touch their walls, and their slopes over q.  chi is clamped to the table's first node, the
+// seam of the fillet, beyond which it has no slope.
 typedef struct {
-    scalar chi, radius, chi_slope[3], radius_slope[3];
-    bool back;
+    scalar chi[LANE_WIDTH], radius[LANE_WIDTH], chi_slope[3][LANE_WIDTH], radius_slope[3][LANE_WIDTH];
+    int back;  // bits of the balls on the side t < 0
     RibbonNodes nodes;
-} SpherePlace;
+} SpherePlaces;
 
-static void sphere_place(const Spheres *s, const ElasticHalf *half, const scalar q[3], SpherePlace *at)
+INLINE bool is_back(const SpherePlaces *at, int lane)
 {
-    const scalar x = q[0], r = q[1], t = q[2], ahead = scalar_max(x, 0.0);
-    at->back = scalar_value(t) < 0.0;
-    const scalar aside = at->back ? -t : t, rho_2 = x * x + t * t + TIP * TIP;
-    at->chi = scalar_atan2(ahead, scalar_max(aside, 1e-30));
-    at->chi_slope[0] = at->chi_slope[1] = at->chi_slope[2] = 0.0;
-    if (scalar_value(at->chi) > half->chi[0]) {
-        at->chi_slope[0] = aside / rho_2;
-        at->chi_slope[2] = (at->back ? ahead : -ahead) / rho_2;
-    } else
-        at->chi = half->chi[0];
-    const scalar s_2 = x * x + r * r + t * t + TIP * TIP, to_wall = s->radius / scalar_sqrt(s_2);
-    const scalar across = s->r + to_wall * r, along = to_wall * t;
-    at->radius = scalar_sqrt(across * across + along * along);
-    const scalar less = to_wall * ((across * r + along * t) / s_2) / at->radius;
-    at->radius_slope[0] = -less * x;
-    at->radius_slope[1] = to_wall * across / at->radius - less * r;
-    at->radius_slope[2] = to_wall * along / at->radius - less * t;
-    ribbon_wall_nodes(half, at->chi, at->radius, &at->nodes);
+    return at->back >> lane & 1;
+}
+
+static void sphere_places(const Spheres *s, const ElasticHalf *half, const SphereGap *gap, SpherePlaces *at)
+{
+    const wide x = gap->x, r = gap->r, t = gap->t, zero = wide_set(0.0), first = wide_set(half->chi[0]);
+    const wide ahead = wide_max(x, zero), aside = wide_abs(t), inv_rho_2 = 1.0 / (x * x + t * t + TIP * TIP);
+    const wide angle = wide_atan(ahead / wide_max(aside, wide_set(1e-30))), chi = wide_max(angle, first);
+    const bits back = wide_above(-t, 0.0), beyond = wide_above(angle - first, 0.0);
+    at->back = wide_mask(back);
+    wide_store(at->chi, chi);
+    wide_store(at->chi_slope[0], wide_select(beyond, aside * inv_rho_2, zero));
+    wide_store(at->chi_slope[1], zero);
+    wide_store(at->chi_slope[2], wide_select(beyond, wide_select(back, ahead, -ahead) * inv_rho_2, zero));
+    const wide inv_s_2 = 1.0 / (x * x + r * r + t * t + TIP * TIP), to_wall = s->radius * wide_sqrt(inv_s_2);
+    const wide across = s->r + to_wall * r, along = to_wall * t;
+    const wide radius = wide_sqrt(across * across + along * along), inv_radius = 1.0 / radius;
+    const wide less = to_wall * (across * r + along * t) * (inv_s_2 * inv_radius);
+    wide_store(at->radius, radius);
+    wide_store(at->radius_slope[0], -less * x);
+    wide_store(at->radius_slope[1], to_wall * across * inv_radius - less * r);
+    wide_store(at->radius_slope[2], to_wall * along * inv_radius - less * t);
+    ribbon_wall_nodes(half, chi, radius, &at->nodes);
 }
 
 // Takes the motion u of the wall from the place q of ball k.
@@ -250,8 +266,8 @@ static void take(ball_array q[3], int k, int side, const scalar u[3])
 // Takes the motions of the walls of a packet, of which the bits in `near` may be reached, from the gap.  The modes that move all
 // pockets alike cost little and move the walls most: the others are left out where they cannot close the gap.  Returns
 // the bits of the others; the approach where there are none.
-static int move_walls(const Model *model, const Work *w, int h, int j, int near, SphereGap *gap,
-                      SpherePlace at[LANE_WIDTH], WallShape shape[LANE_WIDTH], wide *delta)
+static int move_walls(const Model *model, const Work *w, int h, int j, int near, const RibbonAlike *by_alike,
+                      SphereGap *gap, SpherePlaces *at, WallShape shape[LANE_WIDTH], wide *delta)
 {
     const int side = 2 * h - 1;
     const Spheres *s = &model->d->spheres;
@@ -259,15 +275,12 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
     ball_array q[3], alike[3];
     wide_store(&q[0][j], gap->x), wide_store(&q[1][j], gap->r), wide_store(&q[2][j], gap->t);
     for (int c = 0; c < 3; c++) wide_store(&alike[c][j], wide_load(&q[c][j]));
+    sphere_places(s, model->modes, gap, at);
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(near >> lane & 1)) continue;
-        const int k = j + lane;
-        const scalar place[3] = {q[0][k], q[1][k], q[2][k]};
-        SpherePlace *there = &at[lane];
         scalar u[3];
-        sphere_place(s, model->modes, place, there);
-        ribbon_wall_alike(model->modes, side, there->back, &there->nodes, w->elastic.q[h], u);
-        take(alike, k, side, u);
+        ribbon_wall_alike(model->modes, side, is_back(at, lane), &at->nodes, lane, by_alike, u);
+        take(alike, j + lane, side, u);
     }
     gap->x = wide_load(&alike[0][j]), gap->r = wide_load(&alike[1][j]), gap->t = wide_load(&alike[2][j]);
     sphere_reached(s, slack, gap, delta);
@@ -280,9 +293,8 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
             for (int c = 0; c < 3; c++) q[c][k] = alike[c][k];
             continue;
         }
-        SpherePlace *there = &at[lane];
         scalar u[3];
-        ribbon_wall_moved(model->modes, side, k, there->back, &there->nodes, w->elastic.q[h], u,
+        ribbon_wall_moved(model->modes, side, k, is_back(at, lane), &at->nodes, lane, w->elastic.q[h], u,
                           &shape[lane]);
         take(q, k, side, u);
     }
@@ -292,7 +304,7 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
 
 // Velocities and slopes of the walls of a packet that are pressed, of which the shapes are known.
 static void pressed_walls(const Model *model, const Work *w, int h, int j, int mask,
-                          const SphereContact *contact, const SpherePlace at[LANE_WIDTH],
+                          const SphereContact *contact, const SpherePlaces *at,
                           const WallShape shape[LANE_WIDTH], SphereWalls *walls)
 {
     const int side = 2 * h - 1;
@@ -306,15 +318,14 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(mask >> lane & 1)) continue;
         const int k = j + lane;
-        const SpherePlace *there = &at[lane];
         const scalar along[3] = {side * n[0][k], n[1][k], n[2][k]};
         RibbonWall wall;
-        ribbon_wall(model->modes, side, k, there->back, &there->nodes, &shape[lane], along, w->elastic.q[h],
-                    w->elastic.q_dot[h], &wall);
+        ribbon_wall(model->modes, side, k, is_back(at, lane), &at->nodes, lane, &shape[lane], along,
+                    w->elastic.q[h], w->elastic.q_dot[h], &wall);
         for (int i = 0; i < 3; i++) {
             walls->u_dot[i][k] = wall.u_dot[i];
             walls->slope[i][k] =
-                wall.over_chi * there->chi_slope[i] + wall.over_radius * there->radius_slope[i];
+                wall.over_chi * at->chi_slope[i][lane] + wall.over_radius * at->radius_slope[i][lane];
         }
     }
 }
@@ -338,7 +349,7 @@ static void clear_walls(Work *w, int h, int j)
 
 // Contacts of a packet with the walls, modal forces on them; wet: bits of the walls before which there may be a film.
 static void press_spheres(const Model *model, Work *w, int h, int j, const SphereGap *gap,
-                          const SphereContact *contact, bits pressed, int wet, SpherePlace at[LANE_WIDTH],
+                          const SphereContact *contact, bits pressed, int wet, const SpherePlaces *at,
                           const WallShape shape[LANE_WIDTH])
 {
     ElasticWork *e = &w->elastic;
@@ -365,10 +376,18 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(mask >> lane & 1)) continue;
         const int b = j + lane;
-        e->touch_chi[h][b] = at[lane].back ? -at[lane].chi : at[lane].chi;
-        e->touch_radius[h][b] = at[lane].radius;
+        e->touch_chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
+        e->touch_radius[h][b] = at->radius[lane];
         const scalar F[3] = {on_wall[0][b], on_wall[1][b], on_wall[2][b]};
         elastic_wall_force(model->modes, b, &shape[lane], F, e->wall_force[h]);
+#ifndef DUAL
+        const double along[3] = {e->touch_x[h][b], e->touch_r[h][b], e->touch_t[h][b]};
+        PressedWall *wall = &e->pressed[h][b];
+        memcpy(wall->place, along, sizeof along);
+        wall->place[3] = e->touch_chi[h][b], wall->place[4] = e->touch_radius[h][b];
+        wall->place[5] = model->p->cage.m;
+        ribbon_wall_along(model->modes, b, &shape[lane], along, wall->shape);
+#endif
     }
 }
 
@@ -379,17 +398,19 @@ void spheres_elastic(const Model *model, Work *w)
     squeeze_clear(model, w);
     for (int h = 0; h < 2; h++) {
         bool touched = false;
+        RibbonAlike alike;
+        ribbon_alike(model->modes, w->elastic.q[h], &alike);
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             SphereGap gap = sphere_gap(model->d, w, h, j);
             const wide slack = wide_load(&s->slack[j]);
-            SpherePlace at[LANE_WIDTH];
+            SpherePlaces at;
             WallShape shape[LANE_WIDTH];
             SphereContact contact = {0};
             bits pressed = {0};
             sphere_reached(s, slack, &gap, &contact.delta);
             int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0)) |
                        sphere_wet(model->d, j, &gap, w->elastic.reach[h]);
-            if (near != 0) near = move_walls(model, w, h, j, near, &gap, at, shape, &contact.delta);
+            if (near != 0) near = move_walls(model, w, h, j, near, &alike, &gap, &at, shape, &contact.delta);
             const int wet = near & sphere_wet(model->d, j, &gap, 0.0);
             if (near != 0 && sphere_reached(s, slack, &gap, &contact.delta)) {
                 contact = sphere_approach(s, slack, c, &gap);
@@ -397,7 +418,7 @@ void spheres_elastic(const Model *model, Work *w)
             }
             wide_store(&w->delta_c[h][j], contact.delta);
             if (wide_any(pressed) || wet != 0) {
-                press_spheres(model, w, h, j, &gap, &contact, pressed, wet, at, shape);
+                press_spheres(model, w, h, j, &gap, &contact, pressed, wet, &at, shape);
                 touched = true;
             } else
                 clear_walls(w, h, j);

@@ -283,11 +283,29 @@ static double touch_motion(const Touch *touch, const double *q)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
+// The motion along the normal by each mode of the wall that ball k presses, on a half of a ribbon: that of the evaluation at this place,
+// or found again.
+static void ribbon_touch(const Model *model, const FastState *fast, const Work *w, int h, int k,
+                         mode_array shape)
+{
+    const double place[6] = {fast->touch_x[h][k],   fast->touch_r[h][k],      fast->touch_t[h][k],
+                             fast->touch_chi[h][k], fast->touch_radius[h][k], model->p->cage.m};
+    const PressedWall *known = &w->elastic.pressed[h][k];
+    if (memcmp(place, known->place, sizeof place) == 0) {
+        memcpy(shape, known->shape, sizeof known->shape);
+        return;
+    }
+    RibbonNodes nodes;
+    ribbon_wall_nodes(model->modes, wide_set(fabs(place[3])), wide_set(place[4]), &nodes);
+    ribbon_wall_shape(model->modes, 2 * h - 1, k, place[3] < 0.0, &nodes, 0, place, shape);
+}
+
 // The balls that touch walls at the step's start; returns how many.
-static int find_touches(const ElasticHalf *half, bool ribbon, const FastState *fast, const double *q,
+static int find_touches(const Model *model, const FastState *fast, const double *q, const Work *w,
                         Touch touches[2 * Z])
 {
     const double inv_root = 1.0 / 1.4142135623730951;
+    const bool ribbon = model->d->spheres.on;
     int count = 0;
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
@@ -295,19 +313,17 @@ static int find_touches(const ElasticHalf *half, bool ribbon, const FastState *f
             WallPlaces places;
             if (mask == 0) continue;
             if (!ribbon)
-                elastic_wall_places(half, side, j, wide_load(&fast->touch_x[h][j]),
+                elastic_wall_places(model->modes, side, j, wide_load(&fast->touch_x[h][j]),
                                     wide_load(&fast->touch_t[h][j]), &places);
             for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
                 if (!(mask >> (k - j) & 1)) continue;
                 Touch *touch = &touches[count++];
                 *touch = (Touch){
                     fast->touch_k[h][k], fast->touch_rate[h][k], fast->touch_Q[h][k], side, 0.0, {0.0}};
-                if (ribbon) {
-                    const double n[3] = {fast->touch_x[h][k], fast->touch_r[h][k], fast->touch_t[h][k]};
-                    ribbon_wall_shape(half, side, k, fast->touch_chi[h][k], fast->touch_radius[h][k], n,
-                                      touch->shape);
-                } else
-                    elastic_wall_shape(half, side, k, &places, touch->shape);
+                if (ribbon)
+                    ribbon_touch(model, fast, w, h, k, touch->shape);
+                else
+                    elastic_wall_shape(model->modes, side, k, &places, touch->shape);
                 for (int i = 0; i < N_MODES; i++) touch->shape[i] *= inv_root;
                 touch->from = touch_motion(touch, q);
             }
@@ -374,7 +390,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     rigid_velocities(model, w, &middle);
     between_halves(model, &w->half[0], f, slow);
     half_damping(half, sub, &damping);
-    const int count = find_touches(half, model->d->spheres.on, fast, q, touches);
+    const int count = find_touches(model, fast, q, w, touches);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
 
     for (int step = 1;; step++) {

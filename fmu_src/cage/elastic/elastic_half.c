@@ -228,6 +228,15 @@ static void take_forces(const Parameters *p, ElasticHalf *half)
     }
 }
 
+static void take_alike(ElasticHalf *half)
+{
+    for (int i = 0; i < half->uniforms; i++)
+        for (int row = 0; row < half->radii * half->nodes; row++)
+            for (int slope = 0; slope < 2; slope++)
+                for (int c = 0; c < 3; c++)
+                    half->alike[i][row][4 * slope + c] = half->wall[row][slope][c][0][half->uniform_at[i]];
+}
+
 // How far a wall can move; between the nodes a quarter farther at most.
 static void find_reach(bool ribbon, ElasticHalf *half)
 {
@@ -330,6 +339,7 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     if (ribbon) half->compliance = fmax(table->wall[half->radii / 2 * half->nodes + WALL_NODE], 0.0);
     take_modes(p, half);
     take_residual(&table->law, half);
+    if (ribbon) take_alike(half);
     find_reach(ribbon, half);
     half->of.m = p->cage.m, half->of.J_p = d->J_p, half->of.J_t = d->J_t;
     half->of.friction = d->k_plate_t + d->k_head;

@@ -59,6 +59,8 @@ struct ElasticHalf {
     double turn[Z][3][ENTRIES];  // at the pockets: cos nu of the a, of the b, sin nu
     // U by node, radius by radius of a ribbon, value and slope, (x, r, t), U' of the a and U'' of the b
     double wall[WALL_RADII * WALL_NODES][2][3][2][ENTRIES];
+    // the same of the modes that move all pockets alike, by rows: value and slope, (x, r, t) and 0
+    double alike[ENTRIES][WALL_RADII * WALL_NODES][8];
     int nodes;                    // of the walls' angle
     int radii;                    // of the walls' radius: 1 unless the table is a ribbon's
     double radius[WALL_RADII];    // [m]
@@ -136,27 +138,36 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
                         mode_array modal);
 
-// Nodes of the wall of a ribbon's pocket around a place: weights of the cubic over chi and of the parabola over the radius, for the value
-// and for the slopes over both.
+// Nodes of the walls of a ribbon's pockets around the places of a packet: node below, weights of the cubic over chi and of the parabola
+// over the radius, for the value and for the slopes over both.
 typedef struct {
-    int node;
-    scalar value[4], slope[4], along[WALL_RADII], along_slope[WALL_RADII];
-    scalar row[WALL_RADII][4];  // of the motion itself, by the table's rows
+    int node[LANE_WIDTH];
+    scalar value[4][LANE_WIDTH], slope[4][LANE_WIDTH];
+    scalar along[WALL_RADII][LANE_WIDTH], along_slope[WALL_RADII][LANE_WIDTH];
+    scalar row[WALL_RADII][4][LANE_WIDTH];  // of the motion itself, by the table's rows
 } RibbonNodes;
 
-// The nodes around the angle chi at the radius.
+// The nodes around the angles chi at the radii.
 #define ribbon_wall_nodes FOR_ISA(ribbon_wall_nodes)
-void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, RibbonNodes *nodes);
+void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNodes *nodes);
 
-// Motion (x, r, t) there by those coordinates q that move all pockets alike, on the side t < 0 (back) or t > 0 of a pocket.
+// Motions at all nodes, radius by radius, value and slope, (x, r, t), by those coordinates q that move all pockets alike.
+typedef struct {
+    scalar row[WALL_RADII * WALL_NODES][2][4];
+} RibbonAlike;
+
+#define ribbon_alike FOR_ISA(ribbon_alike)
+void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike);
+
+// Their motion (x, r, t) at the place of a lane, on the side t < 0 (back) or t > 0 of a pocket.
 #define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
-void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes,
-                       const scalar *q, scalar u[3]);
+void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes, int lane,
+                       const RibbonAlike *alike, scalar u[3]);
 
 // Motion there by all coordinates q, in pocket j; shapes for ribbon_wall and elastic_wall_force.
 #define ribbon_wall_moved FOR_ISA(ribbon_wall_moved)
-void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
-                       const scalar *q, scalar u[3], WallShape *shape);
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+                       int lane, const scalar *q, scalar u[3], WallShape *shape);
 
 // Velocity there, slopes of the motion along n (x, r, t) over chi and radius.
 typedef struct {
@@ -164,13 +175,16 @@ typedef struct {
 } RibbonWall;
 
 #define ribbon_wall FOR_ISA(ribbon_wall)
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
                  RibbonWall *wall);
 
-// Motion along n (x, r, t) by each mode at the place (chi, negative where t < 0, radius).
+// Motion along n (x, r, t) by each mode there, and the same bits by the shapes of ribbon_wall_moved.
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)
-void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, scalar radius, const scalar n[3],
+void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+                       int lane, const scalar n[3], mode_array shape);
+#define ribbon_wall_along FOR_ISA(ribbon_wall_along)
+void ribbon_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                        mode_array shape);
 
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.

@@ -197,42 +197,56 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 }
 
 // ---- ribbons --------------------------------------------------------------------------------------------------------
-void ribbon_wall_nodes(const ElasticHalf *half, scalar chi, scalar radius, RibbonNodes *nodes)
+void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNodes *nodes)
 {
-    int node = 0;
-    while (node < half->nodes - 2 && scalar_value(chi) >= half->chi[node + 1]) node++;
-    const double step = half->step[node], inv = half->inv_step[node];
-    const scalar u = (chi - half->chi[node]) * inv, v = 1.0 - u;
-    nodes->node = node;
-    nodes->value[0] = v * v * (1.0 + 2.0 * u), nodes->slope[0] = -6.0 * u * v * inv;
-    nodes->value[1] = step * u * v * v, nodes->slope[1] = v * (v - 2.0 * u);
-    nodes->value[2] = u * u * (1.0 + 2.0 * v), nodes->slope[2] = 6.0 * u * v * inv;
-    nodes->value[3] = -step * u * u * v, nodes->slope[3] = u * (u - 2.0 * v);
-    nodes->along[0] = 1.0, nodes->along_slope[0] = 0.0;
+    wide node = wide_set(0.0), lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
+         inv = wide_set(half->inv_step[0]);
+    for (int n = 1; n < half->nodes - 1; n++) {
+        const bits beyond = wide_above(chi, half->chi[n]);
+        node = wide_select(beyond, wide_set(n), node);
+        lower = wide_select(beyond, wide_set(half->chi[n]), lower);
+        step = wide_select(beyond, wide_set(half->step[n]), step);
+        inv = wide_select(beyond, wide_set(half->inv_step[n]), inv);
+    }
+    const wide u = (chi - lower) * inv, v = 1.0 - u;
+    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
+                           -step * u * u * v};
+    const wide slope[4] = {-6.0 * u * v * inv, v * (v - 2.0 * u), 6.0 * u * v * inv, u * (u - 2.0 * v)};
+    wide along[WALL_RADII] = {wide_set(1.0)}, along_slope[WALL_RADII] = {wide_set(0.0)};
     if (half->radii > 1) {
-        const double *at = half->radius, r = scalar_value(radius);
-        const bool within = r > at[0] && r < at[WALL_RADII - 1];
-        radius = scalar_min(scalar_max(radius, at[0]), at[WALL_RADII - 1]);
+        const double *at = half->radius;
+        const wide r = wide_min(wide_max(radius, wide_set(at[0])), wide_set(at[WALL_RADII - 1]));
+        const bits within = wide_above(wide_min(radius - at[0], at[WALL_RADII - 1] - radius), 0.0);
         for (int a = 0; a < WALL_RADII; a++) {
-            const int b = (a + 1) % WALL_RADII, c = (a + 2) % WALL_RADII;
-            nodes->along[a] = (radius - at[b]) * (radius - at[c]) * half->per_gaps[a];
-            nodes->along_slope[a] =
-                within ? (2.0 * radius - at[b] - at[c]) * half->per_gaps[a] : 0.0 * radius;
+            const double b = at[(a + 1) % WALL_RADII], c = at[(a + 2) % WALL_RADII];
+            along[a] = (r - b) * (r - c) * half->per_gaps[a];
+            along_slope[a] = wide_select(within, (2.0 * r - b - c) * half->per_gaps[a], wide_set(0.0));
         }
     }
-    for (int a = 0; a < half->radii; a++)
-        for (int t = 0; t < 4; t++) nodes->row[a][t] = nodes->along[a] * nodes->value[t];
+    scalar below[LANE_WIDTH];
+    wide_store(below, node);
+    for (int i = 0; i < LANE_WIDTH; i++) nodes->node[i] = (int)scalar_value(below[i]);
+    for (int t = 0; t < 4; t++) {
+        wide_store(nodes->value[t], value[t]);
+        wide_store(nodes->slope[t], slope[t]);
+    }
+    for (int a = 0; a < half->radii; a++) {
+        wide_store(nodes->along[a], along[a]);
+        wide_store(nodes->along_slope[a], along_slope[a]);
+        for (int t = 0; t < 4; t++) wide_store(nodes->row[a][t], along[a] * value[t]);
+    }
 }
 
 // Motions (x, r, t) by a few a' (part 0) and b' (1) side by side, without their signs.  radii: that of the half, where it is
 // written as a constant the loops are unrolled.
-INLINE void ribbon_motions(const ElasticHalf *half, int radii, const RibbonNodes *nodes, int m, wide u[3][2])
+INLINE void ribbon_motions(const ElasticHalf *half, int radii, const RibbonNodes *nodes, int lane, int m,
+                           wide u[3][2])
 {
     for (int c = 0; c < 3; c++) u[c][0] = u[c][1] = wide_set(0.0);
     for (int a = 0; a < radii; a++) {
-        const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
+        const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node[lane]];
         for (int t = 0; t < 4; t++) {
-            const wide part = wide_set(nodes->row[a][t]);
+            const wide part = wide_set(nodes->row[a][t][lane]);
             for (int c = 0; c < 3; c++) {
                 u[c][0] = wide_fma(part, wide_load(&from[t][c][0][m]), u[c][0]);
                 u[c][1] = wide_fma(part, wide_load(&from[t][c][1][m]), u[c][1]);
@@ -241,24 +255,32 @@ INLINE void ribbon_motions(const ElasticHalf *half, int radii, const RibbonNodes
     }
 }
 
-void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes,
-                       const scalar *q, scalar u[3])
+void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike)
+{
+    for (int row = 0; row < half->radii * half->nodes; row++)
+        for (int part = 0; part < 8; part += LANE_WIDTH) {
+            wide sum = wide_set(0.0);
+            for (int i = 0; i < half->uniforms; i++)
+                sum = wide_fma(wide_set(q[half->uniform_at[i]]), wide_load(&half->alike[i][row][part]), sum);
+            wide_store(&alike->row[row][0][0] + part, sum);
+        }
+}
+
+void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes, int lane,
+                       const RibbonAlike *alike, scalar u[3])
 {
     const WallSigns sign = wall_signs(back, side);
     u[0] = u[1] = u[2] = 0.0;
-    for (int i = 0; i < half->uniforms; i++) {
-        const int m = half->uniform_at[i];
-        for (int a = 0; a < half->radii; a++) {
-            const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
-            for (int t = 0; t < 4; t++)
-                for (int c = 0; c < 3; c++) u[c] += nodes->row[a][t] * from[t][c][0][m] * q[m];
-        }
+    for (int a = 0; a < half->radii; a++) {
+        const scalar(*from)[4] = alike->row[a * half->nodes + nodes->node[lane]];
+        for (int t = 0; t < 4; t++)
+            for (int c = 0; c < 3; c++) u[c] += nodes->row[a][t][lane] * from[t][c];
     }
     for (int c = 0; c < 3; c++) u[c] *= sign.of[c];
 }
 
-INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool back, RibbonNodes *nodes,
-                     const scalar *q, scalar u[3], WallShape *shape)
+INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool back, const RibbonNodes *nodes,
+                     int lane, const scalar *q, scalar u[3], WallShape *shape)
 {
     const Turn turn = turn_of(half, j);
     const WallSigns sign = wall_signs(back, side);
@@ -271,7 +293,7 @@ INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool b
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
             wide by[3][2];
-            ribbon_motions(half, radii, nodes, m, by);
+            ribbon_motions(half, radii, nodes, lane, m, by);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
                     const wide motion = sign.of[c] * by[c][part];
@@ -282,18 +304,18 @@ INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool b
     for (int c = 0; c < 3; c++) u[c] = wide_eight_sum(sums[c]);
 }
 
-void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, RibbonNodes *nodes,
-                       const scalar *q, scalar u[3], WallShape *shape)
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+                       int lane, const scalar *q, scalar u[3], WallShape *shape)
 {
     if (half->radii == WALL_RADII)
-        moved_by(half, WALL_RADII, side, j, back, nodes, q, u, shape);
+        moved_by(half, WALL_RADII, side, j, back, nodes, lane, q, u, shape);
     else
-        moved_by(half, 1, side, j, back, nodes, q, u, shape);
+        moved_by(half, 1, side, j, back, nodes, lane, q, u, shape);
 }
 
 // The slopes by the rows of the table: each row's motion along n, once for both.
 INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, bool back,
-                          const RibbonNodes *nodes, const WallShape *shape, const scalar n[3],
+                          const RibbonNodes *nodes, int lane, const WallShape *shape, const scalar n[3],
                           const scalar *q, const scalar *q_dot, RibbonWall *wall)
 {
     const Turn turn = turn_of(half, j);
@@ -313,18 +335,18 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, b
                     rates[c][i] = wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], rates[c][i]);
                 }
             for (int a = 0; a < radii; a++) {
-                const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node];
+                const double (*from)[3][2][ENTRIES] = half->wall[a * half->nodes + nodes->node[lane]];
                 wide by_value = wide_set(0.0), by_slope = wide_set(0.0);
                 for (int t = 0; t < 4; t++) {
                     wide row = wide_set(0.0);
                     for (int c = 0; c < 3; c++)
                         for (int part = 0; part < 2; part++)
                             row = wide_fma(along[c][part], wide_load(&from[t][c][part][m]), row);
-                    by_value = wide_fma(wide_set(nodes->value[t]), row, by_value);
-                    by_slope = wide_fma(wide_set(nodes->slope[t]), row, by_slope);
+                    by_value = wide_fma(wide_set(nodes->value[t][lane]), row, by_value);
+                    by_slope = wide_fma(wide_set(nodes->slope[t][lane]), row, by_slope);
                 }
-                over_chi[i] = wide_fma(wide_set(nodes->along[a]), by_slope, over_chi[i]);
-                over_radius[i] = wide_fma(wide_set(nodes->along_slope[a]), by_value, over_radius[i]);
+                over_chi[i] = wide_fma(wide_set(nodes->along[a][lane]), by_slope, over_chi[i]);
+                over_radius[i] = wide_fma(wide_set(nodes->along_slope[a][lane]), by_value, over_radius[i]);
             }
         }
     for (int c = 0; c < 3; c++) wall->u_dot[c] = wide_eight_sum(rates[c]);
@@ -332,43 +354,63 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, b
     wall->over_radius = wide_eight_sum(over_radius);
 }
 
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
                  RibbonWall *wall)
 {
     if (half->radii == WALL_RADII)
-        wall_of_radii(half, WALL_RADII, side, j, back, nodes, shape, n, q, q_dot, wall);
+        wall_of_radii(half, WALL_RADII, side, j, back, nodes, lane, shape, n, q, q_dot, wall);
     else
-        wall_of_radii(half, 1, side, j, back, nodes, shape, n, q, q_dot, wall);
+        wall_of_radii(half, 1, side, j, back, nodes, lane, shape, n, q, q_dot, wall);
+}
+
+// Stores the motion along n by a few a' and b', of which (x, r, t) are given, as that by a and b.
+INLINE void store_along(const Turn *turn, int m, wide motion[3][2], double by_b, const scalar n[3],
+                        scalar *shape, scalar *b)
+{
+    wide by[2] = {wide_set(0.0), wide_set(0.0)};
+    for (int part = 0; part < 2; part++)
+        for (int c = 0; c < 3; c++) by[part] = wide_fma(wide_set(n[c]), motion[c][part], by[part]);
+    by[1] *= by_b;
+    wide_store(&shape[m], back_to_a(turn, m, by[0], by[1]));
+    wide_store(&b[m], back_to_b(turn, m, by[0], by[1]));
 }
 
 INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn, bool back,
-                           RibbonNodes *nodes, const scalar n[3], scalar *shape, scalar *b)
+                           const RibbonNodes *nodes, int lane, const scalar n[3], scalar *shape, scalar *b)
 {
     const WallSigns sign = wall_signs(back, side);
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        wide by[2] = {wide_set(0.0), wide_set(0.0)}, motion[3][2];
-        ribbon_motions(half, radii, nodes, m, motion);
-        for (int part = 0; part < 2; part++)
-            for (int c = 0; c < 3; c++)
-                by[part] = wide_fma(wide_set(sign.of[c] * n[c]), motion[c][part], by[part]);
-        by[1] *= sign.by_b;
-        wide_store(&shape[m], back_to_a(turn, m, by[0], by[1]));
-        wide_store(&b[m], back_to_b(turn, m, by[0], by[1]));
+        wide motion[3][2];
+        ribbon_motions(half, radii, nodes, lane, m, motion);
+        for (int c = 0; c < 3; c++)
+            for (int part = 0; part < 2; part++) motion[c][part] *= sign.of[c];
+        store_along(turn, m, motion, sign.by_b, n, shape, b);
     }
 }
 
-void ribbon_wall_shape(const ElasticHalf *half, int side, int j, scalar chi, scalar radius, const scalar n[3],
+void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
+                       int lane, const scalar n[3], mode_array shape)
+{
+    const Turn turn = turn_of(half, j);
+    scalar b[ENTRIES];
+    if (half->radii == WALL_RADII)
+        shape_of_radii(half, WALL_RADII, side, &turn, back, nodes, lane, n, shape, b);
+    else
+        shape_of_radii(half, 1, side, &turn, back, nodes, lane, n, shape, b);
+    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
+}
+
+void ribbon_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                        mode_array shape)
 {
-    const bool back = scalar_value(chi) < 0.0;
     const Turn turn = turn_of(half, j);
-    RibbonNodes nodes;
     scalar b[ENTRIES];
-    ribbon_wall_nodes(half, back ? -chi : chi, radius, &nodes);
-    if (half->radii == WALL_RADII)
-        shape_of_radii(half, WALL_RADII, side, &turn, back, &nodes, n, shape, b);
-    else
-        shape_of_radii(half, 1, side, &turn, back, &nodes, n, shape, b);
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
+        wide motion[3][2];
+        for (int c = 0; c < 3; c++)
+            for (int part = 0; part < 2; part++) motion[c][part] = wide_load(&moved->motion[c][part][m]);
+        store_along(&turn, m, motion, moved->by_b, n, shape, b);
+    }
     memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }

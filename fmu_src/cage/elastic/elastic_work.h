@@ -11,6 +11,13 @@ enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
 // One number for each mode of a half; eight modes side by side may reach beyond the last one.
 typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
 
+// Motion along the normal, by each mode, of a ribbon's wall that a ball presses.  The substeps behind the evaluation need it again: it is
+// theirs if the place is, (x, r, t) of the normal, chi, radius and the mass of the half, from which it follows bit for bit.
+typedef struct {
+    double place[6];
+    mode_array shape;
+} PressedWall;
+
 // The joints between both halves, in the frame of half 0.  At an evaluation they are written by cage_elastic.c; in the
 // substeps, which have their own, by cage_substeps.c.
 typedef struct {
@@ -46,6 +53,7 @@ typedef struct {
     // of a ribbon's walls (pocket_spheres.c) also: direction r, the place's angle chi, negative on the side t < 0, and radius
     // [m]; elastic energy of contact and wall beside the modes [J]
     ball_array touch_r[2], touch_chi[2], touch_radius[2], wall_energy[2];
+    PressedWall pressed[2][Z];
 
     ElasticJoints joints;
     scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
