@@ -531,6 +531,18 @@ def test_derivatives_change_no_bit(folder):
     assert curious.outputs().tobytes() == silent.outputs().tobytes()
 
 
+def test_derivatives_of_a_start_that_failed_are_not_plausible(folder):
+    """There is no state at which temperatures, whose constants are derived again, could change anything."""
+    slave = Slave(folder)
+    slave.check("SetupExperiment", False, 0.0, 0.0, False, 0.0)
+    slave.set("cage.guide_clearance", 1e-5)
+    slave.set("cage.pocket_clearance", 2e-3)
+    slave.check("EnterInitializationMode")
+    assert slave.call("ExitInitializationMode") == ERROR
+    assert np.isnan(directional(slave, ["ring.a_x"], ["cage.T"], [1.0])).all()
+    assert np.isnan(output_derivatives(slave, ["ring.x"])).all()
+
+
 def test_derivatives_after_an_error_are_not_plausible(running):
     assert running.try_set("shaft.F_x", math.nan) == ERROR
     assert np.isnan(output_derivatives(running, ["ring.x"])).all()

@@ -555,7 +555,7 @@ static fmi2Status SetRealInputDerivatives(fmi2Component c, const fmi2ValueRefere
 }
 
 // Derivatives of the variables vr, all outputs, from those of all outputs; NaN after an error, as the outputs
-// themselves.
+// themselves: a start that failed has no state to differentiate at.
 static fmi2Status output_derivatives(Instance *m, Call call, const Outputs *derivatives,
                                      const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
@@ -582,8 +582,8 @@ static fmi2Status GetRealOutputDerivatives(fmi2Component c, const fmi2ValueRefer
             return refuse(m, CALL_GetRealOutputDerivatives, "order = %d is not allowed: it must be 1",
                           order[i]);
     }
-    Outputs derivatives;
-    part_time_derivatives(m->part, &derivatives);
+    Outputs derivatives = {0};
+    if (m->session.phase != ERRONEOUS) part_time_derivatives(m->part, &derivatives);
     return output_derivatives(m, CALL_GetRealOutputDerivatives, &derivatives, vr, n, value);
 }
 
@@ -614,8 +614,8 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
             return refuse(m, call, "%s is neither an input nor a state: there is no derivative by it",
                           v->name);
     }
-    Outputs derivatives;
-    part_directional_derivatives(m->part, &inputs, state, &derivatives);
+    Outputs derivatives = {0};
+    if (m->session.phase != ERRONEOUS) part_directional_derivatives(m->part, &inputs, state, &derivatives);
     return output_derivatives(m, call, &derivatives, unknown, n_unknown, d_unknown);
 }
 
