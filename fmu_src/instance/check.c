@@ -753,6 +753,17 @@ static bool check_saved_inputs(Bearing *b, const Inputs *reached)
     return check_reached(b, &u) && saved_is(b, values_are_sane((const double *)reached, N_INPUTS), "inputs");
 }
 
+// Whether the parameters that cannot change in a run are those in force.
+static bool fixed_are_kept(const Parameters *given, const Parameters *in_force)
+{
+    for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
+        if (v->causality != CAUSALITY_PARAMETER || v->fixed == NULL) continue;
+        for (int i = 0; i < v->count; i++)
+            if (variable_value(v, i, given) != variable_value(v, i, in_force)) return false;
+    }
+    return true;
+}
+
 bool check_saved(Bearing *b)
 {
     const InstanceState *s = &b->s;
@@ -772,6 +783,7 @@ bool check_saved(Bearing *b)
     char message[256];
     bool fine = check_values(b) && check_variables(b, CAUSALITY_PARAMETER, &s->p_now) &&
                 check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now);
+    fine = fine && saved_is(b, fixed_are_kept(&s->p, &s->p_now), "parameters that cannot change in a run");
     fine = fine && saved_is(b,
                             values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
                                               LARGEST_DERIVATIVE),
