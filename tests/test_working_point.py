@@ -336,12 +336,12 @@ def pooled(simulate, step, seeds, t_end, **start):
     return {name: np.mean([run[name][-1] for run in runs]) for name in names}
 
 
-# of one seed, 0.4 s
+# of one seed, 0.4 s; contact_duty by 72 seeds
 SCATTER = {
     "Q_c_mean": 0.007,
     "Q_c_rms": 0.006,
     "Q_c_p999": 0.014,
-    "contact_duty": 0.01,
+    "contact_duty": 0.013,
     "eccentricity": 0.003,
     "cage_omega": 1e-4,
 }
@@ -408,6 +408,8 @@ def check_run(simulate, case, t_end, **scene):
     The balance is off by the work's integral, of powers at predicted velocities, which falls at least with the
     tolerance: observed 7.2 % of the energy lost at 1e-3 (2,000 r/min, tilted, joints without preload that rub at 16
     kHz; the loss itself is off by 1 %), 0.7 % at 3e-4 and 0.05 % at 1e-4.
+
+    A rim that bends lets its land go on: at 0.42 deg of tilt an oval of 66 um has an eccentricity of 1.5 clearances with 7 N of dry contact.
     """
     names = [
         "bearing.energy_residual",
@@ -426,7 +428,7 @@ def check_run(simulate, case, t_end, **scene):
     )
     assert result["bearing.penetration"].max() < 2e-4
     assert np.abs(result["ring.x"]).max() < 5e-4 and np.abs(result["ring.y"]).max() < 5e-4
-    assert result["cage.eccentricity"].max() < 1.5
+    assert result["cage.eccentricity"].max() < (1.5 if scene.get("scene.cage") == CageModel.TWO_HALF else 2.0)
     assert result["cage.dislocation"].max() < 1.5e-4
 
 
