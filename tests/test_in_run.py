@@ -36,7 +36,7 @@ def test_the_program_and_the_report_say_what_changed(tmp_path):
 
 
 def test_the_rivet_of_the_page_breaks(tmp_path):
-    """The block of docs/changing.md: the rivet that the page names, in the times that six seeds have, a quarter wider (a chaotic run's
+    """The block of docs/changing.md: the rivet that the page names, in the times that twelve seeds have, a quarter wider (a chaotic run's
     time of damage changes with rounding).
     """
     text = PAGE.read_text()

@@ -175,12 +175,14 @@ def squeeze_find(p, on, by, start, free, V):
         F, D = on.part * F - round_rate @ (V - start), on.part * D + round_rate
         F[:2] += (1.0 - on.part) * on.round_film
         step = np.linalg.solve(np.eye(6) + by[:, None] * D, free + by * F - V)
-        part = 1.0 if iteration < WHOLE else squeeze_part(squeeze_slope(on, grid, by, start, free, V, step))
+        fine = np.all(np.isfinite(step))  # or the step has left the model's range
+        whole = iteration < WHOLE or not fine
+        part = 1.0 if whole else squeeze_part(squeeze_slope(on, grid, by, start, free, V, step))
         step = part * step
         V, F = V + step, F - D @ step
         W = bent_dot(V, grid[0])
         missed = np.sum(np.where((W > 0.0) != closing, stiff * np.abs(W), 0.0))
-        if part == 1.0 and on.part * missed <= MISSED * np.max(np.abs(F)):
+        if not fine or (part == 1.0 and on.part * missed <= MISSED * np.max(np.abs(F))):
             break
     return V, F, D
 

@@ -204,9 +204,10 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
 }
 
 void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
-                 const double *f_end, CageMemory *memory)
+                 const double *f_end, CageMemory *memory, Work *w)
 {
     if (!model->modes) return;
+    memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     memcpy(memory->squeeze, step->squeeze, sizeof memory->squeeze);
     const double gamma = step->gamma;
     double change[2][RIM];

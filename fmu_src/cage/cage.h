@@ -127,10 +127,10 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
                   double *y);
 
-// Velocities of the modes at the end, in y, with the forces on bent rims there.
+// Velocities of the modes at the end, in y, with the forces on bent rims there; the evaluations behind foresee no films.
 #define cage_finish FOR_ISA(cage_finish)
 void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
-                 const double *f_end, CageMemory *memory);
+                 const double *f_end, CageMemory *memory, Work *w);
 
 // Rates of the modes at the end, their history and their error, without the films on bent rims; f, jerk and h_0 are those of the step's start and of
 // the step before.

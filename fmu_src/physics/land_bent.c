@@ -257,13 +257,15 @@ static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
 {
     for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         bits closed[BENT_PACKETS];
-        double change[SQUEEZE], rest[SQUEEZE], step[SQUEEZE], most = 0.0;
+        double change[SQUEEZE], rest[SQUEEZE], step[SQUEEZE], most = 0.0, all = 0.0;
         for (int i = 0; i < SQUEEZE; i++) change[i] = V[i] - of->start[i];
         bent_law(of->grid, V, law, closed);
         add_round(of->on, change, law);
         for (int i = 0; i < SQUEEZE; i++) rest[i] = of->free[i] + of->by[i] * law->F[i] - V[i];
         squeeze_solve(law, of->by, rest, step);
-        const double part = iteration < WHOLE ? 1.0 : squeeze_part(of, V, step);
+        for (int i = 0; i < SQUEEZE; i++) all += fabs(step[i]);
+        const bool fine = all < INFINITY;  // or the step has left the model's range
+        const double part = iteration < WHOLE || !fine ? 1.0 : squeeze_part(of, V, step);
         if (part < 1.0)
             for (int i = 0; i < SQUEEZE; i++) step[i] *= part;
         take_rates(law, step, law->F);
@@ -271,6 +273,7 @@ static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
             V[i] += step[i];
             most = scalar_max(most, fabs(law->F[i]));
         }
+        if (!fine) break;
         if (part == 1.0 && of->on->part * load_missed(of->grid, V, closed) <= MISSED * most) break;
     }
 }
@@ -337,6 +340,5 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
         turn_rates(T, solved[h].rate, rate);
         film->yy = rate[0], film->yz = rate[1], film->zz = rate[2];
     }
-    memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     return power;
 }

@@ -368,7 +368,7 @@ typedef struct {
     LandPressure pressure[2];
     BentGrid bent[2];  // of rims that are bent
     // from a step's evaluation to its end: change of a film's squeeze velocities by its own force, per force [m/s/N], else 0
-    double squeeze_by[2][SQUEEZE];
+    scalar squeeze_by[2][SQUEEZE];
     LandLoad land[2];  // of rigid halves
 
     // what one kind of cage has

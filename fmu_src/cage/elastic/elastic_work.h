@@ -14,7 +14,7 @@ typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar)
 // Motion along the normal, by each mode, of a ribbon's wall that a ball presses.  The substeps behind the evaluation need it again: it is
 // theirs if the place is, (x, r, t) of the normal, chi, radius and the mass of the half, from which it follows bit for bit.
 typedef struct {
-    double place[6];
+    scalar place[6];
     mode_array shape;
 } PressedWall;
 
