@@ -14,7 +14,8 @@ w: the pressure sqrt(1 - (x/a)^2 - (y/b)^2) summed over y leaves 1 - (x/a)^2 alo
 of w K delta^1.5 over delta at the contact's position, as part of the energy of a whole contact.  So dV/d(delta) is
 w K delta^1.5, and both halves together store and bear as much as one whole contact.  The slope of V along the wall is a
 force across n that pushes the halves apart; without this force energy would
-not be conserved.
+not be conserved.  From a = R_c on, where Hertz's law has ended, the patch is assumed to keep its length: V = e q^5 V_0 + w (1 - q^5) V_0,
+V_0 = (2/5) K delta^2.5, q = R_c/a.
 Friction P_S at the contact point p + R n with the slip v + omega x R n; the
 coefficient goes from that of the film to that of the asperities by Lambda (mixed lubrication); P_R and its horizontal
 counterpart are the inlet's rolling friction as in the races, with the mean speed |slip|/2 and R_x = R.  The half gets

@@ -18,8 +18,9 @@
 // contact.  The slope of V along the wall is a force across n that pushes the halves apart; without this
 // force energy would not be conserved.
 //
-// Of a close pocket the patch would be longer than R_c and a half would bear beyond the end of its pocket.  From a = R_c on the patch
-// keeps its length and the halves share what is added by w(n_x): V = e q^5 V_0 + w (1 - q^5) V_0, V_0 = (2/5) K delta^2.5, q = R_c/a.
+// Of a close pocket the patch would be longer than R_c and a half would bear beyond the end of its pocket.  Hertz's law ends
+// before; assumed: from a = R_c on the patch keeps its length and the halves share what is added by w(n_x):
+// V = e q^5 V_0 + w (1 - q^5) V_0, V_0 = (2/5) K delta^2.5, q = R_c/a.
 //
 // The friction P_S acts at the contact point p + R n, where the slip is v + omega x R n; in mixed lubrication
 // its coefficient goes from that of the film to that of the asperities by Lambda.  P_R and its horizontal

@@ -228,6 +228,7 @@ static void take_forces(const Parameters *p, ElasticHalf *half)
     }
 }
 
+// Motions at the nodes by the modes that move all pockets alike, by rows.
 static void take_alike(ElasticHalf *half)
 {
     for (int i = 0; i < half->uniforms; i++)

@@ -1,15 +1,16 @@
 // Motion of the pockets' walls by the modes of a half: see elastic_half.h for the equations.
 #include "cage/elastic/elastic_half.h"
 
-// Beyond the split the wall moves as at the split.
-void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at)
+// The cubic over the angle chi: node below, weights of (value, slope, next value, next slope) for the value and for the slope.
+typedef struct {
+    scalar node[LANE_WIDTH];
+    wide value[4], slope[4];
+} WallCubic;
+
+INLINE WallCubic wall_cubic(const ElasticHalf *half, wide chi)
 {
-    const wide along = wide_abs(n_t), zero = wide_set(0.0), one = wide_set(1.0);
-    const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), zero);
-    wide_store(&at->n_x[j], n_x);
-    wide_store(&at->n_t[j], n_t);
-    scalar below[LANE_WIDTH];  // the node below chi
-    wide node = zero, lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
+    WallCubic at;
+    wide node = wide_set(0.0), lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
          inv_step = wide_set(half->inv_step[0]);
     for (int n = 1; n < half->nodes - 1; n++) {
         const bits beyond = wide_above(chi, half->chi[n]);
@@ -18,19 +19,30 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wid
         step = wide_select(beyond, wide_set(half->step[n]), step);
         inv_step = wide_select(beyond, wide_set(half->inv_step[n]), inv_step);
     }
-    wide_store(below, node);
+    wide_store(at.node, node);
+    const wide u = (chi - lower) * inv_step, v = 1.0 - u;
+    at.value[0] = v * v * (1.0 + 2.0 * u), at.value[1] = step * u * v * v;
+    at.value[2] = u * u * (1.0 + 2.0 * v), at.value[3] = -step * u * u * v;
+    at.slope[0] = -6.0 * u * v * inv_step, at.slope[1] = v * (v - 2.0 * u);
+    at.slope[2] = 6.0 * u * v * inv_step, at.slope[3] = u * (u - 2.0 * v);
+    return at;
+}
+
+// Beyond the split the wall moves as at the split.
+void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at)
+{
+    const wide along = wide_abs(n_t);
+    const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), wide_set(0.0));
+    const WallCubic cubic = wall_cubic(half, chi);
+    wide_store(&at->n_x[j], n_x);
+    wide_store(&at->n_t[j], n_t);
     for (int i = 0, k = j; i < LANE_WIDTH && k < Z; i++, k++) {
-        at->node[k] = (int)scalar_value(below[i]);
+        at->node[k] = (int)scalar_value(cubic.node[i]);
         at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
     }
-    const wide u = (chi - lower) * inv_step, v = one - u;
-    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
-                           -step * u * u * v};
-    const wide slope[4] = {-6.0 * u * v * inv_step, v * (v - 2.0 * u), 6.0 * u * v * inv_step,
-                           u * (u - 2.0 * v)};
     for (int t = 0; t < 4; t++) {
-        wide_store(&at->value[t][j], value[t]);
-        wide_store(&at->slope[t][j], slope[t]);
+        wide_store(&at->value[t][j], cubic.value[t]);
+        wide_store(&at->slope[t][j], cubic.slope[t]);
     }
 }
 
@@ -199,19 +211,7 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 // ---- ribbons --------------------------------------------------------------------------------------------------------
 void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNodes *nodes)
 {
-    wide node = wide_set(0.0), lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
-         inv = wide_set(half->inv_step[0]);
-    for (int n = 1; n < half->nodes - 1; n++) {
-        const bits beyond = wide_above(chi, half->chi[n]);
-        node = wide_select(beyond, wide_set(n), node);
-        lower = wide_select(beyond, wide_set(half->chi[n]), lower);
-        step = wide_select(beyond, wide_set(half->step[n]), step);
-        inv = wide_select(beyond, wide_set(half->inv_step[n]), inv);
-    }
-    const wide u = (chi - lower) * inv, v = 1.0 - u;
-    const wide value[4] = {v * v * (1.0 + 2.0 * u), step * u * v * v, u * u * (1.0 + 2.0 * v),
-                           -step * u * u * v};
-    const wide slope[4] = {-6.0 * u * v * inv, v * (v - 2.0 * u), 6.0 * u * v * inv, u * (u - 2.0 * v)};
+    const WallCubic cubic = wall_cubic(half, chi);
     wide along[WALL_RADII] = {wide_set(1.0)}, along_slope[WALL_RADII] = {wide_set(0.0)};
     if (half->radii > 1) {
         const double *at = half->radius;
@@ -223,17 +223,15 @@ void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNod
             along_slope[a] = wide_select(within, (2.0 * r - b - c) * half->per_gaps[a], wide_set(0.0));
         }
     }
-    scalar below[LANE_WIDTH];
-    wide_store(below, node);
-    for (int i = 0; i < LANE_WIDTH; i++) nodes->node[i] = (int)scalar_value(below[i]);
+    for (int i = 0; i < LANE_WIDTH; i++) nodes->node[i] = (int)scalar_value(cubic.node[i]);
     for (int t = 0; t < 4; t++) {
-        wide_store(nodes->value[t], value[t]);
-        wide_store(nodes->slope[t], slope[t]);
+        wide_store(nodes->value[t], cubic.value[t]);
+        wide_store(nodes->slope[t], cubic.slope[t]);
     }
     for (int a = 0; a < half->radii; a++) {
         wide_store(nodes->along[a], along[a]);
         wide_store(nodes->along_slope[a], along_slope[a]);
-        for (int t = 0; t < 4; t++) wide_store(nodes->row[a][t], along[a] * value[t]);
+        for (int t = 0; t < 4; t++) wide_store(nodes->row[a][t], along[a] * cubic.value[t]);
     }
 }
 
