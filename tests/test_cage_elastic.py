@@ -423,7 +423,7 @@ def test_a_step_does_not_need_the_work_before_it(core):
         state, _ = scene.verlet(0.0, 3e-6, scene.verlet_evaluate(0.0, running_state(scene, rng)), weight)
         fast, known = state.cage.fast, scene.work.elastic.pressed
         for h in range(2):
-            for k in np.flatnonzero(list(fast.touch_k[h])):
+            for k in np.flatnonzero(list(fast.touch_K[h])):
                 assert list(known[h][k].place)[3:5] == [fast.touch_chi[h][k], fast.touch_radius[h][k]]
                 pressed += 1
         for wall in (wall for half in other.work.elastic.pressed for wall in half):

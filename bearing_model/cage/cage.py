@@ -211,7 +211,7 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
         two_half_advance(model, h, memory.path, w, y)
         return CageStep()
     add_rates(model, 0.5 * h * rim_modes(model, memory.rim), y)
-    substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, y, w)
+    substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, middle, y, w)
     return CageStep(modes, halves.ravel(), substep)
 
 
@@ -356,7 +356,7 @@ def cage_longest_step(model, film):
     if not model.modes:
         return np.inf
     rate, d = np.max(np.trace(film, axis1=1, axis2=2)), model.modes.substep
-    return min(3.0 * d, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
+    return min(model.modes.longest_step, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation

@@ -113,7 +113,7 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
         for (int k = 0; k < RIM; k++) by[2 + k] = step->gamma * model->modes->mobility[k];
     }
     push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
-    step->substep = cage_substeps_advance(model, h, &memory->fast, f, y, &step->foreseen, w);
+    step->substep = cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen, w);
 }
 
 void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory,

@@ -58,7 +58,7 @@ double cage_longest_step(const Model *model, double film[2][3])
     if (!model->modes) return INFINITY;
     const double d = model->modes->substep;
     const double rate = fmax(film[0][0] + film[0][2], film[1][0] + film[1][2]);
-    return fmin(3.0 * d, fmax(2.0 * d, model->p->cage.m / rate));
+    return fmin(elastic_longest_step(model->modes), fmax(2.0 * d, model->p->cage.m / rate));
 }
 
 // A ball touches its pocket for 70 to 100 us; a tenth of that resolves the pulse.
@@ -83,8 +83,8 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->N_plate, LANES, load) &&
            values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
            values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_k[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-           values_are_within(fast->touch_rate[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
+           values_are_within(fast->touch_K[0], 2 * LANES, elastic ? 1e20 : 0.0) &&
+           values_are_within(fast->touch_delta[0], 2 * LANES, motion) &&
            values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
            values_are_within(fast->touch_r[0], 2 * LANES, motion) &&
            values_are_within(fast->touch_chi[0], 2 * LANES, 2.0 * motion) &&

@@ -91,7 +91,7 @@ def pocket_approach(model, h, n_x, delta):
 
 def pocket_contacts(model, w, h, gap, wall=None):
     """Forces in the pockets of half h: sets w.pocket[h] and adds to the balls.  wall: velocity u_dot (x, r, t) and tilt of the
-    walls of an elastic half.  Returns the forces (x, r, t) on the walls, their Hertz loads, rates of approach and contact loads.
+    walls of an elastic half.  Returns the forces (x, r, t) on the walls, rates of approach and contact loads.
     """
     p, d, half = model.p, model.d, w.half[h]
     a, b, e_t, n_x, n_t, delta = gap.a, gap.b, gap.e_t, gap.n_x, gap.n_t, gap.delta
@@ -153,7 +153,7 @@ def pocket_contacts(model, w, h, gap, wall=None):
         w.pocket_dissipated = w.pocket_dissipated + film.F * vec_dot(film.m, v)
     drawn = F_s + F_c
     on_wall = Q * n_x - vec_dot(drawn, a) + by_film[0], -vec_dot(drawn, b), Q * n_t - vec_dot(drawn, e_t) + by_film[1]
-    return on_wall, Q_0, delta_dot, Q
+    return on_wall, delta_dot, Q
 
 
 def pocket_clear(w):
@@ -165,7 +165,7 @@ def pocket_clear(w):
 
 def elastic_clear(e):
     """No contacts with elastic walls yet."""
-    touch = ("x", "r", "t", "k", "rate", "Q", "chi", "radius")
+    touch = ("x", "r", "t", "K", "delta", "Q", "chi", "radius")
     for name in ("wall_force", *(f"touch_{part}" for part in touch)):
         setattr(e, name, [None, None])
 
@@ -188,8 +188,8 @@ def pocket_rigid(model, w):
 
 def pocket_elastic(model, w):
     """The same of two elastic halves, whose walls move: sets also the modal forces on the walls [..., n] of each half and
-    the contacts with the walls: direction, stiffness with the wall's own compliance in series, rate of the approach by rigid
-    motions (cage_substeps.py).
+    the contacts with the walls, with those that may come in the longest step: direction, Hertz's constant by the half's share,
+    approach, load (wall_loads.py).
     """
     pocket_clear(w)
     e = w.elastic
@@ -199,14 +199,17 @@ def pocket_elastic(model, w):
         u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
         gap.delta = pocket_approach(model, h, gap.n_x, gap.delta - gap.n_x * u[0] - gap.n_t * u[2])
         w.delta_c[h] = gap.delta
-        on_wall, Q_0, delta_dot, e.touch_Q[h] = pocket_contacts(
+        on_wall, delta_dot, e.touch_Q[h] = pocket_contacts(
             model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt)
         )
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )
-        k = 1.5 * Q_0
+        rate = delta_dot + gap.n_x * u_dot[0] + gap.n_t * u_dot[2]  # by rigid motions
+        ahead = gap.delta + maximum(rate, 0.0) * model.modes.longest_step
+        reached = np.where(np.real(gap.delta) > 0.0, gap.delta, ahead)
+        share = pocket_share(model.d, h, gap.n_x, reached)[0]
         e.touch_x[h], e.touch_t[h] = gap.n_x, gap.n_t
         e.touch_r[h] = e.touch_chi[h] = e.touch_radius[h] = 0.0 * gap.n_x
-        e.touch_k[h] = k / (maximum(gap.delta, 1e-30) + model.modes.compliance * k)
-        e.touch_rate[h] = delta_dot + gap.n_x * u_dot[0] + gap.n_t * u_dot[2]
+        e.touch_K[h] = np.where((np.real(share) > 0.0) & (np.real(reached) > 0.0), share * model.d.pocket.K, 0.0)
+        e.touch_delta[h] = gap.delta

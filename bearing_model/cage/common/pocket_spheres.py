@@ -349,10 +349,9 @@ def spheres_elastic(model, w):
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(at.on_wall, wall.shape, strict=True)
         )
-        k = 1.5 * at.Q_0
+        own, pressed = maximum(w.delta_c[h], APPROACH_FLOOR), np.real(at.Q_0) > LEAST
         e.touch_x[h], e.touch_r[h], e.touch_t[h] = at.n
-        e.touch_k[h] = k / (maximum(w.delta_c[h], 1e-30) + model.modes.compliance * k)
-        e.touch_rate[h] = at.delta_dot + sum(n_i * u_i for n_i, u_i in zip(at.n, wall.u_dot, strict=True))
+        e.touch_K[h], e.touch_delta[h] = np.where(pressed, at.Q_0 / own**1.5, 0.0), np.where(pressed, own, 0.0)
         e.touch_Q[h], e.touch_chi[h], e.touch_radius[h] = at.Q, wall.chi, wall.radius
         e.wall_energy[h] = at.V
 

@@ -22,8 +22,8 @@ from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_speed_2,
     cage_elastic_stiffness,
 )
-from bearing_model.cage.elastic.elastic_half import ROOT, circle, joints_in, joints_out
-from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
+from bearing_model.cage.elastic.elastic_half import circle, joints_in, joints_out
+from bearing_model.cage.elastic.wall_loads import TOUCH, WallLoads
 from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_BETA_DOT,
@@ -58,9 +58,7 @@ class FastState:
     u: np.ndarray  # their offsets in it [2, Z]
     T: np.ndarray  # loads of rivets and plates [Z]
     N_plate: np.ndarray
-    # of each half: direction (x, t), stiffness, rate of the approach, load of its contacts; of a ribbon direction r, place chi (negative
-    # on the side t < 0) and radius [8, Z]
-    touch: list
+    touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [8, Z]
     omega_2: float  # square of the halves' speed in space
     modes: np.ndarray  # accelerations by joints and springs [2, n]
     rigid: np.ndarray  # accelerations of the relative motions at the joints [6]
@@ -126,39 +124,9 @@ def cage_substeps_split(model, y, w, f):
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
     f[WORK] += np.sum(w.joint_dissipated) + e.dissipated
-    names = ("touch_x", "touch_t", "touch_k", "touch_rate", "touch_Q", "touch_r", "touch_chi", "touch_radius")
-    touch = [np.array([getattr(e, name)[h] for name in names]) for h in range(2)]
+    touch = [np.array([getattr(e, f"touch_{name}")[h] for name in TOUCH]) for h in range(2)]
     omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
     return FastState(j.e.copy(), j.u.copy(), j.rivet[0].copy(), j.N_plate.copy(), touch, omega_2, modes, rigid)
-
-
-class Touches:
-    """The balls that touch walls at the step's start: their loads follow the walls."""
-
-    def __init__(self, model, fast, q):
-        self.m, self.rows = model.p.cage.m, []
-        for h, (n_x, n_t, k, rate, Q, n_r, chi, radius) in enumerate(fast.touch):
-            if not np.any(k > 0.0):
-                continue
-            if model.d.spheres:
-                shape = ribbon_wall_shapes(model.modes, 2 * h - 1, np.abs(chi), radius, chi < 0.0)[0]
-                normal = sum(n[:, None] * along for n, along in zip((n_x, n_r, n_t), shape, strict=True)) / ROOT
-            else:
-                shape = elastic_wall_shape(model.modes, 2 * h - 1, n_x, n_t)[0]  # [3, Z, n]
-                normal = (n_x[:, None] * shape[0] + n_t[:, None] * shape[2]) / ROOT
-            for j in np.flatnonzero(k > 0.0):
-                both = np.array([normal[j], (2 * h - 1) * normal[j]])
-                self.rows.append((k[j], rate[j], Q[j], both, np.sum(both * q)))
-
-    def accelerations(self, t, q):
-        """Of the modes [2, n] by the changes of the loads at the time t of the step."""
-        return sum(
-            (
-                max(k * (rate * t - (np.sum(both * q) - start)), -Q) / self.m * both
-                for k, rate, Q, both, start in self.rows
-            ),
-            np.zeros_like(q),
-        )
 
 
 def turn(t, rates):
@@ -189,9 +157,9 @@ def add_spin(spin, t, middle, slow, moved, relative):
     return turned
 
 
-def cage_substeps_advance(model, h, fast, f, y, w):
-    """Substeps of a step of length h from `fast` under the slow rates f; w: kinematics in the middle of the step;
-    changes y as cage_substeps.c does.
+def cage_substeps_advance(model, h, fast, f, state, y, w):
+    """Substeps of a step of length h from `fast` under the slow rates f; state, w: state and kinematics in the middle of the
+    step; changes y as cage_substeps.c does.
 
     Returns the length of the substeps and the slow accelerations at the step's end as they foresee them: of the modes
     [2, n], changes of those of the halves [6, 2].
@@ -204,7 +172,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         for x, blocks in ((y, (MODE_S, MODE_D)), (y, (MODE_S_DOT, MODE_D_DOT)), (f, (MODE_S_DOT, MODE_D_DOT)))
     )
     slow, speed, moved = between_halves(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
-    touches, held, modes = Touches(model, fast, q), slow_modes, fast.modes
+    loads, held, modes = WallLoads(model, h, fast, f, state, y, q, w), slow_modes, fast.modes
     gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
     P, k_in = cage_elastic_preload(model, fast.omega_2), cage_elastic_stiffness(model)
 
@@ -237,7 +205,7 @@ def cage_substeps_advance(model, h, fast, f, y, w):
         at.u = at.u + sub * at.v
         lost = cage_joint_advance(model, sub, k_in, at, y)
         y[WORK] -= lost + sub * model.p.cage.m * np.sum(half.damping * v_m**2)
-        held = slow_modes + touches.accelerations(step * sub, q)
+        held = slow_modes + loads.accelerations(step * sub, q)
         if step == steps:
             break
 

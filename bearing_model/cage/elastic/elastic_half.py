@@ -60,6 +60,11 @@ class ElasticHalf:
     substep: float  # of the default method, at most [s]
     law: LawOfModes
 
+    @property
+    def longest_step(self):
+        """[s]: forces that are constant over it feed vibrations that turn by much more than pi."""
+        return 3.0 * self.substep
+
 
 def mode_order(modes):
     """Place of each coordinate of the state among those of half_modes.py [n]: all a, those of pairs first, then all b

@@ -119,13 +119,6 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
             wide_store(&on_wall[2][j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&on_wall[2][j])));
         }
 
-        // the wall's own compliance is in series with the contact
-        const wide k = 1.5 * Q_0, soft = wide_max(gap->delta, wide_set(1e-30)) + model->modes->compliance * k;
-        const wide u_dot = n_x * wide_load(&wall->u_dot[0][j]) + n_t * wide_load(&wall->u_dot[2][j]);
-        wide_store(&w->elastic.touch_x[h][j], n_x);
-        wide_store(&w->elastic.touch_t[h][j], n_t);
-        wide_store(&w->elastic.touch_k[h][j], k / soft);
-        wide_store(&w->elastic.touch_rate[h][j], delta_dot + u_dot);
         wide_store(&w->elastic.touch_Q[h][j], Q);
     }
 
@@ -172,7 +165,30 @@ typedef struct {
     int h, j, touched;  // bits of the balls on which forces act, by contact or by oil
     bits pressed;       // those with contact, as a packet
     PocketGap gap;
+    wide ahead;
 } TouchedPacket;
+
+// How far the balls of a packet come nearer to the wall in the longest step, both as rigid bodies.
+INLINE wide pocket_ahead(const Model *model, const Work *w, int h, int j, const PocketGap *gap)
+{
+    const PocketAxes axes = {gap->a, gap->b, gap->e_t, gap->p};
+    const vec v = pocket_motion(w, &w->half[h], j, &axes, NULL).v;
+    const wide rate = gap->n_x * vec_dot(v, gap->a) + gap->n_t * vec_dot(v, gap->e_t);
+    return wide_max(rate, wide_set(0.0)) * elastic_longest_step(model->modes);
+}
+
+// Leaves the contacts of a packet, and those that may come in the next step, to its substeps (wall_loads.c).
+INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const PocketGap *gap, wide ahead)
+{
+    const wide zero = wide_set(0.0), delta = gap->delta;
+    const wide reached = wide_select(wide_above(delta, 0.0), delta, delta + ahead);
+    const wide share = pocket_share(model->d, h, gap->n_x, reached).load;
+    const bits acts = wide_above(wide_min(share, reached), 0.0);
+    wide_store(&w->elastic.touch_x[h][j], gap->n_x);
+    wide_store(&w->elastic.touch_t[h][j], gap->n_t);
+    wide_store(&w->elastic.touch_K[h][j], wide_select(acts, model->d->pocket.K * share, zero));
+    wide_store(&w->elastic.touch_delta[h][j], delta);
+}
 
 // Bits of the balls of a packet that press on a wall or on the oil before it, behind what the walls have moved; `near`:
 // those that can have reached it.
@@ -202,8 +218,8 @@ static void clear_touches(Work *w, int h, int j)
     pocket_clear(&w->pocket[h], j);
     wide_store(&w->elastic.touch_x[h][j], zero);
     wide_store(&w->elastic.touch_t[h][j], zero);
-    wide_store(&w->elastic.touch_k[h][j], zero);
-    wide_store(&w->elastic.touch_rate[h][j], zero);
+    wide_store(&w->elastic.touch_K[h][j], zero);
+    wide_store(&w->elastic.touch_delta[h][j], zero);
     wide_store(&w->elastic.touch_Q[h][j], zero);
 }
 
@@ -243,14 +259,16 @@ void pocket_elastic(const Model *model, Work *w)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
             *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
-            const int near =
-                wide_mask(wide_above(at->gap.delta + (w->elastic.reach[h] + model->d->squeeze.reach), 0.0));
+            at->ahead = pocket_ahead(model, w, h, j, &at->gap);
+            const scalar reach = w->elastic.reach[h] + model->d->squeeze.reach;
+            const int near = wide_mask(wide_above(at->gap.delta + (at->ahead + reach), 0.0));
             if (near != 0)
                 at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h], &at->pressed);
             if (at->touched != 0)
                 count++;
             else {
                 clear_touches(w, h, j);
+                if (near != 0) leave_to_substeps(model, w, h, j, &at->gap, at->ahead);
                 wide_store(&w->delta_c[h][j], at->gap.delta);
             }
         }
@@ -262,6 +280,7 @@ void pocket_elastic(const Model *model, Work *w)
     bool pressed[2] = {false, false};
     for (const TouchedPacket *at = packets; at < packets + count; at++) {
         press_walls(model, w, at, &places[at->h], mixed);
+        leave_to_substeps(model, w, at->h, at->j, &at->gap, at->ahead);
         pressed[at->h] = true;
     }
     for (int h = 0; h < 2; h++)

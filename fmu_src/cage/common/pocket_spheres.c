@@ -74,10 +74,10 @@ INLINE int sphere_wet(const Derived *d, int j, const SphereGap *gap, double move
 }
 
 // Forces in a packet of pockets, stored for the half and added to the balls; pressed: of those with contact.  walls: of an elastic
-// half, or NULL; their forces (x, r, t) are stored in on_wall, the contacts' loads and rates of approach in load and rate.
+// half, or NULL; their forces (x, r, t) are stored in on_wall, the contacts' loads in load.
 INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const SphereGap *gap,
                           const SphereContact *at, bits pressed, bool mixed, const SphereWalls *walls,
-                          ball_array on_wall[3], wide *load, wide *rate)
+                          ball_array on_wall[3], wide *load)
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
@@ -134,7 +134,6 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
                            wide_fma(film.F, vec_dot(film.m, axis[i]), wide_load(&on_wall[i][j])));
         }
         *load = Q;
-        *rate = delta_dot;
     }
     F = vec_where(pressed, F);
     const vec M = vec_where(pressed, vec_cross(arm, F_s));
@@ -172,7 +171,7 @@ void spheres_rigid(const Model *model, Work *w)
             }
             wide_store(&w->delta_c[h][j], at.delta);
             if (wide_any(pressed) || filled) {
-                sphere_forces(model, w, h, j, &gap, &at, pressed, mixed, NULL, NULL, NULL, NULL);
+                sphere_forces(model, w, h, j, &gap, &at, pressed, mixed, NULL, NULL, NULL);
                 touched = true;
             } else
                 pocket_clear(&w->pocket[h], j);
@@ -339,8 +338,8 @@ static void clear_walls(Work *w, int h, int j)
     wide_store(&e->touch_x[h][j], zero);
     wide_store(&e->touch_r[h][j], zero);
     wide_store(&e->touch_t[h][j], zero);
-    wide_store(&e->touch_k[h][j], zero);
-    wide_store(&e->touch_rate[h][j], zero);
+    wide_store(&e->touch_K[h][j], zero);
+    wide_store(&e->touch_delta[h][j], zero);
     wide_store(&e->touch_Q[h][j], zero);
     wide_store(&e->touch_chi[h][j], zero);
     wide_store(&e->touch_radius[h][j], zero);
@@ -356,19 +355,17 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     const wide zero = wide_set(0.0), side = wide_set(h == 0 ? -1.0 : 1.0);
     const int mask = wide_mask(pressed) | wet;
     ball_array on_wall[3];
-    wide load, rate;
+    wide load;
     SphereWalls walls;
     pressed_walls(model, w, h, j, mask, contact, at, shape, &walls);
-    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &load,
-                  &rate);
-    const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t}, k = 1.5 * contact->Q;
-    const wide stiffness = k / (wide_max(contact->delta, wide_set(1e-30)) + model->modes->compliance * k);
-    for (int c = 0; c < 3; c++) rate += n[c] * wide_load(&walls.u_dot[c][j]);
+    sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &load);
+    const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t};
+    const wide delta = wide_max(contact->delta, wide_set(APPROACH_FLOOR));
     wide_store(&e->touch_x[h][j], wide_select(pressed, n[0], zero));
     wide_store(&e->touch_r[h][j], wide_select(pressed, n[1], zero));
     wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
-    wide_store(&e->touch_k[h][j], wide_select(pressed, stiffness, zero));
-    wide_store(&e->touch_rate[h][j], wide_select(pressed, rate, zero));
+    wide_store(&e->touch_K[h][j], wide_select(pressed, contact->Q / (delta * wide_sqrt(delta)), zero));
+    wide_store(&e->touch_delta[h][j], wide_select(pressed, delta, zero));
     wide_store(&e->touch_Q[h][j], load);
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
     wide_store(&e->touch_chi[h][j], zero);

@@ -18,10 +18,8 @@
 // a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out, gyroscopic
 // terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
-// A ball that presses on a wall holds it: a load held over the step would answer to the wall's motion a step
-// late, which is unstable where the contact is stiffer than the wall.  So the load follows in the substeps, Q
-// + k (rate t - u), k the contact's stiffness, rate that of the approach by rigid motions and u what the
-// modes move the wall since the step's start; the end corrects it too.
+// The loads of balls on walls follow in the substeps, those of balls that arrive within the step too (wall_loads.c); the end
+// corrects them.
 //
 // The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: in the frame of the joints the
 // relative velocities turn back, and so does the way since the middle of the step; the joints' accelerations
@@ -38,6 +36,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
+#include "cage/elastic/wall_loads.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
 
@@ -127,8 +126,8 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
     for (int h = 0; h < 2; h++) {
         memcpy(fast->touch_x[h], w->elastic.touch_x[h], sizeof fast->touch_x[h]);
         memcpy(fast->touch_t[h], w->elastic.touch_t[h], sizeof fast->touch_t[h]);
-        memcpy(fast->touch_k[h], w->elastic.touch_k[h], sizeof fast->touch_k[h]);
-        memcpy(fast->touch_rate[h], w->elastic.touch_rate[h], sizeof fast->touch_rate[h]);
+        memcpy(fast->touch_K[h], w->elastic.touch_K[h], sizeof fast->touch_K[h]);
+        memcpy(fast->touch_delta[h], w->elastic.touch_delta[h], sizeof fast->touch_delta[h]);
         memcpy(fast->touch_Q[h], w->elastic.touch_Q[h], sizeof fast->touch_Q[h]);
         memcpy(fast->touch_r[h], w->elastic.touch_r[h], sizeof fast->touch_r[h]);
         memcpy(fast->touch_chi[h], w->elastic.touch_chi[h], sizeof fast->touch_chi[h]);
@@ -267,86 +266,6 @@ static double modes_lose(const Model *model, const double *v)
            (((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])));
 }
 
-// A ball on the wall of half 0 (side -1) or 1 (side 1).
-typedef struct {
-    double k, rate, Q, side, from;  // from: the wall's motion at the step's start
-    mode_array shape;               // its motion along the normal by S; by D: side times that
-} Touch;
-
-// Motion of the wall at the coordinates q of S and D.
-static double touch_motion(const Touch *touch, const double *q)
-{
-    double part[8] = {0.0};
-    for (int i = 0; i < N_MODES; i += 8)
-        for (int k = 0; k < 8; k++)
-            part[k] += touch->shape[i + k] * (q[i + k] + touch->side * q[N_MODES + i + k]);
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
-// The motion along the normal by each mode of the wall that ball k presses, on a half of a ribbon: that of the evaluation at this place,
-// or found again.
-static void ribbon_touch(const Model *model, const FastState *fast, const Work *w, int h, int k,
-                         mode_array shape)
-{
-    const double place[6] = {fast->touch_x[h][k],   fast->touch_r[h][k],      fast->touch_t[h][k],
-                             fast->touch_chi[h][k], fast->touch_radius[h][k], model->p->cage.m};
-    const PressedWall *known = &w->elastic.pressed[h][k];
-    if (memcmp(place, known->place, sizeof place) == 0) {
-        memcpy(shape, known->shape, sizeof known->shape);
-        return;
-    }
-    RibbonNodes nodes;
-    ribbon_wall_nodes(model->modes, wide_set(fabs(place[3])), wide_set(place[4]), &nodes);
-    ribbon_wall_shape(model->modes, 2 * h - 1, k, place[3] < 0.0, &nodes, 0, place, shape);
-}
-
-// The balls that touch walls at the step's start; returns how many.
-static int find_touches(const Model *model, const FastState *fast, const double *q, const Work *w,
-                        Touch touches[2 * Z])
-{
-    const double inv_root = 1.0 / 1.4142135623730951;
-    const bool ribbon = model->d->spheres.on;
-    int count = 0;
-    for (int h = 0; h < 2; h++)
-        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&fast->touch_k[h][j]), 0.0)), side = 2 * h - 1;
-            WallPlaces places;
-            if (mask == 0) continue;
-            if (!ribbon)
-                elastic_wall_places(model->modes, side, j, wide_load(&fast->touch_x[h][j]),
-                                    wide_load(&fast->touch_t[h][j]), &places);
-            for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
-                if (!(mask >> (k - j) & 1)) continue;
-                Touch *touch = &touches[count++];
-                *touch = (Touch){
-                    fast->touch_k[h][k], fast->touch_rate[h][k], fast->touch_Q[h][k], side, 0.0, {0.0}};
-                if (ribbon)
-                    ribbon_touch(model, fast, w, h, k, touch->shape);
-                else
-                    elastic_wall_shape(model->modes, side, k, &places, touch->shape);
-                for (int i = 0; i < N_MODES; i++) touch->shape[i] *= inv_root;
-                touch->from = touch_motion(touch, q);
-            }
-        }
-    return count;
-}
-
-// Slow accelerations of the modes at the time t of the step: those held, and what the loads on the walls have
-// changed by.
-static void slow_accelerations(const Model *model, double t, const double *at_start, const Touch *touches,
-                               int count, const double *q, double slow[2 * N_MODES])
-{
-    memcpy(slow, at_start, 2 * N_MODES * sizeof *slow);
-    for (const Touch *touch = touches; touch < touches + count; touch++) {
-        const double u = touch_motion(touch, q) - touch->from;
-        const double change = fmax(touch->k * (touch->rate * t - u), -touch->Q) / model->p->cage.m;
-        for (int i = 0; i < N_MODES; i++) {
-            slow[i] += change * touch->shape[i];
-            slow[N_MODES + i] += (touch->side * change) * touch->shape[i];
-        }
-    }
-}
-
 // Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power.
 static void turn(double t, double rates[RELATIVE_MOTIONS])
 {
@@ -355,8 +274,8 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
     rates[ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
 }
 
-double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             Foreseen *foreseen, const Work *w)
+double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
+                             const double *state, double *y, Foreseen *foreseen, const Work *w)
 {
     const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
@@ -367,7 +286,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     JointVelocities middle;
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
-    Touch touches[2 * Z];
+    WallLoads loads;
     HalfDamping damping;
 
     // the joints at the step's start
@@ -390,7 +309,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     rigid_velocities(model, w, &middle);
     between_halves(model, &w->half[0], f, slow);
     half_damping(half, sub, &damping);
-    const int count = find_touches(model, fast, q, w, touches);
+    wall_loads_find(model, h, fast, f, state, y, w, &loads);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
 
     for (int step = 1;; step++) {
@@ -412,7 +331,8 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         cage_elastic_in(half, v_m + N_MODES, in);
         move_joints(model, sub, &middle, relative, out, in, &joints);
         y[Y_WORK] -= cage_joint_advance(model, sub, &k_in, &at, y) + sub * modes_lose(model, v_m);
-        slow_accelerations(model, step * sub, &f[Y_MODE_S_DOT], touches, count, q, foreseen->modes);
+        memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
+        wall_loads_follow(model, step * sub, q, &loads, foreseen->modes);
         if (step == steps) break;
 
         // accelerations there, of which the second half

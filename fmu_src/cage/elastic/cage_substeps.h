@@ -12,7 +12,7 @@ typedef struct {
         u_z[LANES];                   // motions of the joints out of the plane and offsets in it (model.h)
     double T[LANES], N_plate[LANES];  // loads of rivets and plates [N]
     // contacts with the walls of each half (model.h), their loads [N]
-    double touch_x[2][LANES], touch_t[2][LANES], touch_k[2][LANES], touch_rate[2][LANES], touch_Q[2][LANES];
+    double touch_x[2][LANES], touch_t[2][LANES], touch_K[2][LANES], touch_delta[2][LANES], touch_Q[2][LANES];
     double touch_r[2][LANES], touch_chi[2][LANES], touch_radius[2][LANES];
     double omega_2;             // square of the halves' speed in space [rad2/s2]
     double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
@@ -30,14 +30,14 @@ typedef struct {
     double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS];
 } Foreseen;
 
-// Substeps of a step of length h from `fast` under the slow rates f.  y: the state at the step's start but
+// Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the step's start but
 // for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
 // the middle.  Velocities and rates of the modes lack the last substep's second half.  Returns the length of
 // the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
-double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f, double *y,
-                             Foreseen *foreseen, const Work *w);
+double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
+                             const double *state, double *y, Foreseen *foreseen, const Work *w);
 
 // Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the
 // fast accelerations at `fast`, less those at `before` if there are any.

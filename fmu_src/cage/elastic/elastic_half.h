@@ -86,6 +86,12 @@ struct ElasticHalf {
     const JointLaw *law;
 };
 
+// The longest step of elastic halves [s]: forces that are constant over it feed vibrations that turn by much more than pi.
+static inline double elastic_longest_step(const ElasticHalf *half)
+{
+    return 3.0 * half->substep;
+}
+
 // The half of the rivet table in the scene.  half: zeros, or that of other parameters, of which parts are kept that
 // follow from what is the same: the modes cost 0.6 ms, which a change of a parameter in a run would cost again.
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);

@@ -46,9 +46,10 @@ typedef struct {
     // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c and pocket_spheres.c) and on the rims
     mode_array wall_force[2];
 
-    // contacts with the walls (pocket.c, pocket_spheres.c): direction (x, t) from the pocket's axis to the ball, stiffness along it [N/m],
-    // 0 without contact, the rate of the approach by ball and half as rigid bodies [m/s], and the load [N]
-    ball_array touch_x[2], touch_t[2], touch_k[2], touch_rate[2], touch_Q[2];
+    // contacts with the walls (pocket.c, pocket_spheres.c), and those that may come in the next step: direction (x, t) from the pocket's
+    // axis to the ball; Hertz's constant by the half's share [N/m1.5], 0 without contact; approach beside what the wall's residual takes,
+    // negative before the contact [m]; load [N]
+    ball_array touch_x[2], touch_t[2], touch_K[2], touch_delta[2], touch_Q[2];
 
     // of a ribbon's walls (pocket_spheres.c) also: direction r, the place's angle chi, negative on the side t < 0, and radius
     // [m]; elastic energy of contact and wall beside the modes [J]

@@ -1,0 +1,118 @@
+"""Loads of balls on the walls of elastic halves within a step: the readable twin of wall_loads.c, which has the equations.
+
+    x(t) = x_0 + r t + b t (t - h)/2 - u(t),  delta + c Q = x,  Q = K delta^1.5
+
+r, b: rate in the middle of the step and acceleration of the rigid approach; u: what the modes have moved the wall.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearing_model.cage.elastic.elastic_half import ROOT
+from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
+from bearing_model.generated.variables import (
+    BALL_OMEGA_M,
+    BALL_R,
+    BALL_THETA,
+    BALL_V_R,
+    BALL_V_X,
+    BALL_X,
+    CAGE_BETA_DOT,
+    CAGE_GAMMA_DOT,
+    CAGE_S,
+    CAGE_V_X,
+    CAGE_V_Y,
+    CAGE_V_Z,
+)
+
+# What an evaluation leaves of the contacts of each half with its walls, in the rows of FastState.touch: direction (x, t), of a ribbon also
+# r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
+TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius"
+
+
+@dataclass
+class WallLoad:
+    """A ball on a wall, or before it: law, approach and load at the step's start, rigid approach, motion of the wall."""
+
+    K: float
+    damped: float  # times K delta^1.5 is the load
+    x: float
+    Q: float
+    rate: float
+    acceleration: float
+    shape: np.ndarray  # motion along the normal by S and D [2, n]
+    start: float  # motion of the wall at the step's start
+
+
+def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
+    """Rate [m/s] in the middle of a step and acceleration [m/s2] of ball k against half h along the contact's normal, both as
+    rigid bodies.
+
+    f: rates at the step's start; state: velocities in its middle; y: positions at its end; half: in the middle.
+    """
+    (v_x, v_r, omega), (a_x, f_r, f_t) = (
+        [rows[block][k] for block in (BALL_V_X, BALL_V_R, BALL_OMEGA_M)] for rows in (state, f)
+    )
+    r, theta = y[BALL_R][k] - gamma * v_r, y[BALL_THETA][k] - gamma * omega
+    e_x, e_r = np.array([1.0, 0.0, 0.0]), np.array([0.0, np.cos(theta), np.sin(theta)])
+    e_t = np.cross(e_x, e_r)
+    a, b_y, b_z, x, v, c, Omega = (
+        getattr(half, name)[:, 0] for name in ("a", "b_y", "b_z", "x", "v", "c", "Omega")
+    )
+    cosine, sine = model.d.pocket_cos[k], model.d.pocket_sin[k]
+    n = touch["x"][k] * a + touch["r"][k] * (cosine * b_y + sine * b_z) + touch["t"][k] * (cosine * b_z - sine * b_y)
+    p = (y[BALL_X][k] - gamma * v_x) * e_x + r * e_r - x
+    turn = np.array([f[block][h] for block in (CAGE_S, CAGE_BETA_DOT, CAGE_GAMMA_DOT)])
+    by_half = np.array([f[block][h] for block in (CAGE_V_X, CAGE_V_Y, CAGE_V_Z)])
+    by_half = by_half + np.cross(turn, p - c) + np.cross(Omega, np.cross(Omega, p - c))
+    by_ball = a_x * e_x + (f_r - r * omega**2) * e_r + (r * f_t + 2.0 * v_r * omega) * e_t
+    rate = n @ (v_x * e_x + v_r * e_r + r * omega * e_t - v - np.cross(Omega, p))
+    return rate, n @ (by_ball - by_half)
+
+
+class WallLoads:
+    """The loads on walls of a step of length h [s]."""
+
+    def __init__(self, model, h, fast, f, state, y, q, w):
+        self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
+        for i, rows in enumerate(fast.touch):
+            touch = dict(zip(TOUCH, rows, strict=True))
+            if not np.any(touch["K"] > 0.0):
+                continue
+            if model.d.spheres:
+                chi = touch["chi"]
+                shape = ribbon_wall_shapes(model.modes, 2 * i - 1, np.abs(chi), touch["radius"], chi < 0.0)[0]
+            else:
+                shape = elastic_wall_shape(model.modes, 2 * i - 1, touch["x"], touch["t"])[0]  # [3, Z, n]
+            along = [touch[name][:, None] * motion for name, motion in zip("xrt", shape, strict=True)]
+            for k in np.flatnonzero(touch["K"] > 0.0):
+                rate, acceleration = rigid_approach(model, self.middle, touch, f, state, y, w.half[i], i, k)
+                K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
+                if delta > 0.0:
+                    x, damped = delta + self.c * K * delta**1.5, Q / (K * delta**1.5)
+                elif delta + h * rate > 0.0:
+                    x, damped = delta, max(1.0 + model.p.cage.lambda_ * rate, 0.0)
+                else:
+                    continue
+                normal = sum(row[k] for row in along) / ROOT
+                both = np.array([normal, (2 * i - 1) * normal])
+                self.loads.append(WallLoad(K, damped, x, Q, rate, acceleration, both, np.sum(both * q)))
+
+    def at(self, load, x):
+        """K delta^1.5 of the approach x."""
+        if not x > 0.0:
+            return 0.0
+        delta, cK = x, self.c * load.K
+        for _ in range(2):
+            delta = max(delta - (delta + cK * delta**1.5 - x) / (1.0 + 1.5 * cK * np.sqrt(delta)), 0.0)
+        return load.K * delta**1.5
+
+    def accelerations(self, t, q):
+        """Of the modes [2, n] by the changes of the loads at the time t of the step, at the coordinates q."""
+        change = np.zeros_like(q)
+        for load in self.loads:
+            x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
+            Q = load.damped * self.at(load, x - (np.sum(load.shape * q) - load.start))
+            change = change + (Q - load.Q) / self.m * load.shape
+        return change
