@@ -14,52 +14,58 @@
 #include "cage/elastic/wall_loads.h"
 
 #include "cage/elastic/elastic_half.h"
-#include "numbers/elementary.h"
-#include "physics/rotor.h"
+#include "numbers/vec.h"
 
-// Motion of the wall at the coordinates q of S and D.
-static double wall_motion(const WallLoad *load, const double *q)
+// Motion of wall i at the coordinates q of S and D.
+static double wall_motion(const WallLoads *loads, int i, const double *q)
 {
+    const double *shape = loads->shape[i], side = loads->side[i];
     double part[8] = {0.0};
-    for (int i = 0; i < N_MODES; i += 8)
-        for (int k = 0; k < 8; k++)
-            part[k] += load->shape[i + k] * (q[i + k] + load->side * q[N_MODES + i + k]);
+    for (int m = 0; m < N_MODES; m += 8)
+        for (int k = 0; k < 8; k++) part[k] += shape[m + k] * (q[m + k] + side * q[N_MODES + m + k]);
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-// Sets rate and acceleration of ball k against half h along the contact's normal, both as rigid bodies.
+// Rates and accelerations of the balls of a packet against half h along the contacts' normals, both as rigid bodies.
+typedef struct {
+    scalar rate[LANE_WIDTH], acceleration[LANE_WIDTH];
+} RigidApproach;
+
 static void rigid_approach(const Model *model, double gamma, const FastState *fast, const double *f,
-                           const double *state, const double *y, const Work *w, int h, int k, WallLoad *load)
+                           const double *state, const double *y, const Work *w, int h, int j,
+                           RigidApproach *to)
 {
     const Rotor *half = &w->half[h];
-    const double cos_phi = model->d->pocket_cos[k], sin_phi = model->d->pocket_sin[k];
-    const double v_x = state[Y_BALL_V_X + k], v_r = state[Y_BALL_V_R + k], omega = state[Y_BALL_OMEGA_M + k];
-    const double r = y[Y_BALL_R + k] - gamma * v_r, theta = y[Y_BALL_THETA + k] - gamma * omega;
-    const double e_r[3] = {0.0, portable_cos(theta), portable_sin(theta)}, e_t[3] = {0.0, -e_r[2], e_r[1]};
-    const double a_r = f[Y_BALL_V_R + k] - r * omega * omega,
-                 a_t = r * f[Y_BALL_OMEGA_M + k] + 2.0 * v_r * omega;
-    const double turn[3] = {f[Y_CAGE_S + h], f[Y_CAGE_BETA_DOT + h], f[Y_CAGE_GAMMA_DOT + h]};
+    const wide v_x = wide_load(&state[Y_BALL_V_X + j]), v_r = wide_load(&state[Y_BALL_V_R + j]);
+    const wide omega = wide_load(&state[Y_BALL_OMEGA_M + j]), zero = wide_set(0.0);
+    const wide x = wide_load(&y[Y_BALL_X + j]) - gamma * v_x, r = wide_load(&y[Y_BALL_R + j]) - gamma * v_r;
+    wide cosine, sine;
+    wide_sincos(wide_load(&y[Y_BALL_THETA + j]) - gamma * omega, &sine, &cosine);
 
-    // n, and the ball's centre from the half's geometric centre and from its centre of mass
-    double n[3], p[3], from_mass[3], carried[3], by_mass[3], turned[3], inward[3];
-    for (int i = 0; i < 3; i++) {
-        n[i] = fast->touch_x[h][k] * half->a[i] +
-               fast->touch_r[h][k] * (cos_phi * half->b_y[i] + sin_phi * half->b_z[i]) +
-               fast->touch_t[h][k] * (cos_phi * half->b_z[i] - sin_phi * half->b_y[i]);
-        p[i] = (i == 0 ? y[Y_BALL_X + k] - gamma * v_x : r * e_r[i]) - half->x[i];
-        from_mass[i] = p[i] - half->c[i];
-    }
-    cross3(half->Omega, p, carried);
-    cross3(half->Omega, from_mass, by_mass);
-    cross3(half->Omega, by_mass, inward);
-    cross3(turn, from_mass, turned);
-    load->rate = load->acceleration = 0.0;
-    for (int i = 0; i < 3; i++) {
-        const double v = i == 0 ? v_x : v_r * e_r[i] + r * omega * e_t[i];
-        const double a = i == 0 ? f[Y_BALL_V_X + k] : a_r * e_r[i] + a_t * e_t[i];
-        load->rate += n[i] * (v - half->v[i] - carried[i]);
-        load->acceleration += n[i] * (a - f[Y_CAGE_V_X + 2 * i + h] - turned[i] - inward[i]);
-    }
+    // normal
+    const vec a = vec_local(half->a, cosine, sine), b_y = vec_local(half->b_y, cosine, sine);
+    const vec b_z = vec_local(half->b_z, cosine, sine);
+    const wide cos_phi = wide_load(&model->d->pocket_cos[j]), sin_phi = wide_load(&model->d->pocket_sin[j]);
+    const vec b = vec_axpy(sin_phi, b_z, vec_scale(cos_phi, b_y)), e_t = vec_cross(a, b);
+    const vec along =
+        vec_axpy(wide_load(&fast->touch_r[h][j]), b, vec_scale(wide_load(&fast->touch_x[h][j]), a));
+    const vec n = vec_axpy(wide_load(&fast->touch_t[h][j]), e_t, along);
+
+    // the ball's centre from the half's geometric centre, and from its centre of mass
+    const vec p = vec_sub((vec){x, r, zero}, vec_local(half->x, cosine, sine));
+    const vec from_mass = vec_sub(p, vec_local(half->c, cosine, sine));
+    const vec Omega = vec_local(half->Omega, cosine, sine);
+    const vec v = vec_add(vec_local(half->v, cosine, sine), vec_cross(Omega, p));
+    wide_store(to->rate, vec_dot(n, vec_sub((vec){v_x, v_r, r * omega}, v)));
+
+    const double *move = &f[Y_CAGE_V_X + h];
+    const double moved[3] = {move[0], move[2], move[4]};
+    const double turned[3] = {f[Y_CAGE_S + h], f[Y_CAGE_BETA_DOT + h], f[Y_CAGE_GAMMA_DOT + h]};
+    const vec by_turn = vec_add(vec_cross(vec_local(turned, cosine, sine), from_mass),
+                                vec_cross(Omega, vec_cross(Omega, from_mass)));
+    const vec ball = {wide_load(&f[Y_BALL_V_X + j]), wide_load(&f[Y_BALL_V_R + j]) - r * omega * omega,
+                      r * wide_load(&f[Y_BALL_OMEGA_M + j]) + 2.0 * v_r * omega};
+    wide_store(to->acceleration, vec_dot(n, vec_sub(ball, vec_add(vec_local(moved, cosine, sine), by_turn))));
 }
 
 // The motion along the normal by each mode of the wall that ball k presses, on a half of a ribbon: that of the evaluation at this place,
@@ -79,80 +85,98 @@ static void ribbon_shape(const Model *model, const FastState *fast, const Work *
     ribbon_wall_shape(model->modes, 2 * h - 1, k, place[3] < 0.0, &nodes, 0, place, shape);
 }
 
-// Sets law and start of a contact; returns whether there is one in the step.
-static bool find_law(const Model *model, double h, const FastState *fast, int half, int k, WallLoad *load)
+// Motions along the normal by each mode of the walls that some balls of a packet press.
+static void find_shapes(const Model *model, const FastState *fast, const Work *w, int h, int j,
+                        const int *ball, int count, mode_array *shape)
 {
-    const double delta = fast->touch_delta[half][k], K = fast->touch_K[half][k];
-    load->K = K, load->c = model->modes->compliance;
-    load->side = 2 * half - 1;
-    load->Q = fast->touch_Q[half][k];
-    if (delta > 0.0) {
-        const double Q = K * delta * sqrt(delta);
-        load->x = delta + load->c * Q;
-        load->damped = load->Q / Q;
-        return true;
-    }
-    load->x = delta;
-    load->damped = fmax(1.0 + model->p->cage.lambda * load->rate, 0.0);
-    return delta + h * load->rate > 0.0;
+    WallPlaces places;
+    if (!model->d->spheres.on)
+        elastic_wall_places(model->modes, 2 * h - 1, j, wide_load(&fast->touch_x[h][j]),
+                            wide_load(&fast->touch_t[h][j]), &places);
+    for (int i = 0; i < count; i++)
+        if (model->d->spheres.on)
+            ribbon_shape(model, fast, w, h, ball[i], shape[i]);
+        else
+            elastic_wall_shape(model->modes, 2 * h - 1, ball[i], &places, shape[i]);
+}
+
+// Adds the contact of ball k with half h, if there is one in the step; its shape is not known yet.
+static bool add_load(const Model *model, double h, const FastState *fast, int half, int k, double rate,
+                     double acceleration, WallLoads *loads)
+{
+    const double delta = fast->touch_delta[half][k], K = fast->touch_K[half][k], Q = fast->touch_Q[half][k];
+    const bool pressed = delta > 0.0;
+    if (!pressed && !(delta + h * rate > 0.0)) return false;
+    const double Q_0 = pressed ? K * delta * sqrt(delta) : 0.0;
+    const int i = loads->count++;
+    loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
+    loads->damped[i] = pressed ? Q / Q_0 : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
+    loads->rate[i] = rate, loads->acceleration[i] = acceleration;
+    loads->side[i] = 2 * half - 1;
+    return true;
 }
 
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads)
 {
     const double inv_root = 1.0 / 1.4142135623730951;
-    const bool ribbon = model->d->spheres.on;
     loads->count = 0;
-    loads->middle = 0.5 * h;
+    loads->middle = 0.5 * h, loads->c = model->modes->compliance;
     for (int half = 0; half < 2; half++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&fast->touch_K[half][j]), 0.0));
-            WallPlaces places;
-            bool placed = false;
-            for (int k = j; mask >> (k - j) != 0 && k < Z; k++) {
-                if (!(mask >> (k - j) & 1)) continue;
-                WallLoad *load = &loads->of[loads->count];
-                rigid_approach(model, loads->middle, fast, f, state, y, w, half, k, load);
-                if (!find_law(model, h, fast, half, k, load)) continue;
-                if (!ribbon && !placed)
-                    elastic_wall_places(model->modes, 2 * half - 1, j, wide_load(&fast->touch_x[half][j]),
-                                        wide_load(&fast->touch_t[half][j]), &places);
-                placed = true;
-                if (ribbon)
-                    ribbon_shape(model, fast, w, half, k, load->shape);
-                else
-                    elastic_wall_shape(model->modes, 2 * half - 1, k, &places, load->shape);
-                for (int i = 0; i < N_MODES; i++) load->shape[i] *= inv_root;
-                load->from = wall_motion(load, &y[Y_MODE_S]);
-                loads->count++;
+            const int mask = wide_mask(wide_above(wide_load(&fast->touch_K[half][j]), 0.0)),
+                      first = loads->count;
+            int ball[LANE_WIDTH];
+            RigidApproach approach;
+            if (mask == 0) continue;
+            rigid_approach(model, loads->middle, fast, f, state, y, w, half, j, &approach);
+            for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
+                if (mask >> i & 1 &&
+                    add_load(model, h, fast, half, j + i, approach.rate[i], approach.acceleration[i], loads))
+                    ball[loads->count - 1 - first] = j + i;
+            if (loads->count > first)
+                find_shapes(model, fast, w, half, j, ball, loads->count - first, &loads->shape[first]);
+            for (int i = first; i < loads->count; i++) {
+                for (int m = 0; m < N_MODES; m++) loads->shape[i][m] *= inv_root;
+                loads->from[i] = wall_motion(loads, i, &y[Y_MODE_S]);
             }
         }
+    for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
+        loads->K[i] = loads->damped[i] = loads->x[i] = loads->Q[i] = 0.0;
+        loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
+    }
 }
 
-// Q of the approach x: delta by Newton's method.  The wall's own compliance takes little.
-static double load_at(const WallLoad *load, double x)
+// Loads of a packet of approaches x: delta by Newton's method.  The wall's own compliance takes little.
+INLINE wide loads_at(const WallLoads *loads, int i, wide x)
 {
-    const double cK = load->c * load->K;
-    double delta = x;
-    if (!(x > 0.0)) return 0.0;
-    for (int i = 0; i < 2; i++) {
-        const double root = sqrt(delta);
-        delta = fmax(delta - (delta + cK * delta * root - x) / (1.0 + 1.5 * cK * root), 0.0);
+    const wide zero = wide_set(0.0), K = wide_load(&loads->K[i]), cK = loads->c * K;
+    const wide from = wide_max(x, zero);
+    wide delta = from;
+    for (int n = 0; n < 2; n++) {
+        const wide root = wide_sqrt(delta), load = cK * root;
+        delta = wide_max(delta - (delta + load * delta - from) / (1.0 + 1.5 * load), zero);
     }
-    return load->K * delta * sqrt(delta);
+    return wide_load(&loads->damped[i]) * K * delta * wide_sqrt(delta);
 }
 
 void wall_loads_follow(const Model *model, double t, const double *q, const WallLoads *loads,
                        double slow[2 * N_MODES])
 {
-    const double inv_m = 1.0 / model->p->cage.m, bend = t * (0.5 * t - loads->middle);
-    for (const WallLoad *load = loads->of; load < loads->of + loads->count; load++) {
-        const double u = wall_motion(load, q) - load->from;
-        const double x = load->x + load->rate * t + load->acceleration * bend - u;
-        const double change = (load->damped * load_at(load, x) - load->Q) * inv_m;
-        for (int i = 0; i < N_MODES; i++) {
-            slow[i] += change * load->shape[i];
-            slow[N_MODES + i] += (load->side * change) * load->shape[i];
-        }
+    const double bend = t * (0.5 * t - loads->middle);
+    wall_load_array change, moved;
+    memset(moved, 0, sizeof moved);
+    for (int i = 0; i < loads->count; i++) moved[i] = wall_motion(loads, i, q);
+    for (int i = 0; i < loads->count; i += LANE_WIDTH) {
+        const wide way =
+            wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
+        const wide u = wide_load(&moved[i]) - wide_load(&loads->from[i]);
+        const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u);
+        wide_store(&change[i], (Q - wide_load(&loads->Q[i])) / model->p->cage.m);
     }
+    for (int i = 0; i < loads->count; i++)
+        for (int k = 0; k < N_MODES; k++) {
+            slow[k] += change[i] * loads->shape[i][k];
+            slow[N_MODES + k] += (loads->side[i] * change[i]) * loads->shape[i][k];
+        }
 }

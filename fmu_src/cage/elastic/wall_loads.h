@@ -4,19 +4,18 @@
 
 #include "cage/elastic/cage_substeps.h"
 
-// A ball on the wall of half 0 (side -1) or 1 (side 1), or before it.
-typedef struct {
-    double side, K, c, damped;  // Q = K delta^1.5 times `damped`; compliance of the wall beside its modes
-    double x, Q;                // approach and load at the step's start
-    double rate, acceleration;  // of the rigid approach, in the middle of the step
-    double from;                // the wall's motion at the step's start
-    mode_array shape;           // its motion along the normal by S; by D: side times that
-} WallLoad;
+enum { WALL_LOADS = (2 * Z + 7) / 8 * 8 };  // room for packets
 
+typedef double wall_load_array[WALL_LOADS];
+
+// Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
     int count;
-    double middle;  // of the step [s]
-    WallLoad of[2 * Z];
+    double middle, c;                    // of the step [s]; compliance of the walls beside their modes
+    wall_load_array side, K, damped, Q;  // law K delta^1.5 times `damped`, load at the step's start
+    wall_load_array x, from;             // approach and motion of the wall at the step's start
+    wall_load_array rate, acceleration;  // of the rigid approach, in the middle of the step and at its start
+    mode_array shape[2 * Z];             // motion of the wall along the normal by S; by D: side times that
 } WallLoads;
 
 // Those of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
