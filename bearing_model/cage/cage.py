@@ -135,6 +135,13 @@ def cage_orbit_scale(p):
     return 1.0 / 3.75 if cage_vibrates(p) else 1.0 / 6.0
 
 
+def cage_friction_scale(p):
+    """Deflections at which the plates slip that the scale of the friction states gets: their errors hardly change the halves'
+    velocities, and less so where halves give way.
+    """
+    return 40.0 if cage_vibrates(p) else 20.0
+
+
 def cage_rest(model, omega, y):
     """Puts the cage, which turns steadily with the speed omega [rad/s], into its rest under the centrifugal load: modes, and
     elastic halves as far apart as their bodies are then.

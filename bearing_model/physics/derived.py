@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearing_model.cage.cage import cage_orbit_scale, cage_refusal, cage_vibrates
+from bearing_model.cage.cage import cage_friction_scale, cage_orbit_scale, cage_refusal, cage_vibrates
 from bearing_model.cage.common.centrifugal import cage_centrifugal
 from bearing_model.cage.common.pocket_spheres_setup import spheres_derive
 from bearing_model.cage.common.pocket_squeeze import pocket_squeeze_derive
@@ -264,7 +264,7 @@ def derive_scales(p, d):
     length, velocity, r = 1e-5, 0.1 if equal else 0.5, 0.5 * p.bearing.d_m
     vibrates, orbit = cage_vibrates(p), velocity * cage_orbit_scale(p)
     slip = max(p.joint.mu * d.P_mean, 3.0)  # force at which plates slip; of a loose joint the default's
-    friction = slip if equal else 20.0 * slip
+    friction = slip if equal else cage_friction_scale(p) * slip
     by_class = {
         "length": length,
         "velocity": velocity,

@@ -44,6 +44,10 @@ bool cage_vibrates(const Parameters *p);
 // less so where walls give way.
 double cage_orbit_scale(const Parameters *p);
 
+// Deflections at which the plates slip that the scale of the friction states gets: their errors hardly change the halves'
+// velocities, and less so where halves give way.
+double cage_friction_scale(const Parameters *p);
+
 // Number of states of the scene.
 static inline int cage_states(const Model *model)
 {

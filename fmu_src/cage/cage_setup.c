@@ -39,6 +39,11 @@ double cage_orbit_scale(const Parameters *p)
     return cage_vibrates(p) ? 1.0 / 3.75 : 1.0 / 6.0;
 }
 
+double cage_friction_scale(const Parameters *p)
+{
+    return cage_vibrates(p) ? 40.0 : 20.0;
+}
+
 // Elastic halves are as far apart as their bodies are under the centrifugal load.
 void cage_rest(const Model *model, double omega, double *y)
 {

@@ -383,7 +383,7 @@ static void derive_scales(const Parameters *p, Derived *d)
     const double orbit = velocity * cage_orbit_scale(p);
     const double slip =
         fmax(p->joint.mu * d->P_mean, 3.0);  // force at which plates slip; of a loose joint the default's
-    const double friction = equal ? slip : 20.0 * slip;
+    const double friction = equal ? slip : cage_friction_scale(p) * slip;
     d->scale[SCALE_LENGTH] = length;
     d->scale[SCALE_VELOCITY] = velocity;
     d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;

@@ -35,6 +35,8 @@ TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius"
 class WallLoad:
     """A ball on a wall, or before it: law, approach and load at the step's start, rigid approach, motion of the wall."""
 
+    half: int
+    ball: int
     K: float
     damped: float  # times K delta^1.5 is the load
     x: float
@@ -97,7 +99,7 @@ class WallLoads:
                     continue
                 normal = sum(row[k] for row in along) / ROOT
                 both = np.array([normal, (2 * i - 1) * normal])
-                self.loads.append(WallLoad(K, damped, x, Q, rate, acceleration, both, np.sum(both * q)))
+                self.loads.append(WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q)))
 
     def at(self, load, x):
         """K delta^1.5 of the approach x."""
