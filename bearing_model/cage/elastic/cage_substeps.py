@@ -205,7 +205,7 @@ def cage_substeps_advance(model, h, fast, f, state, y, w):
         at.u = at.u + sub * at.v
         lost = cage_joint_advance(model, sub, k_in, at, y)
         y[WORK] -= lost + sub * model.p.cage.m * np.sum(half.damping * v_m**2)
-        held = slow_modes + loads.accelerations(step * sub, q)
+        held = slow_modes + loads.accelerations(step * sub, q, to_halves(model, h0, moved))
         if step == steps:
             break
 

@@ -1,8 +1,9 @@
 """Loads of balls on the walls of elastic halves within a step: the readable twin of wall_loads.c, which has the equations.
 
-    x(t) = x_0 + r t + b t (t - h)/2 - u(t),  delta + c Q = x,  Q = K delta^1.5
+    x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q = x,  Q = K delta^1.5
 
-r, b: rate in the middle of the step and acceleration of the rigid approach; u: what the modes have moved the wall.
+r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: what the modes and the relative
+motions d by the joints have moved the wall.
 """
 
 from dataclasses import dataclass
@@ -45,11 +46,12 @@ class WallLoad:
     acceleration: float
     shape: np.ndarray  # motion along the normal by S and D [2, n]
     start: float  # motion of the wall at the step's start
+    along: np.ndarray  # motion along the normal by those of the half: x, y, z, beta, gamma, spin [6]
 
 
 def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
     """Rate [m/s] in the middle of a step and acceleration [m/s2] of ball k against half h along the contact's normal, both as
-    rigid bodies.
+    rigid bodies; motion along it by those of the half [6].
 
     f: rates at the step's start; state: velocities in its middle; y: positions at its end; half: in the middle.
     """
@@ -70,7 +72,8 @@ def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
     by_half = by_half + np.cross(turn, p - c) + np.cross(Omega, np.cross(Omega, p - c))
     by_ball = a_x * e_x + (f_r - r * omega**2) * e_r + (r * f_t + 2.0 * v_r * omega) * e_t
     rate = n @ (v_x * e_x + v_r * e_r + r * omega * e_t - v - np.cross(Omega, p))
-    return rate, n @ (by_ball - by_half)
+    lever = np.cross(p - c, n)
+    return rate, n @ (by_ball - by_half), np.concatenate([n, lever[1:], lever[:1]])
 
 
 class WallLoads:
@@ -89,7 +92,7 @@ class WallLoads:
                 shape = elastic_wall_shape(model.modes, 2 * i - 1, touch["x"], touch["t"])[0]  # [3, Z, n]
             along = [touch[name][:, None] * motion for name, motion in zip("xrt", shape, strict=True)]
             for k in np.flatnonzero(touch["K"] > 0.0):
-                rate, acceleration = rigid_approach(model, self.middle, touch, f, state, y, w.half[i], i, k)
+                rate, acceleration, along_half = rigid_approach(model, self.middle, touch, f, state, y, w.half[i], i, k)
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
                 if delta > 0.0:
                     x, damped = delta + self.c * K * delta**1.5, Q / (K * delta**1.5)
@@ -99,7 +102,7 @@ class WallLoads:
                     continue
                 normal = sum(row[k] for row in along) / ROOT
                 both = np.array([normal, (2 * i - 1) * normal])
-                self.loads.append(WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q)))
+                self.loads.append(WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q), along_half))
 
     def at(self, load, x):
         """K delta^1.5 of the approach x."""
@@ -110,11 +113,14 @@ class WallLoads:
             delta = max(delta - (delta + cK * delta**1.5 - x) / (1.0 + 1.5 * cK * np.sqrt(delta)), 0.0)
         return load.K * delta**1.5
 
-    def accelerations(self, t, q):
-        """Of the modes [2, n] by the changes of the loads at the time t of the step, at the coordinates q."""
+    def accelerations(self, t, q, by_joints):
+        """Of the modes [2, n] by the changes of the loads at the time t of the step, at the coordinates q and motions of the halves
+        [6, 2] by the fast accelerations.
+        """
         change = np.zeros_like(q)
         for load in self.loads:
             x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
-            Q = load.damped * self.at(load, x - (np.sum(load.shape * q) - load.start))
+            x = x - (np.sum(load.shape * q) - load.start) - load.along @ by_joints[:, load.half]
+            Q = load.damped * self.at(load, x)
             change = change + (Q - load.Q) / self.m * load.shape
         return change

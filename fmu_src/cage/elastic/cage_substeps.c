@@ -43,22 +43,22 @@
 static const double MOST_SUBSTEPS = 1000.0;  // an absurd step ends with a refusal, not with years of substeps
 static const double ROUNDING = 1e-9;         // part of a substep by which the last one may be longer
 
-enum { X, ABOUT_Y, ABOUT_Z, ACROSS_Y, ACROSS_Z, SPIN };  // relative rigid motions
-
 // Adds h times the relative motions to rows of both halves, from row `first` on.
 static void to_halves(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
                       int first, double *y)
 {
     const RelativeInertia *inertia = &model->d->relative;
     const double *b_y = h0->b_y, *b_z = h0->b_z;
-    const double across_y = inertia->part * relative[ACROSS_Y], across_z = inertia->part * relative[ACROSS_Z];
-    const double about_y = inertia->tilt * relative[ACROSS_Z], about_z = -inertia->tilt * relative[ACROSS_Y];
-    const double change[6] = {relative[X],  // x, y, z, beta, gamma, s
+    const double across_y = inertia->part * relative[MOTION_ACROSS_Y],
+                 across_z = inertia->part * relative[MOTION_ACROSS_Z];
+    const double about_y = inertia->tilt * relative[MOTION_ACROSS_Z],
+                 about_z = -inertia->tilt * relative[MOTION_ACROSS_Y];
+    const double change[6] = {relative[MOTION_X],  // x, y, z, beta, gamma, s
                               b_y[1] * across_y + b_z[1] * across_z,
                               b_y[2] * across_y + b_z[2] * across_z,
-                              b_y[1] * relative[ABOUT_Y] + b_z[1] * relative[ABOUT_Z],
-                              b_y[2] * relative[ABOUT_Y] + b_z[2] * relative[ABOUT_Z],
-                              relative[SPIN]};
+                              b_y[1] * relative[MOTION_ABOUT_Y] + b_z[1] * relative[MOTION_ABOUT_Z],
+                              b_y[2] * relative[MOTION_ABOUT_Y] + b_z[2] * relative[MOTION_ABOUT_Z],
+                              relative[MOTION_SPIN]};
     for (int i = 0; i < 6; i++) {
         y[first + 2 * i] -= 0.5 * h * change[i];
         y[first + 2 * i + 1] += 0.5 * h * change[i];
@@ -79,12 +79,12 @@ static void between_halves(const Model *model, const Rotor *h0, const double *f,
     for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];
     const double beta = f[Y_CAGE_BETA_DOT] + f[Y_CAGE_BETA_DOT + 1],
                  gamma = f[Y_CAGE_GAMMA_DOT] + f[Y_CAGE_GAMMA_DOT + 1];
-    relative[X] = d[0];
-    relative[ABOUT_Y] = b_y[1] * d[3] + b_y[2] * d[4];
-    relative[ABOUT_Z] = b_z[1] * d[3] + b_z[2] * d[4];
-    relative[ACROSS_Y] = b_y[1] * d[1] + b_y[2] * d[2] - c_x * (b_z[1] * beta + b_z[2] * gamma);
-    relative[ACROSS_Z] = b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma);
-    relative[SPIN] = d[5];
+    relative[MOTION_X] = d[0];
+    relative[MOTION_ABOUT_Y] = b_y[1] * d[3] + b_y[2] * d[4];
+    relative[MOTION_ABOUT_Z] = b_z[1] * d[3] + b_z[2] * d[4];
+    relative[MOTION_ACROSS_Y] = b_y[1] * d[1] + b_y[2] * d[2] - c_x * (b_z[1] * beta + b_z[2] * gamma);
+    relative[MOTION_ACROSS_Z] = b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma);
+    relative[MOTION_SPIN] = d[5];
 }
 
 // Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in
@@ -107,12 +107,12 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
         const wide N = wide_load(&joints->load[0][k]), M_r = wide_load(&joints->load[1][k]),
                    M_t = wide_load(&joints->load[2][k]);
         const wide F_y = wide_load(&joints->F_y[k]), F_z = wide_load(&joints->F_z[k]);
-        wide_store(&force[X][k], -N);
-        wide_store(&force[ABOUT_Y][k], s * M_t - c * M_r - r_z * N);
-        wide_store(&force[ABOUT_Z][k], r_y * N - s * M_r - c * M_t);
-        wide_store(&force[ACROSS_Y][k], F_y);
-        wide_store(&force[ACROSS_Z][k], F_z);
-        wide_store(&force[SPIN][k], r_y * F_z - r_z * F_y);
+        wide_store(&force[MOTION_X][k], -N);
+        wide_store(&force[MOTION_ABOUT_Y][k], s * M_t - c * M_r - r_z * N);
+        wide_store(&force[MOTION_ABOUT_Z][k], r_y * N - s * M_r - c * M_t);
+        wide_store(&force[MOTION_ACROSS_Y][k], F_y);
+        wide_store(&force[MOTION_ACROSS_Z][k], F_z);
+        wide_store(&force[MOTION_SPIN][k], r_y * F_z - r_z * F_y);
     }
     for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * ball_array_sum(force[i]);
 }
@@ -169,11 +169,11 @@ static void rigid_velocities(const Model *model, const Work *w, JointVelocities 
         wide_store(&v->y[k], wide_load(&w->v_jy[k]));
         wide_store(&v->z[k], wide_load(&w->v_jz[k]));
     }
-    v->relative[ABOUT_Y] = about_y, v->relative[ABOUT_Z] = about_z;
-    v->relative[ACROSS_Y] = v->relative[ACROSS_Z] = 0.0;
+    v->relative[MOTION_ABOUT_Y] = about_y, v->relative[MOTION_ABOUT_Z] = about_z;
+    v->relative[MOTION_ACROSS_Y] = v->relative[MOTION_ACROSS_Z] = 0.0;
     for (int k = 0; k < Z; k++) {
-        v->relative[ACROSS_Y] += w->v_jy[k] / Z;
-        v->relative[ACROSS_Z] += w->v_jz[k] / Z;
+        v->relative[MOTION_ACROSS_Y] += w->v_jy[k] / Z;
+        v->relative[MOTION_ACROSS_Z] += w->v_jz[k] / Z;
     }
 }
 
@@ -181,7 +181,7 @@ static void rigid_velocities(const Model *model, const Work *w, JointVelocities 
 // frame into the frame of the middle.
 static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
 {
-    for (int i = ABOUT_Y; i <= ACROSS_Y; i += 2) {
+    for (int i = MOTION_ABOUT_Y; i <= MOTION_ACROSS_Y; i += 2) {
         const double y = relative[i], z = relative[i + 1];
         relative[i] = y - phi * z;
         relative[i + 1] = z + phi * y;
@@ -195,9 +195,9 @@ static void add_spin(double s, double t, const JointVelocities *middle, const do
                      const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
 {
     double back[RELATIVE_MOTIONS];
-    for (int i = ABOUT_Y; i <= ACROSS_Z; i++)
+    for (int i = MOTION_ABOUT_Y; i <= MOTION_ACROSS_Z; i++)
         back[i] = moved[i] + t * (2.0 * middle->relative[i] + relative[i] + 0.5 * t * slow[i]);
-    for (int i = ABOUT_Y; i <= ACROSS_Y; i += 2) {
+    for (int i = MOTION_ABOUT_Y; i <= MOTION_ACROSS_Y; i += 2) {
         relative[i] += s * back[i + 1];
         relative[i + 1] -= s * back[i];
     }
@@ -212,15 +212,18 @@ static void move_joints(const Model *model, double h, const JointVelocities *v,
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide r_y = wide_load(&model->d->rivet_y[k]), r_z = wide_load(&model->d->rivet_z[k]);
         const wide c = r_y * inv_R, s = r_z * inv_R, r = wide_load(&in[0][k]), t = wide_load(&in[1][k]);
-        const wide e_dot[3] = {wide_load(&v->out[0][k]) +
-                                   (relative[X] + (r_z * relative[ABOUT_Y] - r_y * relative[ABOUT_Z])),
-                               wide_load(&v->out[1][k]) + (c * relative[ABOUT_Y] + s * relative[ABOUT_Z]),
-                               wide_load(&v->out[2][k]) + (c * relative[ABOUT_Z] - s * relative[ABOUT_Y])};
+        const wide e_dot[3] = {
+            wide_load(&v->out[0][k]) +
+                (relative[MOTION_X] + (r_z * relative[MOTION_ABOUT_Y] - r_y * relative[MOTION_ABOUT_Z])),
+            wide_load(&v->out[1][k]) + (c * relative[MOTION_ABOUT_Y] + s * relative[MOTION_ABOUT_Z]),
+            wide_load(&v->out[2][k]) + (c * relative[MOTION_ABOUT_Z] - s * relative[MOTION_ABOUT_Y])};
         for (int i = 0; i < 3; i++)
             wide_store(&joints->e[i][k],
                        wide_load(&joints->e[i][k]) + (0.5 * h) * (e_dot[i] + wide_load(&out[i][k])));
-        const wide v_y = wide_load(&v->y[k]) + (relative[ACROSS_Y] - r_z * relative[SPIN]) + (c * r - s * t);
-        const wide v_z = wide_load(&v->z[k]) + (relative[ACROSS_Z] + r_y * relative[SPIN]) + (s * r + c * t);
+        const wide v_y =
+            wide_load(&v->y[k]) + (relative[MOTION_ACROSS_Y] - r_z * relative[MOTION_SPIN]) + (c * r - s * t);
+        const wide v_z =
+            wide_load(&v->z[k]) + (relative[MOTION_ACROSS_Z] + r_y * relative[MOTION_SPIN]) + (s * r + c * t);
         wide_store(&joints->v_y[k], v_y);
         wide_store(&joints->v_z[k], v_z);
         wide_store(&joints->u_y[k], wide_load(&joints->u_y[k]) + h * v_y);
@@ -269,9 +272,9 @@ static double modes_lose(const Model *model, const double *v)
 // Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power.
 static void turn(double t, double rates[RELATIVE_MOTIONS])
 {
-    const double y = rates[ABOUT_Y], z = rates[ABOUT_Z], inv = 1.0 / (1.0 + t * t);
-    rates[ABOUT_Y] = inv * ((1.0 - t * t) * y - 2.0 * t * z);
-    rates[ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
+    const double y = rates[MOTION_ABOUT_Y], z = rates[MOTION_ABOUT_Z], inv = 1.0 / (1.0 + t * t);
+    rates[MOTION_ABOUT_Y] = inv * ((1.0 - t * t) * y - 2.0 * t * z);
+    rates[MOTION_ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
 }
 
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
@@ -332,7 +335,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         move_joints(model, sub, &middle, relative, out, in, &joints);
         y[Y_WORK] -= cage_joint_advance(model, sub, &k_in, &at, y) + sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
-        wall_loads_follow(model, step * sub, q, &loads, foreseen->modes);
+        wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
         if (step == steps) break;
 
         // accelerations there, of which the second half
@@ -344,8 +347,8 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
     }
-    const double moment[RELATIVE_MOTIONS] = {[ABOUT_Y] = -gyro * speed[ABOUT_Z],
-                                             [ABOUT_Z] = gyro * speed[ABOUT_Y]};
+    const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
+                                             [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};
     memset(foreseen->halves, 0, sizeof foreseen->halves);
     to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);

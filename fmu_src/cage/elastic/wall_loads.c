@@ -4,9 +4,10 @@
 // motion a step late, which is unstable where the contact is stiffer than the wall, and a ball that arrives within the
 // step would find a wall that knows nothing of it.  So the approach of ball and wall follows,
 //
-//     x(t) = x_0 + r t + b t (t - h)/2 - u(t)          r, b: rate in the middle of the step and acceleration of the rigid
-//                                                      approach, u: what the modes have moved the wall since the start
-//     delta + c Q = x,   Q = K delta^1.5               c: compliance of the wall beside its modes; K: Hertz's, by the half's share
+//     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t)   r, b: rate in the middle of the step and acceleration of the rigid
+//                                                        approach by slow forces; u, g.d: what the modes and the relative
+//                                                        motions d by the joints have moved the wall since the start
+//     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
 // and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The rigid bodies move here as velocity
 // Verlet moves them: after the step x is where the evaluation finds it.  x_0 < 0 before a contact.  Direction and
@@ -29,7 +30,28 @@ static double wall_motion(const WallLoads *loads, int i, const double *q)
 // Rates and accelerations of the balls of a packet against half h along the contacts' normals, both as rigid bodies.
 typedef struct {
     scalar rate[LANE_WIDTH], acceleration[LANE_WIDTH];
+    scalar relative[RELATIVE_MOTIONS][LANE_WIDTH];  // motion of the half by relative motions at the joints
 } RigidApproach;
+
+// Motions along n by the relative motions, of the place `lever` from a half's centre of mass (to_halves of cage_substeps.c).
+INLINE void relative_approach(const Model *model, const Work *w, int h, wide cosine, wide sine, vec n,
+                              vec from_mass, RigidApproach *to)
+{
+    const RelativeInertia *inertia = &model->d->relative;
+    const Rotor *h0 = &w->half[0];
+    const double axis_y[3] = {0.0, h0->b_y[1], h0->b_y[2]}, axis_z[3] = {0.0, h0->b_z[1], h0->b_z[2]};
+    const vec b_y = vec_local(axis_y, cosine, sine), b_z = vec_local(axis_z, cosine, sine);
+    const vec turn = vec_cross(from_mass, n);
+    const wide part = wide_set(h == 0 ? -0.5 : 0.5), across = inertia->part * part,
+               tilt = wide_set(inertia->tilt);
+    const wide about_y = vec_dot(turn, b_y), about_z = vec_dot(turn, b_z);
+    wide_store(to->relative[MOTION_X], part * n.x);
+    wide_store(to->relative[MOTION_ABOUT_Y], part * about_y);
+    wide_store(to->relative[MOTION_ABOUT_Z], part * about_z);
+    wide_store(to->relative[MOTION_ACROSS_Y], across * vec_dot(n, b_y) - tilt * about_z);
+    wide_store(to->relative[MOTION_ACROSS_Z], across * vec_dot(n, b_z) + tilt * about_y);
+    wide_store(to->relative[MOTION_SPIN], part * turn.x);
+}
 
 static void rigid_approach(const Model *model, double gamma, const FastState *fast, const double *f,
                            const double *state, const double *y, const Work *w, int h, int j,
@@ -66,6 +88,7 @@ static void rigid_approach(const Model *model, double gamma, const FastState *fa
     const vec ball = {wide_load(&f[Y_BALL_V_X + j]), wide_load(&f[Y_BALL_V_R + j]) - r * omega * omega,
                       r * wide_load(&f[Y_BALL_OMEGA_M + j]) + 2.0 * v_r * omega};
     wide_store(to->acceleration, vec_dot(n, vec_sub(ball, vec_add(vec_local(moved, cosine, sine), by_turn))));
+    relative_approach(model, w, h, cosine, sine, n, from_mass, to);
 }
 
 // The motion along the normal by each mode of the wall that ball k presses, on a half of a ribbon: that of the evaluation at this place,
@@ -101,9 +124,11 @@ static void find_shapes(const Model *model, const FastState *fast, const Work *w
 }
 
 // Adds the contact of ball k with half h, if there is one in the step; its shape is not known yet.
-static bool add_load(const Model *model, double h, const FastState *fast, int half, int k, double rate,
-                     double acceleration, WallLoads *loads)
+static bool add_load(const Model *model, double h, const FastState *fast, int half, int j, int lane,
+                     const RigidApproach *approach, WallLoads *loads)
 {
+    const int k = j + lane;
+    const double rate = approach->rate[lane];
     const double delta = fast->touch_delta[half][k], K = fast->touch_K[half][k], Q = fast->touch_Q[half][k];
     const bool pressed = delta > 0.0;
     if (!pressed && !(delta + h * rate > 0.0)) return false;
@@ -111,7 +136,8 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
     const int i = loads->count++;
     loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
     loads->damped[i] = pressed ? Q / Q_0 : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
-    loads->rate[i] = rate, loads->acceleration[i] = acceleration;
+    loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane];
+    for (int m = 0; m < RELATIVE_MOTIONS; m++) loads->relative[m][i] = approach->relative[m][lane];
     loads->side[i] = 2 * half - 1;
     return true;
 }
@@ -131,8 +157,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
             if (mask == 0) continue;
             rigid_approach(model, loads->middle, fast, f, state, y, w, half, j, &approach);
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-                if (mask >> i & 1 &&
-                    add_load(model, h, fast, half, j + i, approach.rate[i], approach.acceleration[i], loads))
+                if (mask >> i & 1 && add_load(model, h, fast, half, j, i, &approach, loads))
                     ball[loads->count - 1 - first] = j + i;
             if (loads->count > first)
                 find_shapes(model, fast, w, half, j, ball, loads->count - first, &loads->shape[first]);
@@ -144,6 +169,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
         loads->K[i] = loads->damped[i] = loads->x[i] = loads->Q[i] = 0.0;
         loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
+        for (int m = 0; m < RELATIVE_MOTIONS; m++) loads->relative[m][i] = 0.0;
     }
 }
 
@@ -160,7 +186,8 @@ INLINE wide loads_at(const WallLoads *loads, int i, wide x)
     return wide_load(&loads->damped[i]) * K * delta * wide_sqrt(delta);
 }
 
-void wall_loads_follow(const Model *model, double t, const double *q, const WallLoads *loads,
+void wall_loads_follow(const Model *model, double t, const double *q,
+                       const double by_joints[RELATIVE_MOTIONS], const WallLoads *loads,
                        double slow[2 * N_MODES])
 {
     const double bend = t * (0.5 * t - loads->middle);
@@ -170,7 +197,9 @@ void wall_loads_follow(const Model *model, double t, const double *q, const Wall
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
         const wide way =
             wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
-        const wide u = wide_load(&moved[i]) - wide_load(&loads->from[i]);
+        wide u = wide_load(&moved[i]) - wide_load(&loads->from[i]);
+        for (int m = 0; m < RELATIVE_MOTIONS; m++)
+            u = wide_fma(wide_load(&loads->relative[m][i]), wide_set(by_joints[m]), u);
         const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u);
         wide_store(&change[i], (Q - wide_load(&loads->Q[i])) / model->p->cage.m);
     }

@@ -6,6 +6,9 @@
 
 enum { WALL_LOADS = (2 * Z + 7) / 8 * 8 };  // room for packets
 
+// Relative rigid motions of the halves at the joints.
+enum { MOTION_X, MOTION_ABOUT_Y, MOTION_ABOUT_Z, MOTION_ACROSS_Y, MOTION_ACROSS_Z, MOTION_SPIN };
+
 typedef double wall_load_array[WALL_LOADS];
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
@@ -15,7 +18,8 @@ typedef struct {
     wall_load_array side, K, damped, Q;  // law K delta^1.5 times `damped`, load at the step's start
     wall_load_array x, from;             // approach and motion of the wall at the step's start
     wall_load_array rate, acceleration;  // of the rigid approach, in the middle of the step and at its start
-    mode_array shape[2 * Z];             // motion of the wall along the normal by S; by D: side times that
+    wall_load_array relative[RELATIVE_MOTIONS];  // motion of the half along the normal by those at the joints
+    mode_array shape[2 * Z];  // motion of the wall along the normal by S; by D: side times that
 } WallLoads;
 
 // Those of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
@@ -24,7 +28,9 @@ typedef struct {
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
-// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step, q: coordinates there.
+// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step.  q: coordinates there,
+// by_joints: relative motions by the fast accelerations.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
-void wall_loads_follow(const Model *model, double t, const double *q, const WallLoads *loads,
+void wall_loads_follow(const Model *model, double t, const double *q,
+                       const double by_joints[RELATIVE_MOTIONS], const WallLoads *loads,
                        double slow[2 * N_MODES]);
