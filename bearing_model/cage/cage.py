@@ -132,7 +132,7 @@ def cage_orbit_scale(p):
     """Part of the velocity scale that a ball's velocity along its orbit gets: it decides how the ball meets its pocket, less
     so where walls give way.
     """
-    return 1.0 / 3.75 if cage_vibrates(p) else 1.0 / 6.0
+    return 1.0 / 4.5 if cage_vibrates(p) else 1.0 / 6.0
 
 
 def cage_friction_scale(p):

@@ -36,7 +36,7 @@ const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memo
 
 double cage_orbit_scale(const Parameters *p)
 {
-    return cage_vibrates(p) ? 1.0 / 3.75 : 1.0 / 6.0;
+    return cage_vibrates(p) ? 1.0 / 4.5 : 1.0 / 6.0;
 }
 
 double cage_friction_scale(const Parameters *p)
