@@ -199,9 +199,7 @@ def pocket_elastic(model, w):
         u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
         gap.delta = pocket_approach(model, h, gap.n_x, gap.delta - gap.n_x * u[0] - gap.n_t * u[2])
         w.delta_c[h] = gap.delta
-        on_wall, delta_dot, e.touch_Q[h] = pocket_contacts(
-            model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt)
-        )
+        on_wall, delta_dot, e.touch_Q[h] = pocket_contacts(model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt))
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )

@@ -61,9 +61,7 @@ def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
     r, theta = y[BALL_R][k] - gamma * v_r, y[BALL_THETA][k] - gamma * omega
     e_x, e_r = np.array([1.0, 0.0, 0.0]), np.array([0.0, np.cos(theta), np.sin(theta)])
     e_t = np.cross(e_x, e_r)
-    a, b_y, b_z, x, v, c, Omega = (
-        getattr(half, name)[:, 0] for name in ("a", "b_y", "b_z", "x", "v", "c", "Omega")
-    )
+    a, b_y, b_z, x, v, c, Omega = (getattr(half, name)[:, 0] for name in ("a", "b_y", "b_z", "x", "v", "c", "Omega"))
     cosine, sine = model.d.pocket_cos[k], model.d.pocket_sin[k]
     n = touch["x"][k] * a + touch["r"][k] * (cosine * b_y + sine * b_z) + touch["t"][k] * (cosine * b_z - sine * b_y)
     p = (y[BALL_X][k] - gamma * v_x) * e_x + r * e_r - x
@@ -102,7 +100,9 @@ class WallLoads:
                     continue
                 normal = sum(row[k] for row in along) / ROOT
                 both = np.array([normal, (2 * i - 1) * normal])
-                self.loads.append(WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q), along_half))
+                self.loads.append(
+                    WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q), along_half)
+                )
 
     def at(self, load, x):
         """K delta^1.5 of the approach x."""
