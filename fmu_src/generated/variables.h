@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{5a030642-3c3d-5c67-cdbe-a9d243cadf2a}"  // digest of the table
+#define MODEL_GUID "{dd7e4917-3bd7-d686-e7d4-b41a60e45f33}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
