@@ -88,7 +88,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->N_plate, LANES, load) &&
            values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
            values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_K[0], 2 * LANES, elastic ? 1e20 : 0.0) &&
+           values_are_within(fast->touch_K[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
            values_are_within(fast->touch_delta[0], 2 * LANES, motion) &&
            values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
            values_are_within(fast->touch_r[0], 2 * LANES, motion) &&

@@ -53,6 +53,7 @@ APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 NEWTON = 5  # steps for the wall's compliance, at most
 # last step, whose error is its square over the approach [m]; derivatives, one step behind, have all steps
 SETTLED = 1e-12
+CORNER = 4.0  # largest ratio of a contact's approach to that of the sphere under its load, and the least one's inverse
 
 
 def arc_reach(rim, u, v):
@@ -349,7 +350,9 @@ def spheres_elastic(model, w):
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(at.on_wall, wall.shape, strict=True)
         )
-        own, pressed = maximum(w.delta_c[h], APPROACH_FLOOR), np.real(at.Q_0) > LEAST
+        # Hertz's law for the substeps, through load and approach; near a corner the approach is not the load's
+        pressed, sphere = np.real(at.Q_0) > LEAST, (maximum(at.Q_0, LEAST) / model.d.spheres.K) ** (2.0 / 3.0)
+        own = minimum(maximum(w.delta_c[h], sphere / CORNER), sphere * CORNER)
         e.touch_x[h], e.touch_r[h], e.touch_t[h] = at.n
         e.touch_K[h], e.touch_delta[h] = np.where(pressed, at.Q_0 / own**1.5, 0.0), np.where(pressed, own, 0.0)
         e.touch_Q[h], e.touch_chi[h], e.touch_radius[h] = at.Q, wall.chi, wall.radius

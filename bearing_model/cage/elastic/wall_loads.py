@@ -108,7 +108,8 @@ class WallLoads:
         """K delta^1.5 of the approach x."""
         if not x > 0.0:
             return 0.0
-        delta, cK = x, self.c * load.K
+        cK = self.c * load.K
+        delta = x / (1.0 + cK * np.sqrt(x))
         for _ in range(2):
             delta = max(delta - (delta + cK * delta**1.5 - x) / (1.0 + 1.5 * cK * np.sqrt(delta)), 0.0)
         return load.K * delta**1.5

@@ -184,6 +184,9 @@ void spheres_rigid(const Model *model, Work *w)
 
 static const double APPROACH_FLOOR = 1e-12;  // least approach in the stiffness 3 Q/(2 delta) [m]
 
+// Largest ratio of a contact's approach to that of the sphere under its load, and the least one's inverse.
+static const double CORNER = 4.0;
+
 enum { NEWTON = 5 };  // steps for the wall's compliance, at most
 
 // Last step, whose error is its square over the approach [m].  Derivatives, one step behind, have all steps.
@@ -360,12 +363,15 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     pressed_walls(model, w, h, j, mask, contact, at, shape, &walls);
     sphere_forces(model, w, h, j, gap, contact, pressed, pocket_is_mixed(model), &walls, on_wall, &load);
     const wide n[3] = {side * contact->n_x, contact->n_r, contact->n_t};
-    const wide delta = wide_max(contact->delta, wide_set(APPROACH_FLOOR));
+    // Hertz's law for the substeps, through load and approach; near a corner the approach is not the load's
+    const wide by_sphere = wide_max(contact->Q, wide_set(LEAST)) / model->d->spheres.K;
+    const wide least = wide_exp((2.0 / 3.0) * wide_log(by_sphere)) / CORNER;
+    const wide own = wide_min(wide_max(contact->delta, least), (CORNER * CORNER) * least);
     wide_store(&e->touch_x[h][j], wide_select(pressed, n[0], zero));
     wide_store(&e->touch_r[h][j], wide_select(pressed, n[1], zero));
     wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
-    wide_store(&e->touch_K[h][j], wide_select(pressed, contact->Q / (delta * wide_sqrt(delta)), zero));
-    wide_store(&e->touch_delta[h][j], wide_select(pressed, delta, zero));
+    wide_store(&e->touch_K[h][j], wide_select(pressed, contact->Q / (own * wide_sqrt(own)), zero));
+    wide_store(&e->touch_delta[h][j], wide_select(pressed, own, zero));
     wide_store(&e->touch_Q[h][j], load);
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
     wide_store(&e->touch_chi[h][j], zero);

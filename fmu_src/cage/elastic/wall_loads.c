@@ -173,12 +173,12 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     }
 }
 
-// Loads of a packet of approaches x: delta by Newton's method.  The wall's own compliance takes little.
+// Loads of a packet of approaches x: delta by Newton's method, from x/(1 + c K x^0.5).  Within 0.1 % for c K x^0.5 < 5, 3 % at 50.
 INLINE wide loads_at(const WallLoads *loads, int i, wide x)
 {
     const wide zero = wide_set(0.0), K = wide_load(&loads->K[i]), cK = loads->c * K;
     const wide from = wide_max(x, zero);
-    wide delta = from;
+    wide delta = from / (1.0 + cK * wide_sqrt(from));
     for (int n = 0; n < 2; n++) {
         const wide root = wide_sqrt(delta), load = cK * root;
         delta = wide_max(delta - (delta + load * delta - from) / (1.0 + 1.5 * load), zero);
