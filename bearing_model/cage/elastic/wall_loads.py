@@ -30,6 +30,7 @@ from bearing_model.generated.variables import (
 # What an evaluation leaves of the contacts of each half with its walls, in the rows of FastState.touch: direction (x, t), of a ribbon also
 # r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
 TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius"
+MOST_DAMPED = 1e3  # largest load over that without damping
 
 
 @dataclass
@@ -92,8 +93,9 @@ class WallLoads:
             for k in np.flatnonzero(touch["K"] > 0.0):
                 rate, acceleration, along_half = rigid_approach(model, self.middle, touch, f, state, y, w.half[i], i, k)
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
-                if delta > 0.0:
-                    x, damped = delta + self.c * K * delta**1.5, Q / (K * delta**1.5)
+                Q_0 = K * max(delta, 0.0) ** 1.5
+                if Q_0 > 0.0:
+                    x, damped = delta + self.c * Q_0, min(Q / Q_0, MOST_DAMPED)
                 elif delta + h * rate > 0.0:
                     x, damped = delta, max(1.0 + model.p.cage.lambda_ * rate, 0.0)
                 else:

@@ -123,19 +123,22 @@ static void find_shapes(const Model *model, const FastState *fast, const Work *w
             elastic_wall_shape(model->modes, 2 * h - 1, ball[i], &places, shape[i]);
 }
 
-// Adds the contact of ball k with half h, if there is one in the step; its shape is not known yet.
+// Largest load over that without damping; a ball meets its pocket with some m/s, and lambda is 20 s/m at most.
+static const double MOST_DAMPED = 1e3;
+
+// Adds the contact of a ball with a half, if there is one in the step; its shape is not known yet.
 static bool add_load(const Model *model, double h, const FastState *fast, int half, int j, int lane,
                      const RigidApproach *approach, WallLoads *loads)
 {
     const int k = j + lane;
     const double rate = approach->rate[lane];
     const double delta = fast->touch_delta[half][k], K = fast->touch_K[half][k], Q = fast->touch_Q[half][k];
-    const bool pressed = delta > 0.0;
+    const double Q_0 = delta > 0.0 ? K * delta * sqrt(delta) : 0.0;
+    const bool pressed = Q_0 > 0.0;
     if (!pressed && !(delta + h * rate > 0.0)) return false;
-    const double Q_0 = pressed ? K * delta * sqrt(delta) : 0.0;
     const int i = loads->count++;
     loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
-    loads->damped[i] = pressed ? Q / Q_0 : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
+    loads->damped[i] = pressed ? fmin(Q / Q_0, MOST_DAMPED) : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
     loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane];
     for (int m = 0; m < RELATIVE_MOTIONS; m++) loads->relative[m][i] = approach->relative[m][lane];
     loads->side[i] = 2 * half - 1;
