@@ -30,8 +30,8 @@ typedef struct {
     double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS];
 } Foreseen;
 
-// Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the step's start but
-// for positions and velocities of the halves, which a step without fast accelerations has reached at its end
+// Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the
+// step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
 // the middle.  Velocities and rates of the modes lack the last substep's second half.  Returns the length of
 // the substeps [s].

@@ -33,7 +33,7 @@ typedef struct {
     scalar relative[RELATIVE_MOTIONS][LANE_WIDTH];  // motion of the half by relative motions at the joints
 } RigidApproach;
 
-// Motions along n by the relative motions, of the place `lever` from a half's centre of mass (to_halves of cage_substeps.c).
+// Motions along n by the relative motions at the joints, of a place given from a half's centre of mass (to_halves of cage_substeps.c).
 INLINE void relative_approach(const Model *model, const Work *w, int h, wide cosine, wide sine, vec n,
                               vec from_mass, RigidApproach *to)
 {
