@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from mechanics import Instance, running_state
+from ribbon import RIBBON
 
 from bearing_model.cage.elastic import cage_substeps
 from bearing_model.cage.elastic.wall_loads import TOUCH, WallLoads
@@ -15,12 +16,17 @@ PULSE, FINE, STRIDE = 8e-6, 0.5e-6, 16  # steps, as long as the rise of an impac
 
 
 @pytest.mark.c_only
-def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(core, monkeypatch, record_property):
+@pytest.mark.parametrize(("shape", "least", "half", "nearly_all"), [({}, 2, 1.5e-3, 0.01), (RIBBON, -1, 0.02, 0.12)])
+def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
+    core, monkeypatch, record_property, shape, least, half, nearly_all
+):
     """Positions are those of velocity Verlet, so that what the substeps say of ball and wall at the step's end is what the evaluation finds
     there, but for directions that turn: own approaches of more than 0.2 um, in steps of 4 us.  95 % of the contacts of wild states are
-    within 1 % (observed 0.5), half of them within 0.15 % (0.06).  Balls that arrive within the step are among them.
+    within 1 % (observed 0.5), half of them within 0.15 % (0.06).  Balls that arrive within the step are among them.  In a
+    ribbon, whose directions turn faster and whose law is fitted, half are within 2 % (1.4), 95 % within 12 % (9); arrivals are not followed.
     """
-    scene, model, rng, seen = core.model(ELASTIC), Model.of(ELASTIC), np.random.default_rng(3), {}
+    changes = ELASTIC | shape
+    scene, model, rng, seen = core.model(changes), Model.of(changes), np.random.default_rng(3), {}
 
     class Watched(WallLoads):
         def accelerations(self, t, q, by_joints):
@@ -44,9 +50,9 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(core, monke
             arrivals += load.Q == 0.0
     middle, most = np.quantile(np.abs(errors), [0.5, 0.95])
     record_property("observed", f"{len(errors)} contacts, {arrivals} arrivals: median {middle:.2g}, 95 % {most:.2g}")
-    assert len(errors) > 150 and arrivals > 2
-    assert middle < 1.5e-3
-    assert most < 0.01
+    assert len(errors) > 150 and arrivals > least
+    assert middle < half
+    assert most < nearly_all
 
 
 def put(bearing, y, h):
