@@ -190,18 +190,27 @@ INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const P
     wide_store(&w->elastic.touch_delta[h][j], delta);
 }
 
+// Motion of a wall along the normal of a ball; the motion by each mode is left to the substeps.
+INLINE scalar moved_wall(const Model *model, Work *w, int h, int k, const WallPlaces *places)
+{
+    PressedWall *wall = &w->elastic.pressed[h][k];
+    elastic_wall_shape(model->modes, 2 * h - 1, k, places, wall->shape);
+    memset(wall->place, 0, sizeof wall->place);
+    wall->place[0] = places->n_x[k], wall->place[2] = places->n_t[k];
+    wall->place[5] = model->p->cage.m;
+    return elastic_sum(wall->shape, w->elastic.q[h]);
+}
+
 // Bits of the balls of a packet that press on a wall or on the oil before it, behind what the walls have moved; `near`:
 // those that can have reached it.
-static int find_touched(const Model *model, const Work *w, int h, int j, int near, PocketGap *gap,
+static int find_touched(const Model *model, Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places, bits *pressed)
 {
-    const ElasticHalf *elastic = model->modes;
-    const int side = 2 * h - 1;
     ball_array moved;
-    elastic_wall_places(elastic, side, j, gap->n_x, gap->n_t, places);
+    elastic_wall_places(model->modes, 2 * h - 1, j, gap->n_x, gap->n_t, places);
     wide_store(&moved[j], wide_set(0.0));
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-        if (near >> i & 1) moved[j + i] = elastic_wall_normal(elastic, side, j + i, places, w->elastic.q[h]);
+        if (near >> i & 1) moved[j + i] = moved_wall(model, w, h, j + i, places);
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here

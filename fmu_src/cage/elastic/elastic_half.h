@@ -126,15 +126,11 @@ typedef struct {
 #define elastic_wall_places FOR_ISA(elastic_wall_places)
 void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at);
 
-// Motion of the wall of pocket j along the contact's normal, with the coordinates q.
-#define elastic_wall_normal FOR_ISA(elastic_wall_normal)
-scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q);
-
-// Its motion by each mode there.
+// Motion of the wall of pocket j along the contact's normal by each mode.
 #define elastic_wall_shape FOR_ISA(elastic_wall_shape)
 void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape);
 
-// Sets all of its motion.  S: distance of the ball from the pocket's axis.
+// Sets its velocity and tilt.  S: distance of the ball from the pocket's axis.
 #define elastic_wall FOR_ISA(elastic_wall)
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
                   const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape);

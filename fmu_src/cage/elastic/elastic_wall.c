@@ -120,21 +120,6 @@ INLINE wide normal_motions(const NormalMotion *n, int part, int m)
     return by[0] + by[1];
 }
 
-scalar elastic_wall_normal(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q)
-{
-    const NormalMotion normal = normal_motion(half, side, j, at);
-    const Turn turn = turn_of(half, j);
-    wide sums[EIGHTHS];
-    for (int i = 0; i < EIGHTHS; i++) sums[i] = wide_set(0.0);
-    for (int block = 0; block < ENTRY_OCTETS; block++)
-        for (int i = 0; i < EIGHTHS; i++) {
-            const int m = 8 * block + i * LANE_WIDTH;
-            sums[i] = wide_fma(normal_motions(&normal, 0, m), turned_a(&turn, m, q), sums[i]);
-            sums[i] = wide_fma(normal_motions(&normal, 1, m), normal.by_b * turned_b(&turn, m, q), sums[i]);
-        }
-    return wide_eight_sum(sums);
-}
-
 void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape)
 {
     const NormalMotion normal = normal_motion(half, side, j, at);
@@ -156,14 +141,14 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
     const WallSigns sign = wall_signs(at->back[j], side);
     const double inward = at->inside[j] ? sign.by_b * side : 0.0;
 
-    // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x
-    // + n_t u_chi,t)
-    wide value[3][4], tilted[3][4], rates[3][EIGHTHS], tilts[EIGHTHS];
+    // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x + n_t u_chi,t)
+    const wide n_x = wide_set(at->n_x[j]), n_t = wide_set(at->n_t[j]);
+    wide value[3][4], slope[2][4], rates[3][EIGHTHS], tilts[EIGHTHS];
     for (int t = 0; t < 4; t++) {
-        const scalar n_x = at->n_x[j], n_t = at->n_t[j], slope = inward * at->slope[t][j];
+        const scalar along = inward * at->slope[t][j];
         for (int c = 0; c < 3; c++) value[c][t] = wide_set(sign.of[c] * at->value[t][j]);
-        tilted[0][t] = wide_set(sign.of[0] * (n_t * at->value[t][j] + n_x * slope));
-        tilted[2][t] = wide_set(sign.of[2] * (n_t * slope - n_x * at->value[t][j]));
+        slope[0][t] = wide_set(sign.of[0] * at->n_x[j] * along);
+        slope[1][t] = wide_set(sign.of[2] * at->n_t[j] * along);
     }
     shape->by_b = sign.by_b;
     for (int i = 0; i < EIGHTHS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
@@ -172,18 +157,23 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
             const int m = 8 * block + i * LANE_WIDTH;
             const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
             const wide rate[2] = {turned_a(&turn, m, q_dot), sign.by_b * turned_b(&turn, m, q_dot)};
-            for (int c = 0; c < 3; c++)
-                for (int part = 0; part < 2; part++) {
-                    wide u = wide_set(0.0), tilt = wide_set(0.0);
-                    for (int t = 0; t < 4; t++) {
-                        const wide U = wide_load(&from[t][c][part][m]);
-                        u = wide_fma(value[c][t], U, u);
-                        if (c != 1) tilt = wide_fma(tilted[c][t], U, tilt);
-                    }
-                    wide_store(&shape->motion[c][part][m], u);
-                    rates[c][i] = wide_fma(u, rate[part], rates[c][i]);
-                    if (c != 1) tilts[i] = wide_fma(tilt, place[part], tilts[i]);
+            for (int part = 0; part < 2; part++) {
+                wide u[3];
+                for (int c = 0; c < 3; c++) {
+                    u[c] = wide_set(0.0);
+                    for (int t = 0; t < 4; t++)
+                        u[c] = wide_fma(value[c][t], wide_load(&from[t][c][part][m]), u[c]);
+                    wide_store(&shape->motion[c][part][m], u[c]);
+                    rates[c][i] = wide_fma(u[c], rate[part], rates[c][i]);
                 }
+                wide tilt = n_t * u[0] - n_x * u[2];
+                if (at->inside[j])
+                    for (int t = 0; t < 4; t++) {
+                        tilt = wide_fma(slope[0][t], wide_load(&from[t][0][part][m]), tilt);
+                        tilt = wide_fma(slope[1][t], wide_load(&from[t][2][part][m]), tilt);
+                    }
+                tilts[i] = wide_fma(tilt, place[part], tilts[i]);
+            }
         }
     for (int c = 0; c < 3; c++) wall->u_dot[c][j] = wide_eight_sum(rates[c]);
     wall->tilt[j] = wide_eight_sum(tilts) / S;

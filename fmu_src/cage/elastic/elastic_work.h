@@ -11,8 +11,9 @@ enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
 // One number for each mode of a half; eight modes side by side may reach beyond the last one.
 typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
 
-// Motion along the normal, by each mode, of a ribbon's wall that a ball presses.  The substeps behind the evaluation need it again: it is
-// theirs if the place is, (x, r, t) of the normal, chi, radius and the mass of the half, from which it follows bit for bit.
+// Motion along the normal, by each mode, of a wall that a ball presses or is near.  The substeps behind the evaluation need it again: it
+// is theirs if the place is, (x, r, t) of the normal, of a ribbon chi and radius, and the mass of the half, from which it follows bit
+// for bit.
 typedef struct {
     scalar place[6];
     mode_array shape;

@@ -17,14 +17,36 @@
 #include "cage/elastic/elastic_half.h"
 #include "numbers/vec.h"
 
-// Motion of wall i at the coordinates q of S and D.
-static double wall_motion(const WallLoads *loads, int i, const double *q)
+// Motions of the walls at the coordinates q of S and D.
+static void wall_motions(const WallLoads *loads, const double *q, wall_load_array motion)
 {
-    const double *shape = loads->shape[i], side = loads->side[i];
-    double part[8] = {0.0};
-    for (int m = 0; m < N_MODES; m += 8)
-        for (int k = 0; k < 8; k++) part[k] += shape[m + k] * (q[m + k] + side * q[N_MODES + m + k]);
-    return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+    mode_array half[2];
+    if (loads->count == 0) return;
+    for (int m = 0; m < N_MODES; m += LANE_WIDTH) {
+        const wide S = wide_load(&q[m]), D = wide_load(&q[N_MODES + m]);
+        wide_store(&half[0][m], S - D);
+        wide_store(&half[1][m], S + D);
+    }
+    for (int i = 0; i < loads->count; i++) motion[i] = elastic_sum(loads->shape[i], half[i >= loads->of_0]);
+}
+
+// Adds the forces on the walls to those on S and D.
+static void add_forces(const WallLoads *loads, const wall_load_array force, double *S, double *D)
+{
+    mode_array half[2];
+    if (loads->count == 0) return;
+    memset(half, 0, sizeof half);
+    for (int i = 0; i < loads->count; i++) {
+        double *to = half[i >= loads->of_0];
+        for (int m = 0; m < N_MODES; m += LANE_WIDTH)
+            wide_store(&to[m],
+                       wide_fma(wide_set(force[i]), wide_load(&loads->shape[i][m]), wide_load(&to[m])));
+    }
+    for (int m = 0; m < N_MODES; m += LANE_WIDTH) {
+        const wide of_0 = wide_load(&half[0][m]), of_1 = wide_load(&half[1][m]);
+        wide_store(&S[m], wide_load(&S[m]) + (of_1 + of_0));
+        wide_store(&D[m], wide_load(&D[m]) + (of_1 - of_0));
+    }
 }
 
 // Rates and accelerations of the balls of a packet against half h along the contacts' normals, both as rigid bodies.
@@ -91,11 +113,11 @@ static void rigid_approach(const Model *model, double gamma, const FastState *fa
     relative_approach(model, w, h, cosine, sine, n, from_mass, to);
 }
 
-// The motion along the normal by each mode of the wall that ball k presses, on a half of a ribbon: that of the evaluation at this place,
-// or found again.
-static void ribbon_shape(const Model *model, const FastState *fast, const Work *w, int h, int k,
-                         mode_array shape)
+// The motion along the normal by each mode of the wall that ball k presses: that of the evaluation at this place, or found again.
+static void find_shape(const Model *model, const FastState *fast, const Work *w, int h, int k,
+                       mode_array shape)
 {
+    const int side = 2 * h - 1, j = k / LANE_WIDTH * LANE_WIDTH;
     const double place[6] = {fast->touch_x[h][k],   fast->touch_r[h][k],      fast->touch_t[h][k],
                              fast->touch_chi[h][k], fast->touch_radius[h][k], model->p->cage.m};
     const PressedWall *known = &w->elastic.pressed[h][k];
@@ -103,24 +125,16 @@ static void ribbon_shape(const Model *model, const FastState *fast, const Work *
         memcpy(shape, known->shape, sizeof known->shape);
         return;
     }
-    RibbonNodes nodes;
-    ribbon_wall_nodes(model->modes, wide_set(fabs(place[3])), wide_set(place[4]), &nodes);
-    ribbon_wall_shape(model->modes, 2 * h - 1, k, place[3] < 0.0, &nodes, 0, place, shape);
-}
-
-// Motions along the normal by each mode of the walls that some balls of a packet press.
-static void find_shapes(const Model *model, const FastState *fast, const Work *w, int h, int j,
-                        const int *ball, int count, mode_array *shape)
-{
-    WallPlaces places;
-    if (!model->d->spheres.on)
-        elastic_wall_places(model->modes, 2 * h - 1, j, wide_load(&fast->touch_x[h][j]),
+    if (model->d->spheres.on) {
+        RibbonNodes nodes;
+        ribbon_wall_nodes(model->modes, wide_set(fabs(place[3])), wide_set(place[4]), &nodes);
+        ribbon_wall_shape(model->modes, side, k, place[3] < 0.0, &nodes, 0, place, shape);
+    } else {
+        WallPlaces places;
+        elastic_wall_places(model->modes, side, j, wide_load(&fast->touch_x[h][j]),
                             wide_load(&fast->touch_t[h][j]), &places);
-    for (int i = 0; i < count; i++)
-        if (model->d->spheres.on)
-            ribbon_shape(model, fast, w, h, ball[i], shape[i]);
-        else
-            elastic_wall_shape(model->modes, 2 * h - 1, ball[i], &places, shape[i]);
+        elastic_wall_shape(model->modes, side, k, &places, shape);
+    }
 }
 
 // Largest load over that without damping; a ball meets its pocket with some m/s, and lambda is 20 s/m at most.
@@ -141,7 +155,6 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
     loads->damped[i] = pressed ? fmin(Q / Q_0, MOST_DAMPED) : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
     loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane];
     for (int m = 0; m < RELATIVE_MOTIONS; m++) loads->relative[m][i] = approach->relative[m][lane];
-    loads->side[i] = 2 * half - 1;
     return true;
 }
 
@@ -151,7 +164,8 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     const double inv_root = 1.0 / 1.4142135623730951;
     loads->count = 0;
     loads->middle = 0.5 * h, loads->c = model->modes->compliance;
-    for (int half = 0; half < 2; half++)
+    for (int half = 0; half < 2; half++) {
+        loads->of_0 = loads->count;
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             const int mask = wide_mask(wide_above(wide_load(&fast->touch_K[half][j]), 0.0)),
                       first = loads->count;
@@ -162,13 +176,13 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
                 if (mask >> i & 1 && add_load(model, h, fast, half, j, i, &approach, loads))
                     ball[loads->count - 1 - first] = j + i;
-            if (loads->count > first)
-                find_shapes(model, fast, w, half, j, ball, loads->count - first, &loads->shape[first]);
             for (int i = first; i < loads->count; i++) {
+                find_shape(model, fast, w, half, ball[i - first], loads->shape[i]);
                 for (int m = 0; m < N_MODES; m++) loads->shape[i][m] *= inv_root;
-                loads->from[i] = wall_motion(loads, i, &y[Y_MODE_S]);
             }
         }
+    }
+    wall_motions(loads, &y[Y_MODE_S], loads->from);
     for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
         loads->K[i] = loads->damped[i] = loads->x[i] = loads->Q[i] = 0.0;
         loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
@@ -196,7 +210,7 @@ void wall_loads_follow(const Model *model, double t, const double *q,
     const double bend = t * (0.5 * t - loads->middle);
     wall_load_array change, moved;
     memset(moved, 0, sizeof moved);
-    for (int i = 0; i < loads->count; i++) moved[i] = wall_motion(loads, i, q);
+    wall_motions(loads, q, moved);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
         const wide way =
             wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
@@ -206,9 +220,5 @@ void wall_loads_follow(const Model *model, double t, const double *q,
         const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u);
         wide_store(&change[i], (Q - wide_load(&loads->Q[i])) / model->p->cage.m);
     }
-    for (int i = 0; i < loads->count; i++)
-        for (int k = 0; k < N_MODES; k++) {
-            slow[k] += change[i] * loads->shape[i][k];
-            slow[N_MODES + k] += (loads->side[i] * change[i]) * loads->shape[i][k];
-        }
+    add_forces(loads, change, slow, &slow[N_MODES]);
 }
