@@ -19,8 +19,7 @@ typedef struct {
     wall_load_array x, from;             // approach and motion of the wall at the step's start
     wall_load_array rate, acceleration;  // of the rigid approach, in the middle of the step and at its start
     wall_load_array relative[RELATIVE_MOTIONS];  // motion of the half along the normal by those at the joints
-    mode_array
-        shape[2 * Z];  // motion of the wall along the normal by S; by D the same, of half 0 its negative
+    mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
 
 // Those of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
