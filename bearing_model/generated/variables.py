@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{dd7e4917-3bd7-d686-e7d4-b41a60e45f33}"
+MODEL_GUID = "{749e14c5-5f3b-28c5-22e5-2a0eaa478250}"
 Z = 9
 
 
@@ -361,7 +361,7 @@ PARAMETERS = {
         Variable("scene.breakage", 1806, "Switch", "1", None, 1, None, None, 1, None, "Whether a rivet breaks at the end of the communication step in which its damage reaches 1", "default", False, None),
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: mean, RMS and 99.9 % quantile of force and stress within 1 % or their scatter of the limit; 99.9 % head stress in scene R 3 %, with rigid halves in F 1.2 %", False, None),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5", False, "it decides on the states and their meaning"),
-        Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, a tenth of a pocket's pulse for rigid ones", False, "it decides on the states and their meaning"),
+        Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, at most a tenth of a pocket's pulse", False, "it decides on the states and their meaning"),
         Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms", False, None),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, without limit for solver.method = fixed", "work limit instead of a hung host: at most 0.2 s of processor time for 0.1 ms", False, None),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default", False, "it belongs to the start"),

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{dd7e4917-3bd7-d686-e7d4-b41a60e45f33}"  // digest of the table
+#define MODEL_GUID "{749e14c5-5f3b-28c5-22e5-2a0eaa478250}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
