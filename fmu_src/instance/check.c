@@ -310,7 +310,7 @@ static bool check_ball_spalls(Bearing *b)
     for (int j = 0; j < Z; j++) {
         const double length = p->ball.spall_length[j], width = p->ball.spall_width[j],
                      depth = p->ball.spall_depth[j];
-        char body[16];
+        char body[24];
         snprintf(body, sizeof body, "ball[%d]", j + 1);
         fine &= check_spall(b, body, length, width, depth, p->bearing.D);
         if (!spall_given(length, width, depth) || p->solver.method != METHOD_EXPLICIT) continue;
