@@ -130,7 +130,7 @@ def ask(folder, what):
 
 
 def left_by(folder, what):
-    """The file that a command leaves; each worker of the tests has a folder of its own, where it may not have run."""
+    """The file that a command leaves, which is run if no test of this worker has run it."""
     file = folder / RUNS[what][1]
     if not file.is_file():
         ask(folder, what)

@@ -46,7 +46,7 @@ def build(
         typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler"),
     ] = None,
 ):
-    """Make an FMU for a bearing: needs a C compiler, takes a minute or two; with --table full half an hour more."""
+    """Make an FMU for a bearing: needs a C compiler, takes two to five minutes; with --table full half an hour more."""
     from ..builder import build_fmu, platform_names, table_copy
     from ..fmu import Model
 

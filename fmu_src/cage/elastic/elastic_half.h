@@ -130,7 +130,7 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wid
 #define elastic_wall_shape FOR_ISA(elastic_wall_shape)
 void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape);
 
-// Sets its velocity and tilt.  S: distance of the ball from the pocket's axis.
+// Sets velocity and tilt of that wall, and its motion by each mode.  S: distance of the ball from the pocket's axis.
 #define elastic_wall FOR_ISA(elastic_wall)
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
                   const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape);
