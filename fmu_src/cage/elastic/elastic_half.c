@@ -331,7 +331,7 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     }
     const bool ribbon = p->cage.shape == CAGE_SHAPE_RIBBON;
     half->radii = path->radii > 0 ? path->radii : 1;
-    memcpy(half->radius, path->radius, (size_t)path->radii * sizeof *half->radius);
+    for (int a = 0; a < path->radii; a++) half->radius[a] = path->radius[a];
     for (int a = 0; half->radii == WALL_RADII && a < WALL_RADII; a++) {
         const double *at = half->radius;
         half->per_gaps[a] = 1.0 / ((at[a] - at[(a + 1) % WALL_RADII]) * (at[a] - at[(a + 2) % WALL_RADII]));
