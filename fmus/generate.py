@@ -145,7 +145,7 @@ class Table:
     # by parameter: usual range as factors of its value, share of the stress that goes with it, and the source
     assumptions: dict
     origin: dict  # where the values of another bearing come from, by name
-    catalogue: dict  # its boundary dimensions and load ratings, which are no variables
+    numbers: dict  # its boundary dimensions, load ratings and rivet, which are no variables
     essentials: dict  # names by question
     retired_items: dict  # of enumerations: number and reason, by name
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
@@ -160,7 +160,7 @@ class Table:
     @property
     def guid(self):
         """Digest of all that description and binary must agree on."""
-        content = {name: value for name, value in asdict(self).items() if name != "catalogue" or value}
+        content = {name: value for name, value in asdict(self).items() if name != "numbers" or value}
         digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
         return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
 
@@ -201,7 +201,7 @@ def load_table(bearing=None, path=None):
         *layout,
         raw.get("assumptions", {}),
         changes.get("origin", {}),
-        changes.get("catalogue", {}),
+        changes.get("numbers", {}),
         raw.get("essentials", {}),
         raw.get("retired_items", {}),
         tuple(states[n_plain:]),
@@ -461,7 +461,7 @@ def add_origin(root, table):
     tool = etree.SubElement(etree.SubElement(root, "VendorAnnotations"), "Tool", name="riveted-bearing")
     values = etree.SubElement(tool, "Origin")
     for name, origin in table.origin.items():
-        value = {"value": repr(table.catalogue[name])} if name in table.catalogue else {}
+        value = {"value": repr(table.numbers[name])} if name in table.numbers else {}
         etree.SubElement(values, "Value", name=name, origin=origin, **value)
 
 

@@ -20,6 +20,7 @@ designation, by rule (scaling.py) from the rivet's shank, and from balls and pit
 """
 
 import math
+import re
 from dataclasses import dataclass, field, fields, replace
 from importlib.resources import files
 from pathlib import Path
@@ -35,8 +36,9 @@ from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling
 from .errors import UserError, unknown
+from .file_kinds import OF_BEARINGS, check_keys
 from .origin import EXAMPLE, SOURCE
-from .scene import OF_BEARINGS, load_scene, positive, read_toml, refusal, section_of, shipped_scenes
+from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
@@ -186,7 +188,27 @@ def find_bearing(source):
         return SHIPPED / f"{source}.toml"
     if Path(source).is_file():
         return Path(source)
-    raise unknown("bearing", "name or file", source, known_bearings())
+    raise unknown_designation("bearing", "name or file", source, known_bearings())
+
+
+def unknown_designation(where, kind, name, known):
+    """The error for a designation that is not among the known ones: one with a suffix leads to the designation without
+    it, another number to no other bearing.
+    """
+    number = re.match(r"\d{4,}(?!\d)", str(name))
+    if number and number[0] in known and number[0] != str(name):
+        return UserError(
+            f'{where}: unknown {kind} "{name}"; did you mean "{number[0]}"? Suffixes for seals, cage and clearance are not '
+            'part of the name: a bearing file has clearance = "C3" in [catalogue]'
+        )
+    if number:
+        return UserError(
+            f'{where}: unknown {kind} "{name}"; the catalogue has {len(catalogue.entries())} bearings of the series 60, 62, 63 '
+            "and 64 with bores of 10 to 110 mm; a bearing file describes others"
+        )
+    if Path(name).suffix == ".toml" or Path(name).name != str(name):
+        return UserError(f"{where}: {name}: no such file")
+    return unknown(where, kind, name, known)
 
 
 def is_bearing(source):
@@ -268,7 +290,7 @@ def check_designation(path, document):
         name for name, given in (("Z", document), *((name, parameters) for name in SHAPE[:2])) if name not in given
     ]
     if missing:
-        problem = unknown(path, "designation", document["designation"], catalogue.entries())
+        problem = unknown_designation(path, "designation", document["designation"], catalogue.entries())
         raise UserError(f"{problem}; one that the catalogue does not have needs {', '.join(missing)} too")
 
 
@@ -276,9 +298,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages; usual:
     parts whose material follows from the cage's shape.
     """
-    for key in document:
-        if key not in KEYS:
-            raise unknown(path, "key", key, KEYS)
+    check_keys(path, document, KEYS, "bearing file")
     designation = str(document["designation"])
     entry = catalogue.entries().get(designation) if own != "shipped" else None
     Z = document.get("Z")
@@ -317,7 +337,10 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
     own_balls = entry is not None and Z not in (None, catalogue.balls(entry)[0])
-    rated = {key: value for key, value in ratings(Z, given, entry).items() if key not in data} if own_balls else {}
+    shape = (
+        (given.get("bearing.D", catalogue.balls(entry)[1]), given.get("bearing.d_m", entry.d_m)) if own_balls else ()
+    )
+    rated = {key: value for key, value in ratings(Z, *shape).items() if key not in data} if own_balls else {}
     data |= by_catalogue | rated
     parts = Z, given, sizes | steel, inputs, data, entry
     all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(*parts)
@@ -334,6 +357,9 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
         known = {*([] if Z is None else ["Z"]), *given, *inputs, *inputs_by_rule}
         origin |= dict.fromkeys((name for name in OF_EXAMPLE if name not in known), EXAMPLE)
     values = defaults() | by_rule | inputs_by_rule | given | inputs
+    iso = ratings(all_Z, values["bearing.D"], values["bearing.d_m"])
+    origin |= dict.fromkeys((name for name in iso if name not in data), "rule")
+    data = iso | data
     inside = "" if prefix else in_cage(designation)
     check_limits(path, document, parts, lambda name: called(name, prefix), inside)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
@@ -367,12 +393,11 @@ def called(name, prefix):
     return prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
 
 
-def ratings(Z, given, entry):
-    """C and C_0 [N] by ISO 281 and ISO 76 of a bearing of the catalogue with another number of balls, for which the
-    catalogue's do not hold.
+def ratings(Z, D, d_m):
+    """C and C_0 [N] by ISO 281 and ISO 76 for Z balls [m]: of a bearing without a catalogue's, or with another number of
+    balls, for which the catalogue's do not hold.
     """
-    shape = Z, given.get("bearing.D", catalogue.balls(entry)[1]), given.get("bearing.d_m", entry.d_m)
-    return {"C": scaling.rounded(dynamic_rating(*shape)), "C_0": scaling.rounded(static_rating(*shape))}
+    return {"C": scaling.rounded(dynamic_rating(Z, D, d_m)), "C_0": scaling.rounded(static_rating(Z, D, d_m))}
 
 
 def plain_names(tree):
@@ -675,7 +700,7 @@ def case_of(target=None, fmu=None, cage=None):
     target = EXAMPLE if target is None and fmu is None else target
     names = [*known_bearings(), *shipped_scenes()]
     if target is not None and str(target) not in names and not Path(target).is_file():
-        raise unknown("info", "bearing, scene or file", target, names)
+        raise unknown_designation("info", "bearing, scene or file", target, names)
     if target is not None and is_bearing(target):
         return bearing_case(target, cage=cage)
     if cage is not None:

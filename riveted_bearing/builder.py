@@ -37,6 +37,7 @@ from .results import cache_folder, make_folder, to_toml, write_atomically
 from .ribbon import is_ribbon
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 from .scene import Scene
+from .summary import TABLE_TITLE
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
@@ -179,7 +180,8 @@ def start_document(case, path):
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
     modes = {"modes": table.modes.room} if table.modes else {}
-    about = {"description": fmu_description(case, table), "origin": case.origin, "catalogue": case.catalogue}
+    rivet = {f"rivet.{name}": value for name, value in case.rivet.items() if f"rivet.{name}" in case.origin}
+    about = {"description": fmu_description(case, table), "origin": case.origin, "numbers": case.catalogue | rivet}
     return {"Z": case.Z} | modes | about | start
 
 
@@ -206,7 +208,7 @@ def fmu_description(case, table):
     kind = "Pressed ribbon cage" if is_ribbon(case.values) else "Cage"
     parts += [f"{kind}: {case.materials['cage'].words()}"]
     parts += [CAGE_MEANT] if case.bare else []
-    parts += [f"Stress table of the rivets: {table_text(table)}"]
+    parts += [f"{TABLE_TITLE}{table_text(table)}"]
     return ". ".join(parts)
 
 

@@ -142,6 +142,16 @@ class Model:
     @functools.cached_property
     def catalogue(self):
         """Boundary dimensions [m] and load ratings [N] by the names of a bearing file, as far as the FMU has them."""
+        return {name: value for name, value in self.numbers.items() if not name.startswith("rivet.")}
+
+    @functools.cached_property
+    def rivet(self):
+        """Dimensions of the rivet [m] by the names of a bearing file, as far as the FMU has them."""
+        return {name: value for name, value in self.numbers.items() if name.startswith("rivet.")}
+
+    @functools.cached_property
+    def numbers(self):
+        """Values by the names of a bearing file that are no variables of the FMU, SI."""
         return {name: float(note["value"]) for name, note in self.noted.items() if "value" in note}
 
     @functools.cached_property

@@ -10,6 +10,7 @@ from bearing_model.generated import variables
 
 from . import charts, plot
 from .animation import frames, number_of_balls
+from .assumed import assumed_as_bronze, assumed_rows, measured_in
 from .design.bench import display_of
 from .duty.sn import Strength, assumed, in_words
 from .errors import UserError
@@ -18,11 +19,10 @@ from .life import fatigue_law, rivet_life
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
 from .results import FORMATS, read_result, write_atomically
+from .ribbon import is_guided_by_balls
 from .summary import (
     DEG,
     accelerated,
-    assumed_as_bronze,
-    assumed_rows,
     breaks,
     clearance_of_cage,
     columns,
@@ -30,11 +30,11 @@ from .summary import (
     early_rows,
     flag_note,
     has_statistics,
-    is_guided_by_balls,
     life_is_known,
     no_statistics,
     settle_note,
     settled,
+    speed_note,
     summary_rows,
     table_note,
 )
@@ -129,9 +129,10 @@ def render(result, decides=None, measured=()):
         clearance=clearance_of_cage(result.parameters),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
-        assumed=list(assumed_rows(result)),
+        assumed=(rows := list(assumed_rows(result))),
+        measured_in=measured_in(rows),
         as_bronze=assumed_as_bronze(result),
-        notes=[note for note in (settle_note(result), count_note(result), alone_note(result)) if note],
+        notes=[text for note in (settle_note, count_note, speed_note, alone_note) if (text := note(result))],
         decides=decides,
         measured=views(measured),
         display_of=display_of,
@@ -407,7 +408,9 @@ def solver_rows(result):
     if "solver.method_used" in s:
         yield (
             "method",
-            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)"}.get(s["solver.method_used"], f"{s['solver.method_used']:g}"),
+            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)", 3: "fixed steps"}.get(
+                s["solver.method_used"], f"{s['solver.method_used']:g}"
+            ),
         )
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"

@@ -203,6 +203,8 @@ def origin_problem(name, value):
             if isinstance(value, dict) and all(isinstance(one, str) for one in value.values())
             else "not a table of texts"
         )
+    if name == "rivet":
+        return "" if isinstance(value, dict) and all(map(is_number, value.values())) else "not a table of numbers"
     if name in ("t_end", "step", "settle_turns", "count_turns"):
         return "" if is_number(value) else "not a number"
     return ""

@@ -33,6 +33,11 @@ def is_ribbon(values):
     return values.get("cage.shape") == "ribbon"
 
 
+def is_guided_by_balls(values):
+    """Whether values mean a cage without a land."""
+    return values.get("cage.guidance") == "balls"
+
+
 def sheet(D, designation=""):
     """Thickness of the sheet [m] by rule for a ball [m].
 

@@ -10,13 +10,13 @@ from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
+from .assumed import given_names, ruled_names
 from .basis import basis
 from .fmu import Instance
 from .interrupts import held_interrupts
 from .origin import not_given
 from .record import Record
 from .results import Result
-from .summary import given_names, ruled_names
 from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
@@ -185,6 +185,7 @@ def provenance(model, scene):
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
         "ruled": sorted(ruled_names(model)),
+        "rivet": model.rivet,
         "not_given": not_given(
             {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}
         ),

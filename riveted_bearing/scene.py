@@ -34,12 +34,12 @@ from pathlib import Path
 import numpy as np
 
 from .errors import UserError, refusal, shortlist, unknown
+from .file_kinds import check_keys
 from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change")
-OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet")  # what only a bearing file has
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation")
@@ -193,13 +193,7 @@ def quotes_hint(text, problem):
 
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
-    if any(key in document for key in OF_BEARINGS):
-        raise UserError(
-            f"{where}: this is a bearing file, not a scene: `riveted-bearing build --bearing {where}` makes an FMU of it"
-        )
-    for key in document:
-        if key not in SECTIONS:
-            raise unknown(where, "key", key, SECTIONS)
+    check_keys(where, document, SECTIONS, "scene")
     sections = {name: section_of(where, document, name) for name in SECTIONS[1:5]}
     parameters = read_section(
         where,
@@ -348,7 +342,7 @@ def profile_waves(race, value, model, folder):
 
     if not isinstance(value, dict):
         raise UserError('not a table such as { file = "race.csv", angle = "phi", height = "h" }')
-    check_keys(value, SURFACE, ("file", "angle", "height"))
+    check_entries(value, SURFACE, ("file", "angle", "height"))
     column = read_columns(folder / value["file"])
     units = model.units["rad"], model.units["m"]
     factors = [scale(value[key], of)[0] if key in value else 1.0 for key, of in zip(SURFACE[2::2], units, strict=True)]
@@ -440,7 +434,7 @@ def input_history(value, variable, model, folder):
 
 def from_points(value, scales):
     """A History from { t = [...], value = [...] }."""
-    check_keys(value, HISTORY, ("t", "value"))
+    check_entries(value, HISTORY, ("t", "value"))
     if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
         raise UserError("t and value must be lists")
     factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
@@ -455,7 +449,7 @@ def from_column(value, scales, folder):
     """A History from { file = "...", column = "..." }: CSV with a header line, lines with # in front are skipped, times
     in s.
     """
-    check_keys(value, COLUMN, ("file", "column"))
+    check_entries(value, COLUMN, ("file", "column"))
     column = read_columns(folder / value["file"])
     factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
     return History(column(value.get("time", "time")), (column(value["column"]) - offset) / factor, is_hold(value))
@@ -487,7 +481,7 @@ def read_columns(path):
     return column
 
 
-def check_keys(value, allowed, needed):
+def check_entries(value, allowed, needed):
     """Keys of an input's table: none unknown, none missing, texts where only t and value hold numbers."""
     for key, entry in value.items():
         if key not in allowed:

@@ -4,13 +4,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.generated import variables
+from .plausible import fast
+from .ribbon import is_guided_by_balls
 
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
-OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
 FLAGS = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}  # by bit
 SETTLED = 10.0  # revolutions of the shaft that statistics should leave out
+TABLE_TITLE = "Stress table of the rivets: "  # in an FMU's description, before its kind and error
 COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
 
@@ -102,6 +103,13 @@ def count_note(result):
     )
 
 
+def speed_note(result):
+    """A warning where the shaft turns faster in the mean than few ball bearings do; else ""."""
+    seconds, d_m = result.summary.get("simulated_time", 0.0), result.parameters.get("bearing.d_m", 0.0)
+    turns = result.about.get("settle_turns", 0.0) + result.about.get("count_turns", 0.0)
+    return "".join(fast(2.0 * np.pi * turns / seconds, d_m)) if seconds else ""
+
+
 def early_rows(result):
     """For a run without statistics: (channel, unit, value at the end, largest since the start) of what it has."""
     peaks = [
@@ -121,45 +129,22 @@ def early_rows(result):
             yield channel, unit, float(values[-1]), float(values[np.argmax(np.abs(values))])
 
 
-TABLE_NOTES = {  # by rivet.table_kind
-    2: "the rivets' stress rests on coarse finite elements: RMS error some 2 %, at single loads up to 10 % of the largest stress",
-    3: "the rivets' stress rests on closed forms: tens of per cent off in the head, not on the safe side; build --table coarse makes a better table",
+TABLE_NOTES = {  # by rivet.table_kind: what the stress rests on, as far as the FMU's description does not say it, and a way out
+    2: ("coarse finite elements", ""),
+    3: (
+        "closed forms, tens of per cent off in the head and not on the safe side",
+        "; build --table coarse makes a better table",
+    ),
 }
 
 
 def table_note(result):
     """What limits the rivets' stress beside the model: "" for a full table by finite elements, or if it is not known."""
-    return TABLE_NOTES.get(result.summary.get("rivet.table_kind", 0), "")
-
-
-def assumed_rows(result):
-    """Assumed parameters that move the rivets' stress most: (name, value, low, high, unit, stress, source).
-
-    Neither scene nor bearing file gives them, or others from which they follow.  stress: change of the worst head's
-    99.9 % quantile over the range low to high, over the quantile, at the working point of the 6207.
-    """
-    for name, (low, high, stress, source) in variables.ASSUMPTIONS.items():
-        if name in result.parameters and not is_known(name, set(result.about.get("given", ())), result.parameters):
-            unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
-            factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
-            value = factor * result.parameters[name]
-            low = max(low, least_share(name, result.parameters))
-            yield name, value, low * value, high * value, unit, stress, source
-
-
-def assumed_as_bronze(result):
-    """Values of a cage of bronze that nobody gave for one of another material, in words; "" for none."""
-    known = {*result.about.get("given", ()), *result.about.get("ruled", ())}
-    if result.parameters.get("cage.material", "bronze") == "bronze":
+    if (kind := result.summary.get("rivet.table_kind", 0)) not in TABLE_NOTES:
         return ""
-    shown = (
-        f"{name} {result.parameters[name]:g}"
-        for name in OF_BRONZE
-        if name in result.parameters
-        and name not in known
-        and not (name == "cage.mu_land" and is_guided_by_balls(result.parameters))
-    )
-    return ", ".join(shown)
+    known, remedy = TABLE_NOTES[kind]
+    written = result.about.get("model", "").partition(TABLE_TITLE)[2]
+    return f"the rivets' stress rests on {written if written.startswith(known.partition(',')[0]) else known}{remedy}"
 
 
 def flag_note(result):
@@ -168,11 +153,6 @@ def flag_note(result):
     seen = int(np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))) if flags else 0
     found = [text for bit, text in FLAGS.items() if seen & bit]
     return f"flags of the rivets (rivet[k].flag): {', '.join(found)}" if found else ""
-
-
-def is_guided_by_balls(parameters):
-    """Whether the cage has no land."""
-    return parameters.get("cage.guidance") == "balls"
 
 
 def clearance_of_cage(parameters):
@@ -184,18 +164,6 @@ def eccentricity_title(parameters):
     """Title of cage.eccentricity; of a cage that balls guide it names the clearance."""
     title = "cage eccentricity"
     return f"{title} / pocket clearance" if is_guided_by_balls(parameters) else title
-
-
-def is_known(name, given, parameters):
-    """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's
-    density from the flow of oil; or has no effect: the clearance of a land that a cage guided by its balls does not have.
-    """
-    follows = {
-        "oil.eta": {"oil.nu_1", "oil.nu_2"} <= given,
-        "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0,
-        "cage.guide_clearance": is_guided_by_balls(parameters),
-    }
-    return name in given or follows.get(name, False)
 
 
 def life_is_known(result):
@@ -260,7 +228,6 @@ def settled(result):
     return late if has_statistics(result) else np.ones_like(late)
 
 
-DEEPEST = 1.05  # clearance of a ribbon's pocket over that at which its sphere ends in the split
 PLACES = {1: "head", 2: "middle", 3: "by rivet[k].intact = 0"}
 
 
@@ -301,36 +268,3 @@ def largest_of(values):
 def length_of(values):
     """Length of the vector of the columns at each time."""
     return np.sqrt((values**2).sum(axis=1))
-
-
-def least_share(name, values):
-    """Least part of a value that the other ones leave room for: a ribbon's pocket is no deeper than its sphere."""
-    if name != "cage.pocket_clearance" or values.get("cage.shape") != "ribbon":
-        return 0.0
-    least = 2.0 * values["cage.pocket_depth"] - values["bearing.D"]
-    return DEEPEST * least / values[name]
-
-
-def assumed_ranges(model, scene=None):
-    """Documented ranges of the assumed parameters that follow neither from the bearing's file nor from a scene: {name:
-    (lowest, highest)} in SI.
-    """
-    values = {name: model.default(variable) for name, variable in model.parameters.items()} | (
-        scene.parameters if scene else {}
-    )
-    given = given_names(model, scene)
-    return {
-        name: (max(low, least_share(name, values)) * values[name], high * values[name])
-        for name, (low, high, *_) in variables.ASSUMPTIONS.items()
-        if name in model.parameters and not is_known(name, given, values)
-    }
-
-
-def given_names(model, scene=None):
-    """Names of the parameters that a scene or the bearing's own file gives."""
-    return {*(scene.parameters if scene else ()), *(name for name, origin in model.origin.items() if origin == "yours")}
-
-
-def ruled_names(model):
-    """Names of the parameters that follow from the bearing's file by rule."""
-    return {name for name, origin in model.origin.items() if origin == "rule"}

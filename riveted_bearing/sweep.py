@@ -47,6 +47,7 @@ from filelock import FileLock, Timeout
 
 from .basis import basis
 from .errors import UserError, unknown
+from .file_kinds import check_keys
 from .fmu import Model
 from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
 from .results import KEY, make_folder, one_line, read_table, write_atomically, write_table
@@ -112,9 +113,7 @@ def plan_sweep(name, document, model, path):
     """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it
     names.
     """
-    for key in document:
-        if key not in SECTIONS:
-            raise unknown(path, "key", key, SECTIONS)
+    check_keys(path, document, SECTIONS, "sweep")
     axes = [
         *vary_axes(path, document.get("vary", []), model),
         *sample_axes(path, section_of(path, document, "sample"), model),

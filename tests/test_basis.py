@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 
 from bearing_model.generated.variables import MeanStress
 from riveted_bearing import build, read_result, run
+from riveted_bearing.assumed import assumed_ranges, assumed_rows
 from riveted_bearing.basis import basis
 from riveted_bearing.bearings import case_of, scene_case
 from riveted_bearing.cli import program
@@ -29,7 +30,6 @@ from riveted_bearing.matrices import quasi_static_matrices
 from riveted_bearing.report import render, setting_rows
 from riveted_bearing.runner import provenance
 from riveted_bearing.scene import load_scene
-from riveted_bearing.summary import assumed_ranges, assumed_rows
 from riveted_bearing.sweep import cluster, plan_sweep, run_sweep
 from riveted_bearing.units import hours_text
 
@@ -363,7 +363,7 @@ def test_values_are_shown_as_they_were_written(warm):
 
 
 def names_of(result):
-    return {name for name, *_ in assumed_rows(result)}
+    return {row.name for row in assumed_rows(result)}
 
 
 def test_assumed_is_what_nobody_gave(model, warm):

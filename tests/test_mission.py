@@ -401,16 +401,16 @@ def test_an_event_that_counts_for_nothing_is_refused(model, strike, more, words)
 def test_an_event_that_counts_in_part_is_told(model):
     """Begun before start.settle, or a load that stays after it; none of them for one that lies behind it."""
     for strike in ({"t": [0.001, 0.003], "value": [0, 9]}, {"t": [0.001, 0.0015], "value": [0, 9]}):
-        (text,) = with_strike(model, strike).warnings
+        (text,) = with_strike(model, strike).parts[1].warnings
         assert "event strike: inputs.impact.F_r changes from 0.001 s" in text and "a part of the event" in text
-    assert not with_strike(model, {"t": [0.003, 0.004, 0.005], "value": [0, 9, 0]}).warnings
+    assert not with_strike(model, {"t": [0.003, 0.004, 0.005], "value": [0, 9, 0]}).parts[1].warnings
 
 
 def test_times_of_an_event_count_from_the_end_of_settling(model):
     mission = with_strike(model, after_settle=True)
     history = mission.parts[1].scene.inputs["impact.F_r"]
     np.testing.assert_allclose(history.t, [0.003, 0.0035, 0.004], rtol=1e-12)
-    assert mission.cases[1].scene.inputs["impact.F_r"] is history and not mission.warnings
+    assert mission.cases[1].scene.inputs["impact.F_r"] is history and not mission.parts[1].warnings
 
 
 def test_tables_and_records_become_points(tmp_path, model):

@@ -131,7 +131,7 @@ def test_a_mission_at_its_own_life_has_utilisation_one(tmp_path):
     faster = math.log(found.life / min(found.scaled(1.2))) / math.log(1.2)
     assert 8.0 < faster < 30.0
     made = sheet.mission_sheet(life, found, found.life, files=[tmp_path / "trial.toml"], remarks=["too long"])
-    assert made.remarks[-1] == "too long"
+    assert "too long" in made.remarks
     uses = [check.use for check in made.checks if check.title.endswith("fatigue")]
     assert max(uses) == pytest.approx(1.0, abs=2e-3)
     assert set(found.results) == {"calm", "rough"} and len(made.parts) == 2

@@ -47,9 +47,12 @@ def build(
     ] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes two to five minutes; with --table full half an hour more."""
-    from ..builder import build_fmu, platform_names, table_copy
+    from ..builder import build_fmu, case_with, platform_names, table_copy
     from ..fmu import Model
+    from ..plausible import doubts
 
+    for text in doubts(case_with(bearing, rivet, cage)):
+        messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
     with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("starting", total=None)

@@ -54,6 +54,7 @@ def info(
     from ..basis import basis
     from ..bearings import CAGE_MEANT, EXAMPLE, case_of, is_bearing
     from ..fmu import Model
+    from ..plausible import doubts
     from ..scene import load_scene
 
     case = case_of(target, fmu, cage)
@@ -68,6 +69,8 @@ def info(
         print_basis(basis(model, [load_scene(target, model)]))
     if case.bare:
         console.print(escape(CAGE_MEANT), soft_wrap=True)
+    for text in doubts(case):
+        console.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
     if case.alone:
         console.print(f"[yellow]note:[/] {escape(read_as_scene(case.alone))}", soft_wrap=True)
     for title, table in info_tables(case):
@@ -126,7 +129,7 @@ def geometry(case):
     yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", origins(case, "bearing.P_d")
     left = bearing.clearance - 2.0 * ring_fit_growth(bearing.fit, case.load.omega)
     yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
-    yield "free contact angle", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
+    yield "free contact angle at these temperatures and fits", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
     for label, names in RIBBON if is_ribbon(values) else MACHINED:
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
     if case.rivet is not None:

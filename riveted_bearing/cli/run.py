@@ -151,16 +151,16 @@ def four_digits(value):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
+    from ..assumed import assumed_as_bronze, assumed_rows, measured_in
     from ..in_run import alone_note, change_lines
     from ..summary import (
-        assumed_as_bronze,
-        assumed_rows,
         count_note,
         flag_note,
         has_statistics,
         no_statistics,
         rivet_rows,
         settle_note,
+        speed_note,
         table_note,
     )
 
@@ -197,20 +197,18 @@ def print_summary(result):
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
         soft_wrap=True,
     )
-    assumed = [
-        f"{name} {value:.3g} {unit} ({low:.2g} to {high:.2g}: {100 * stress:.0f} %)"
-        for name, value, low, high, unit, stress, _ in assumed_rows(result)
-    ]
-    if assumed:
-        meant = "usual range: change of the worst head over it, at the working point of the 6207"
+    if rows := list(assumed_rows(result)):
+        meant = f"usual range: change of the worst head over it, {measured_in(rows)}"
+        texts = (f"{row.name} {row.words[0]} ({row.words[1]}: {100 * row.effect.stress:.0f} %)" for row in rows)
         console.print(
-            f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(assumed))}[/]", soft_wrap=True
+            f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(texts))}[/]", soft_wrap=True
         )
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if names := assumed_as_bronze(result):
         console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
-    notes = settle_note(result), count_note(result), flag_note(result), table_note(result), alone_note(result)
+    kinds = (settle_note, count_note, speed_note, flag_note, table_note, alone_note)
+    notes = (note(result) for note in kinds)
     for note in filter(None, notes):
         messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
     for text in dict.fromkeys(about.get("messages", [])):

@@ -31,11 +31,11 @@ def sensitivity(
     """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second
     call does only missing runs.
     """
+    from ..assumed import assumed_ranges
     from ..design.bench import Bench
     from ..design.sensitivity import analyse, plan_sensitivity, salib, write_indices, write_picture
     from ..errors import UserError
     from ..fmu import Model
-    from ..summary import assumed_ranges
 
     if not study.is_file():
         raise UserError(f"{study}: no such study file")

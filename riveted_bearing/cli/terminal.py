@@ -14,7 +14,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from ..errors import UserError, extra, unknown
+from ..errors import UserError, extra, refusal, unknown
 from ..version import __version__
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
@@ -132,6 +132,13 @@ def changes(model, settings, seed, t_end, step):
             raise UserError(f'--set {setting}: not of the form NAME=VALUE, e.g. joint.preload="30 N"')
         section = "inputs" if name.strip() in model.inputs else "parameters"
         document[section][name.strip()] = number_or_text(value.strip().strip("\"'"))
+        if is_of_rivet(name.strip()):
+            raise refusal(
+                "--set",
+                name.strip(),
+                value,
+                "fixed by the build: give it in [rivet] of a bearing file, of which `riveted-bearing build --bearing` makes an FMU",
+            )
         if section == "parameters" and name.strip() not in model.parameters:
             raise unknown("--set", "parameter or input", name.strip(), [*model.parameters, *model.inputs])
     if seed is not None:
@@ -140,6 +147,15 @@ def changes(model, settings, seed, t_end, step):
         key: number_or_text(value) for key, value in (("t_end", t_end), ("step", step)) if value is not None
     }
     return document
+
+
+def is_of_rivet(name):
+    """Whether a name is that of a dimension of the rivet in a bearing file."""
+    if not name.startswith("rivet."):
+        return False
+    from ..bearings import RIVET_SIZES
+
+    return name.removeprefix("rivet.") in RIVET_SIZES
 
 
 def number_or_text(value):

@@ -26,6 +26,7 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from ..errors import UserError
+from ..file_kinds import check_keys
 from ..plot import HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
@@ -80,9 +81,7 @@ class Cascade:
 
 def plan_cascade(path, document):
     """Names and parameters of the cases, number of breaks; UserError names what cannot be used."""
-    for key in document:
-        if key not in KEYS:
-            raise refusal(path, key, document[key], f"allowed keys: {', '.join(KEYS)}")
+    check_keys(path, document, KEYS, "cascade")
     cases = document.get("case", [{}])
     if not isinstance(cases, list) or not all(
         isinstance(case, dict) and set(case) <= {"name", "parameters"} for case in cases

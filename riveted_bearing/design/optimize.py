@@ -23,6 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError, extra, unknown
+from ..file_kinds import check_keys
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
@@ -79,9 +80,7 @@ class Optimum:
 
 def plan_optimize(path, document, model):
     """The Study of a document; raises UserError naming what cannot be used."""
-    for key in document:
-        if key not in KEYS:
-            raise unknown(path, "key", key, KEYS)
+    check_keys(path, document, KEYS, "search for best values")
     counts = {key: count_of(path, key, document.get(key, default)) for key, default in COUNTS.items()}
     if counts["check_seeds"] < 2:
         raise refusal(path, "check_seeds", counts["check_seeds"], "from 2 on, which show scatter, is allowed")

@@ -25,6 +25,7 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import UserError, extra, unknown
+from ..file_kinds import check_keys
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
 from ..scene import refusal, section_of
@@ -78,9 +79,7 @@ def plan_sensitivity(path, document, model, assumed=None):
     """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what
     cannot be used.
     """
-    for key in document:
-        if key not in KEYS:
-            raise unknown(path, "key", key, KEYS)
+    check_keys(path, document, KEYS, "sensitivity study")
     settings = {"trajectories": 8, "levels": 4, "factors": 3, "count": 64}
     for name, keys in METHODS.items():
         for key, value in section_of(path, document, name).items():

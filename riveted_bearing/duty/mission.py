@@ -54,15 +54,17 @@ from pathlib import Path
 
 import numpy as np
 
+from ..assumed import given_names
 from ..basis import basis, loads, speeds
 from ..errors import UserError, unknown
+from ..file_kinds import check_keys
 from ..life import fatigue_law
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
-from ..summary import given_names
 from ..sweep import beside, count_of, key_of
 from ..units import scale, to_si
 from .history import binned, read_columns
 from .miner import Duty
+from .slow import slow_warnings
 from .sn import assumed, in_words, read_strength
 
 SECTIONS = (
@@ -98,6 +100,7 @@ LIFE = {
 }
 HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
+ROUNDED = 0.011  # by how much shares may miss 1, as three of 0.33 do
 RIVETS = ("each", "alike")
 PRELOAD = "joint.preload"
 FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
@@ -135,7 +138,8 @@ class Case:
 @dataclass(frozen=True)
 class Mission:
     """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
-    whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file.
+    whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file;
+    slow: sentences on points at which the shaft turns too few times.
     """
 
     name: str
@@ -151,11 +155,12 @@ class Mission:
     shares: bool = False
     fmu: str = ""
     fmu_sha256: str = ""
+    slow: tuple = ()
 
     @property
     def warnings(self):
         """What the user has to know of the parts before the runs: sentences."""
-        return tuple(text for part in self.parts for text in part.warnings)
+        return (*(text for part in self.parts for text in part.warnings), *self.slow)
 
 
 def load_mission(path, model):
@@ -168,9 +173,7 @@ def load_mission(path, model):
 
 def plan_mission(name, document, model, path):
     """The Mission of a document like the file's."""
-    for key in document:
-        if key not in SECTIONS:
-            raise unknown(path, "key", key, SECTIONS)
+    check_keys(path, document, SECTIONS, "mission")
     settings = life_settings(path, section_of(path, document, "life"))
     parts = [*points(path, document, model), *events(path, document, model)]
     if not any(not part.event for part in parts):
@@ -197,6 +200,7 @@ def plan_mission(name, document, model, path):
         any("share" in block for block in tables(path, document, "point")),
         str(model.path.resolve()),
         model.digest,
+        tuple(slow_warnings(parts, model)),
     )
 
 
@@ -343,6 +347,8 @@ def points(path, document, model):
         if not isinstance(block.get("interpolate", False), bool):
             raise refusal(path, f"{label}: interpolate", block["interpolate"], "allowed: true, false")
         found.append(part_of(path, document, model, label, str(block.get("name", i)), block, weight))
+    if found and "share" in blocks[0] and abs((whole := sum(part.weight for part in found)) - 1.0) > ROUNDED:
+        raise UserError(f"{path}: share: those of the points add up to {whole:.4g}; 1 is allowed")
     if found and "share" in blocks[0] and ("table" in document or "history" in document):
         raise UserError(
             f"{path}: share: points of a table or a history have hours, so that the other points need hours too"

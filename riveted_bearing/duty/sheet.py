@@ -22,6 +22,7 @@ import numpy as np
 from bearing_model.instance.fatigue import fully_reversed
 
 from .. import charts
+from ..assumed import assumed_rows, measured_in
 from ..design.bench import display_of
 from ..errors import UserError, shortlist
 from ..in_run import alone_note, change_lines
@@ -31,7 +32,6 @@ from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
 from ..report import curve, figure
 from ..runner import simulate
 from ..summary import (
-    assumed_rows,
     breaks,
     columns,
     flag_note,
@@ -437,11 +437,10 @@ def assumptions(result, decides=None):
             effect = f"{factor * indices['mu_star'][k]:.2g} {unit}".strip()
             rows.append((factor_name, f"{shown} {own_unit}".strip(), f"{span} {own_unit}".strip(), effect))
         return tuple(rows), f"mean change of {name} over the range, by the study {decides.name}"
-    rows = sorted(assumed_rows(result), key=lambda row: -row[5])[:MOST_ASSUMED]
+    rows = list(assumed_rows(result))[:MOST_ASSUMED]
     return tuple(
-        (name, f"{value:.3g} {unit}", f"{low:.2g} … {high:.2g} {unit}", f"{100 * stress:.0f} % of stress")
-        for name, value, low, high, unit, stress, _ in rows
-    ), "change of the worst head's stress over the usual range, at the working point of the 6207"
+        (row.name, *row.words, f"{100 * row.effect.stress:.0f} % of stress") for row in rows
+    ), f"change of the worst head's stress over the usual range, {measured_in(rows)}"
 
 
 # The sheet ------------------------------------------------------------------------------------------------------------
@@ -578,7 +577,7 @@ def mission_sheet(life, evidence, target=None, decides=None, files=(), remarks=(
         target,
         decides,
         part_lines(life),
-        (*mission.warnings, *remarks),
+        (*remarks, *mission.warnings),
         files,
     )
 

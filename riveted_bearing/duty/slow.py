@@ -1,0 +1,25 @@
+"""Points of a mission at which the shaft turns too few times to settle or to count."""
+
+from ..errors import shortlist
+from ..runner import turns
+from ..summary import COUNTED, SETTLED
+
+KINDS = {  # of turns(): revolutions wanted, what happens with fewer, and the key that makes more
+    "settle_turns": (SETTLED, "damage begins to count after", "parameters.start.settle"),
+    "count_turns": (COUNTED, "damage of a run rests on", "simulation.t_end"),
+}
+
+
+def slow_warnings(parts, model):
+    """Sentences on the simulated points with few revolutions, a shaft at rest apart: at a low speed the start of a run
+    counts, or chance does.
+    """
+    found = {part.name: turns(model, part.scene) for part in parts if part.scene is not None and not part.event}
+    for kind, (wanted, words, key) in KINDS.items():
+        slow = {name: of[kind] for name, of in found.items() if 0.0 < of[kind] < wanted}
+        if slow:
+            least = min(slow.values())
+            yield (
+                f"{'points' if len(slow) > 1 else 'point'} {shortlist(slow, 4)}: {words} {least:.2g} revolutions of the shaft"
+                f"{' or more' if len(slow) > 1 else ''}; from {wanted:g} on it is steady enough to compare ({key})"
+            )

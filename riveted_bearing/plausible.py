@@ -1,0 +1,42 @@
+"""Values that can be computed with but that few bearings have: most often a unit that was forgotten or mistaken."""
+
+import math
+
+from bearing_model.load_ratings import dynamic_rating, static_rating
+
+RATINGS = 1.5  # factor by which makers' C and C_0 do not differ from ISO 281 and ISO 76
+FASTEST = 1.5e6 / 60e3  # n d_m = 1.5 million mm/min [m/s]: oil jets and hybrid bearings go somewhat beyond
+SOLIDS = {  # property: least and largest of polymers, metals and ceramics, factor and unit shown
+    "E": (0.4e9, 700e9, 1e-9, "GPa"),
+    "density": (900.0, 2.3e4, 1.0, "kg/m3"),
+    "expansion": (0.1e-6, 300e-6, 1e6, "1e-6/K"),
+    "yield": (5e6, 5e9, 1e-6, "MPa"),
+    "strength": (5e6, 5e9, 1e-6, "MPa"),
+}
+
+
+def doubts(case):
+    """Sentences on the values of a Case that few bearings have."""
+    values = case.values
+    balls = case.Z, values["bearing.D"], values["bearing.d_m"]
+    for name, usual in (("C", dynamic_rating(*balls)), ("C_0", static_rating(*balls))):
+        given = case.catalogue.get(name, usual)
+        if abs(math.log(given / usual)) > math.log(RATINGS):
+            yield f"{name} = {given:.4g} N, but these balls have {usual:.3g} N by {'ISO 281' if name == 'C' else 'ISO 76'}"
+    for part, material in case.materials.items():
+        for key, (low, high, factor, unit) in SOLIDS.items():
+            if key in material.given and not low <= material.values[key] <= high:
+                shown = f"{factor * material.values[key]:.3g} {unit}"
+                usual = f"{factor * low:.3g} to {factor * high:.3g} {unit}"
+                yield f"{part}.{key} = {shown}: solids have {usual}"
+    yield from fast(abs(values["shaft.omega"] - values.get("housing.omega", 0.0)), values["bearing.d_m"])
+
+
+def fast(omega, d_m):
+    """A sentence on a speed [rad/s] that few ball bearings of a pitch diameter [m] reach."""
+    if omega * d_m > 2.0 * math.pi * FASTEST:
+        speed, product = 30.0 / math.pi * omega, omega * d_m * 30.0 / math.pi * 1e3
+        yield (
+            f"shaft.omega = {speed:,.0f} rev/min: n d_m = {1e-6 * product:.2g} million mm/min, few ball bearings go beyond "
+            f"{60e-3 * FASTEST:.2g} million; a number without its unit is in rad/s"
+        )
