@@ -36,6 +36,7 @@ PARTS = {  # source file -> part
     "elastic_wall": "elastic halves: walls of the pockets",
     "wall_loads": "elastic halves: walls of the pockets",
     "elastic_lands": "elastic halves: films on the rivets",
+    "rim_films": "elastic halves: substeps",
     "ball": "balls: kinematics, accelerations",
     "drag": "drag",
     "ring": "ring",

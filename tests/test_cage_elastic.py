@@ -2,6 +2,8 @@
 and their own exact derivatives.
 """
 
+import operator
+
 import numpy as np
 import pytest
 from library import TWO_HALF
@@ -14,6 +16,7 @@ from bearing_model.cage.elastic.cage_elastic import wall_amplitudes
 from bearing_model.cage.elastic.elastic_half import IN, ROOT, joints_out, mode_order
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape
 from bearing_model.cage.elastic.half_modes import OUT
+from bearing_model.cage.elastic.rim_films import RimFilmsStep
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     ELASTIC_SCALES,
@@ -115,7 +118,7 @@ def test_twins_are_equal(core, scene, isa, record_property):
 )
 def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
     """Two steps in a row and their substeps in both twins, in units of the error scales (observed 2e-12)."""
-    rng, worst, foreseen = np.random.default_rng(6), 0.0, []
+    rng, worst, foreseen, follows = np.random.default_rng(6), 0.0, [], 0
     monkeypatch.setattr(land_film, "bent_foresee", lambda *given: foreseen.append(bent_foresee(*given)) or foreseen[-1])
     c, model = core.model(ELASTIC | scene), Model.of(ELASTIC | scene)
     scale = model.d.scale
@@ -133,10 +136,14 @@ def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
             assert error == pytest.approx(error_twin, rel=1e-6)
             for a, b, unit in ((at.y, end.y, scale), (at.f, end.f, scale / h), (at.jerk, end.jerk, scale / h**2)):
                 worst = max(worst, np.max(np.abs(a - b) / unit / (1.0 + np.max(np.abs(b / unit)) * 1e-3)))
-            for name in ("rim", "squeeze"):
-                found, expected = np.array([list(row) for row in getattr(state.cage, name)]), getattr(end.cage, name)
+            of_twin = end.cage.films
+            pairs = ("films.force", of_twin.force), ("films.rates", of_twin.rates), ("squeeze", end.cage.squeeze)
+            for name, expected in pairs:
+                values = operator.attrgetter(name)(state.cage)
+                found = np.frombuffer(core.ffi.buffer(values), float).reshape(expected.shape)
                 np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8 * np.abs(expected).max())
                 assert scene not in (BENT, JAMMED) or np.all(expected != 0.0)
+            follows += int(RimFilmsStep(model, h, of_twin).follows.sum())
             np.testing.assert_allclose(list(state.cage.fast.T)[:Z], end.cage.fast.T, rtol=1e-9)
             np.testing.assert_allclose(
                 list(state.cage.fast.rigid),
@@ -147,6 +154,7 @@ def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
     record_property("worst", float(worst))
     assert worst < 1e-9
     assert any(foreseen) == (scene == JAMMED)
+    assert bool(follows) == (scene == JAMMED)  # in the substeps
 
 
 @pytest.mark.parametrize(

@@ -19,7 +19,7 @@ GROUPS = {  # from the bottom up
     "elements": "ball drag land_film race_contact ring ring_load",
     "both cages": "cage_joint films halves joint_slip pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze "
     "spheres_squeeze",
-    "one cage": "cage_elastic cage_substeps elastic_lands joint_open two_half wall_loads",
+    "one cage": "cage_elastic cage_substeps elastic_lands joint_open rim_films two_half wall_loads",
     "door of the cage": "cage cage_read cage_setup",
     "constants": "derived",
     "right-hand side": "rhs",

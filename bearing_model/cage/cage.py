@@ -34,6 +34,7 @@ from bearing_model.cage.elastic.cage_substeps import (
     cage_substeps_split,
 )
 from bearing_model.cage.elastic.elastic_half import elastic_half_derive, elastic_half_rest
+from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
 from bearing_model.cage.two_half.two_half import (
     TwoHalfMemory,
     two_half_advance,
@@ -81,8 +82,8 @@ class CageMemory:
 
     path: TwoHalfMemory = None
     fast: FastState = None
-    # forces on the shapes of both bent rims by their films [2, 4] and squeeze velocities of their lands and shapes [2, 6]
-    rim: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
+    films: RimFilms = field(default_factory=RimFilms)
+    # squeeze velocities of the lands and shapes of bent rims [2, 6]
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
 
 
@@ -90,7 +91,8 @@ class CageMemory:
 class CageStep:
     """Between the stages of a step: slow accelerations at the end as the halves' own substeps foresee them, of the modes
     [2, n] and of the halves [12]; length of the substeps [s], 0 without any; what the accelerations foreseen of the shapes of bent
-    rims lack at the end [2, 4]; their squeeze velocities [2, 6] and impulses of the films [2, 6];
+    rims lack at the end [2, 4]; their squeeze velocities [2, 6] and impulses of the films [2, 6]; forces on them that are held at
+    both ends, and those at the start that their impulses so far amount to [2, 4]; rates of the films at the end [2, 6, 6];
     change of the halves' velocities by the substeps behind the evaluation [12].
     """
 
@@ -100,6 +102,9 @@ class CageStep:
     rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
     impulse: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
+    rim_held: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
+    rim_before: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
+    rates: np.ndarray = field(default_factory=lambda: np.zeros((2, 6, 6)))
     late: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
 
 
@@ -202,8 +207,8 @@ def cage_split(model, y, w, f):
         return CageMemory(path=two_half_remember(w))
     memory = CageMemory(fast=cage_substeps_split(model, y, w, f))
     if bent_halves(w).any():
-        memory.rim = np.where(bent_halves(w)[:, None], w.pressure.rim_force.T, 0.0)
-        add_rates(model, -rim_modes(model, memory.rim), f)
+        memory.films.force = np.where(bent_halves(w)[:, None], w.pressure.rim_force.T, 0.0)
+        add_rates(model, -rim_modes(model, memory.films.force), f)
     return memory
 
 
@@ -217,9 +222,10 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
     if not model.modes:
         two_half_advance(model, h, memory.path, w, y)
         return CageStep()
-    add_rates(model, 0.5 * h * rim_modes(model, memory.rim), y)
-    substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, middle, y, w)
-    return CageStep(modes, halves.ravel(), substep)
+    films = RimFilmsStep(model, h, memory.films)
+    add_rates(model, 0.5 * h * rim_modes(model, films.held), y)
+    substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, middle, y, films, w)
+    return CageStep(modes, halves.ravel(), substep, rim_held=films.held, rim_before=films.before(0.5 * h))
 
 
 def cage_predict(model, gamma, w, step, memory, y):
@@ -227,7 +233,7 @@ def cage_predict(model, gamma, w, step, memory, y):
     if model.modes:
         add_rates(model, 0.5 * step.substep * step.modes, y)
         cage_substeps_finish(model, w, step.substep, memory.fast, None, y)
-        add_rates(model, gamma * rim_modes(model, memory.rim), y)
+        add_rates(model, gamma * rim_modes(model, step.rim_held), y)
 
 
 def cage_arrive(model, gamma, w, step, before, y, f):
@@ -243,21 +249,9 @@ def cage_arrive(model, gamma, w, step, before, y, f):
             n = model.modes.n
             lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
             lack = lack + 0.5 * step.substep / gamma * (memory.fast.modes - before.fast.modes)
-            step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.rim - before.rim)
+            step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.films.force - step.rim_before)
             step.squeeze = before.squeeze.copy()
     return memory
-
-
-def rim_motions(model, modes):
-    """Motions of both rims' shapes [2, 4] by coordinates S and D [2, n]."""
-    S, D = modes @ model.modes.rim
-    return np.array([S - D, S + D]) / np.sqrt(2.0)
-
-
-def rim_modes(model, force):
-    """Accelerations of S and D [2, n] by forces on both rims' shapes [2, 4]."""
-    f_0, f_1 = force @ model.modes.rim.T / (np.sqrt(2.0) * model.p.cage.m)
-    return np.array([f_1 + f_0, f_1 - f_0])
 
 
 def bent_halves(w):
@@ -265,17 +259,11 @@ def bent_halves(w):
     return np.zeros(2, dtype=bool) if not w.pressure else np.ravel(np.real(w.pressure.part)) > 0.0
 
 
-def land_lever(model, h):
-    """Lever of the land from the centre of mass of half h [m]."""
-    return (2 * h - 1) * model.p.cage.land_x - model.d.com_x[h]
-
-
 def cage_squeeze(model, gamma):
     """Changes of the squeeze velocities of lands and bent rims per force over half a step, gamma [s]: [2, 6] [m/s/N]; None of rigid halves."""
     if not model.modes:
         return None
-    by = [1.0 / model.p.cage.m + land_lever(model, h) ** 2 / model.d.J_t for h in range(2)]
-    return gamma * np.array([np.append(np.full(2, land), model.modes.mobility) for land in by])
+    return gamma * mobilities(model)
 
 
 def cage_bent_solve(model, gamma, w, step, residual, delta):
@@ -296,23 +284,23 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
         change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia
         change[5] /= 1.0 + gamma * spin / d.J_p
         delta[HALF[:, h]] = change
-        step.squeeze[h], step.impulse[h] = solved.V, solved.impulse
+        step.squeeze[h], step.impulse[h], step.rates[h] = solved.V, solved.impulse, solved.rates
         v = np.concatenate([on.v, on.rim_v])
         less += solved.film @ (v + solved.change) - on.film @ v
         less -= (solved.change[:2] - late) @ solved.impulse[:2] / gamma
-        rates = axes.T @ solved.rates @ axes
+        rates = axes.T @ solved.rates[:2, :2] @ axes
         w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))
     return less
 
 
-def cage_finish(model, gamma, step, before, y, end):
+def cage_finish(model, gamma, step, y, end):
     """Velocities of the modes at the end, with the forces of the films on bent rims there."""
     if model.modes:
         n, memory = model.modes.n, end.cage
-        memory.rim = memory.rim - step.impulse[:, 2:] / gamma
+        memory.films = RimFilms(memory.films.force - step.impulse[:, 2:] / gamma, step.rates)
         memory.squeeze = step.squeeze
         rates = np.array([end.f[MODE_S_DOT][:n], end.f[MODE_D_DOT][:n]])
-        add_rates(model, gamma * (rates - step.modes + rim_modes(model, memory.rim - before.rim)), y)
+        add_rates(model, gamma * (rates - step.modes + rim_modes(model, memory.films.force - step.rim_before)), y)
 
 
 def cage_foreseen(step):
@@ -356,13 +344,14 @@ def cage_remember(model, h, second, start, end, error):
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
-def cage_longest_step(model, film):
+def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of elastic halves three substeps, or
-    the time 1/A that a film of the rate A allows, but two substeps at least.
+    the time 1/A that a film of the rate A allows which does not follow in the substeps, but two substeps at least.
     """
     if not model.modes:
         return np.inf
-    rate, d = np.max(np.trace(film, axis1=1, axis2=2)), model.modes.substep
+    bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
+    rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
     return min(model.modes.longest_step, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
 
 

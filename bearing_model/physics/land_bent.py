@@ -204,8 +204,8 @@ def bent_solve(p, on, gamma, by, residual, V):
     evaluation, and by times what the law has at the end beyond it.  on: of this half; by: change of the velocities per force [6];
     V: squeeze velocities to begin with [6].
 
-    Returns squeeze velocities, their change, impulse of the film and its force [6], its rates yy, yz, zz [2, 2].
+    Returns squeeze velocities, their change, impulse of the film and its force [6], its rates [6, 6].
     """
     start = np.concatenate([on.V, on.rim_V])
     V, film, D = squeeze_find(p, on, by, start, start + residual - by * on.film, V)
-    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (on.film - film), film=film, rates=D[:2, :2])
+    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (on.film - film), film=film, rates=D)

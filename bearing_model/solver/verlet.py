@@ -332,7 +332,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     power = cage_bent_solve(model, gamma, w, cage, residual[CAGE], delta[CAGE])
     end.film, b.A_stiff[CAGE, CAGE] = cage_film_matrices(w), cage_matrices(model, w, gamma)[0]
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + power
-    cage_finish(model, gamma, cage, start.cage, y, end)
+    cage_finish(model, gamma, cage, y, end)
     delta -= removed  # from here on delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
     cage_correct(model, w, gamma, b.axial, b.shear, delta[CAGE], y)
@@ -400,7 +400,7 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
-        h, left = min(h, cage_longest_step(model, state.film)), t_stop - t
+        h, left = min(h, cage_longest_step(model, state.film, state.cage)), t_stop - t
         last = h >= left * (1.0 - LAST_STEP)
         length = left if last else 0.5 * left if left < 2.0 * h else h
         end, error = step(model, t, length, weight, state)

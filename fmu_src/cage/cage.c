@@ -9,8 +9,6 @@
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
 
-static const double ROOT_HALF = 0.7071067811865476;  // of 1/2
-
 void cage_kinematics(const Model *model, const scalar *y, Work *w)
 {
     halves_kinematics(model, y, w);
@@ -47,36 +45,6 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
 }
 
 #ifndef DUAL
-// Motions of both rims' shapes by coordinates S and D.
-static void rim_motions(const Model *model, const double *modes, double rim[2][RIM])
-{
-    double S[RIM], D[RIM];
-    elastic_rims(model->modes, modes, modes + N_MODES, S, D);
-    for (int i = 0; i < RIM; i++)
-        rim[0][i] = ROOT_HALF * (S[i] - D[i]), rim[1][i] = ROOT_HALF * (S[i] + D[i]);
-}
-
-// Adds a part of impulses on the rims' shapes to velocities of S and D.
-static void push_rims(const Model *model, double part, const double *impulse, double *modes)
-{
-    const double scale = part * ROOT_HALF / model->p->cage.m;
-    double S[RIM], D[RIM], size = 0.0;
-    for (int c = 0; c < RIM; c++) {
-        S[c] = scale * (impulse[RIM + c] + impulse[c]), D[c] = scale * (impulse[RIM + c] - impulse[c]);
-        size += fabs(S[c]) + fabs(D[c]);
-    }
-    if (size == 0.0) return;
-    for (int i = 0; i < N_MODES; i += LANE_WIDTH) {
-        wide by_S = wide_load(&modes[i]), by_D = wide_load(&modes[N_MODES + i]);
-        for (int c = 0; c < RIM; c++) {
-            const wide shape = wide_load(&model->modes->rim[c][i]);
-            by_S += S[c] * shape, by_D += D[c] * shape;
-        }
-        wide_store(&modes[i], by_S);
-        wide_store(&modes[N_MODES + i], by_D);
-    }
-}
-
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
     if (!model->modes) {
@@ -84,10 +52,11 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
         return;
     }
     cage_substeps_split(model, y, w, f, &memory->fast);
+    memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++)
-            memory->rim[h][i] = land_is_bent(w, h) ? w->pressure[h].rim_force[i] : 0.0;
-    push_rims(model, -1.0, memory->rim[0], &f[Y_MODE_S_DOT]);
+            memory->films.force[h][i] = land_is_bent(w, h) ? w->pressure[h].rim_force[i] : 0.0;
+    rim_push(model, -1.0, memory->films.force, &f[Y_MODE_S_DOT]);
 }
 
 void cage_advance(const Model *model, double h, const double *y_0, const double *f, const CageMemory *memory,
@@ -112,18 +81,26 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
         by[0] = by[1] = step->gamma * land_mobility(model, land_lever(model, i));
         for (int k = 0; k < RIM; k++) by[2 + k] = step->gamma * model->modes->mobility[k];
     }
-    push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
-    step->substep = cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen, w);
+    RimFilmsStep films;
+    const bool follow = rim_films_begin(model, h, &memory->films, &films);
+    rim_push(model, step->gamma, films.held, &y[Y_MODE_S_DOT]);
+    step->substep = cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen,
+                                          follow ? &films : NULL, w);
+    memcpy(step->rim_held, films.held, sizeof step->rim_held);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < RIM; k++) {
+            const double force = memory->films.force[i][k];
+            step->rim_before[i][k] = films.follows[i] ? films.impulse[i][k] / step->gamma - force : force;
+        }
 }
 
-void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory,
-                  double *y)
+void cage_predict(const Model *model, const Work *w, CageStep *step, const CageMemory *memory, double *y)
 {
     if (!model->modes) return;
     for (int i = 0; i < 2 * N_MODES; i++)
         y[Y_MODE_S_DOT + i] += 0.5 * step->substep * step->foreseen.modes[i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, NULL, y);
-    push_rims(model, step->gamma, memory->rim[0], &y[Y_MODE_S_DOT]);
+    rim_push(model, step->gamma, step->rim_held, &y[Y_MODE_S_DOT]);
 }
 
 void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
@@ -144,7 +121,8 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
     memcpy(step->squeeze, before->squeeze, sizeof step->squeeze);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++)
-            step->rim_lack[h][i] += model->modes->mobility[i] * (memory->rim[h][i] - before->rim[h][i]);
+            step->rim_lack[h][i] +=
+                model->modes->mobility[i] * (memory->films.force[h][i] - step->rim_before[h][i]);
 }
 
 void cage_foreseen(const Model *model, const CageStep *step, double gamma, double *v)
@@ -203,22 +181,24 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
     for (int h = 0; h < 2; h++) half_velocity_store(&half[h], v, h);
 }
 
-void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
-                 const double *f_end, CageMemory *memory, Work *w)
+void cage_finish(const Model *model, const CageStep *step, double *y, const double *f_end, CageMemory *memory,
+                 Work *w)
 {
     if (!model->modes) return;
     memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     memcpy(memory->squeeze, step->squeeze, sizeof memory->squeeze);
     const double gamma = step->gamma;
     double change[2][RIM];
-    for (int h = 0; h < 2; h++)
+    for (int h = 0; h < 2; h++) {
         for (int i = 0; i < RIM; i++) {
-            memory->rim[h][i] -= step->bent[h].impulse[2 + i] / gamma;
-            change[h][i] = memory->rim[h][i] - before->rim[h][i];
+            memory->films.force[h][i] -= step->bent[h].impulse[2 + i] / gamma;
+            change[h][i] = memory->films.force[h][i] - step->rim_before[h][i];
         }
+        memcpy(memory->films.rates[h], step->bent[h].rates, sizeof memory->films.rates[h]);
+    }
     for (int i = 0; i < 2 * N_MODES; i++)
         y[Y_MODE_S_DOT + i] += gamma * (f_end[Y_MODE_S_DOT + i] - step->foreseen.modes[i]);
-    push_rims(model, gamma, change[0], &y[Y_MODE_S_DOT]);
+    rim_push(model, gamma, change, &y[Y_MODE_S_DOT]);
 }
 
 void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,

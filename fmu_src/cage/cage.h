@@ -12,6 +12,7 @@
 #include "cage/common/films.h"
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/cage_substeps.h"
+#include "cage/elastic/rim_films.h"
 #include "cage/two_half/two_half.h"
 #include "numbers/isa.h"
 #include "physics/land_bent.h"
@@ -23,7 +24,7 @@
 typedef struct {
     TwoHalfMemory path;
     FastState fast;
-    double rim[2][RIM];          // forces on the shapes of both bent rims [N]
+    RimFilms films;
     double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
 } CageMemory;
 
@@ -84,6 +85,8 @@ typedef struct {
     double axial, shear;
     // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2], squeeze velocities, the solution
     double rim_lack[2][RIM], squeeze[2][SQUEEZE];
+    // forces on them: held at both ends of the step, and those at its start that their impulses so far amount to
+    double rim_held[2][RIM], rim_before[2][RIM];
     double
         late[2 * RELATIVE_MOTIONS];  // change of the halves' velocities by the substeps behind the evaluation
     BentSolution bent[2];
@@ -101,8 +104,7 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
 
 // Predicted velocities in y for the evaluation at the end.
 #define cage_predict FOR_ISA(cage_predict)
-void cage_predict(const Model *model, const Work *w, const CageStep *step, const CageMemory *memory,
-                  double *y);
+void cage_predict(const Model *model, const Work *w, CageStep *step, const CageMemory *memory, double *y);
 
 // After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
 // the last substep.
@@ -133,8 +135,8 @@ void cage_correct(const Model *model, const Work *w, double gamma, const CageSte
 
 // Velocities of the modes at the end, in y, with the forces on bent rims there; the evaluations behind foresee no films.
 #define cage_finish FOR_ISA(cage_finish)
-void cage_finish(const Model *model, const CageStep *step, const CageMemory *before, double *y,
-                 const double *f_end, CageMemory *memory, Work *w);
+void cage_finish(const Model *model, const CageStep *step, double *y, const double *f_end, CageMemory *memory,
+                 Work *w);
 
 // Rates of the modes at the end, their history and their error, without the films on bent rims; f, jerk and h_0 are those of the step's start and of
 // the step before.
@@ -142,8 +144,9 @@ void cage_finish(const Model *model, const CageStep *step, const CageMemory *bef
 void cage_remember(const Model *model, double h, double h_0, const double *f, const double *jerk,
                    const double *y, double *f_end, double *jerk_end, double *error);
 
-// The longest step that the cage bears from a state with these films and of this mass [s].
-double cage_longest_step(const Model *model, double film[2][3]);
+// The longest step that the cage bears from a state with these films [s]: of all films, or of those that do not follow in the
+// substeps of a step from `memory`.
+double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory);
 
 // The step of a fixed length [s]: of elastic halves the longest one, with the films of the start.
 double cage_fixed_step(const Model *model, double film[2][3]);

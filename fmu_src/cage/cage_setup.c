@@ -56,13 +56,17 @@ void cage_rest(const Model *model, double omega, double *y)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has three substeps at most.  Films of the rate A, which the substeps leave out, allow 1/A, or two substeps,
+// that it has three substeps at most.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
 // which are always stable.
-double cage_longest_step(const Model *model, double film[2][3])
+double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
 {
     if (!model->modes) return INFINITY;
     const double d = model->modes->substep;
-    const double rate = fmax(film[0][0] + film[0][2], film[1][0] + film[1][2]);
+    double rate = 0.0;
+    for (int h = 0; h < 2; h++) {
+        const bool bent = memory && memory->films.rates[h][0][0] + memory->films.rates[h][1][1] > 0.0;
+        if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
+    }
     return fmin(elastic_longest_step(model->modes), fmax(2.0 * d, model->p->cage.m / rate));
 }
 
@@ -71,7 +75,7 @@ static const double TENTH_OF_A_PULSE = 1e-5;
 
 double cage_fixed_step(const Model *model, double film[2][3])
 {
-    return fmin(cage_longest_step(model, film), TENTH_OF_A_PULSE);
+    return fmin(cage_longest_step(model, film, NULL), TENTH_OF_A_PULSE);
 }
 
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
@@ -97,6 +101,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
-           values_are_within(memory->rim[0], 2 * RIM, load) &&
+           values_are_within(memory->films.force[0], 2 * RIM, load) &&
+           values_are_within(memory->films.rates[0][0], 2 * SQUEEZE * SQUEEZE, elastic ? 1e30 : 0.0) &&
            values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0);
 }

@@ -119,7 +119,7 @@ static void steps(const Model *model, const Work *w, double step, Event *event)
         film[land][1] = w->film[land].yz;
         film[land][2] = w->film[land].zz;
     }
-    add(event, 0, step * (1.0 - 1e-9), cage_longest_step(model, film));
+    add(event, 0, step * (1.0 - 1e-9), cage_longest_step(model, film, NULL));
 }
 
 static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)

@@ -312,8 +312,7 @@ void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZ
         to->film[i] = law.F[i];
         to->impulse[i] = gamma * (on->film[i] - law.F[i]);
     }
-    for (int i = 0; i < 2; i++)
-        for (int k = 0; k <= i; k++) to->rate[i + k] = law.rate[i][k];
+    for (int i = 0; i < SQUEEZE; i++) memcpy(to->rates[i], law.rate[i], sizeof to->rates[i]);
 }
 
 double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
@@ -336,8 +335,9 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
             on->V[i] += change[i];
         }
         for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];
+        const double (*rates)[SQUEEZE] = solved[h].rates;
         double rate[3];
-        turn_rates(T, solved[h].rate, rate);
+        turn_rates(T, (double[3]){rates[0][0], rates[1][0], rates[1][1]}, rate);
         film->yy = rate[0], film->yz = rate[1], film->zz = rate[2];
     }
     return power;

@@ -180,7 +180,7 @@ static double verlet_length(void *context, double left)
     Integrator *in = context;
     if (in->warming_up) return left;
     if (is_fixed(in)) return in->goal >= left * (1.0 - LAST_STEP) ? left : in->goal;
-    in->goal = fmin(in->goal, cage_longest_step(in->model, in->now->film));
+    in->goal = fmin(in->goal, cage_longest_step(in->model, in->now->film, &in->now->cage));
     if (in->goal >= left * (1.0 - LAST_STEP)) return left;
     return left < 2.0 * in->goal ? 0.5 * left : in->goal;
 }

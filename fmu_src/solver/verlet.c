@@ -266,7 +266,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     remember_velocities(model, w, h, from, delta, to, error);
     remember_friction(h, from, to, error);
     to->h = h;
-    cage_finish(model, &cage, &from->cage, y, to->f, &to->cage, w);
+    cage_finish(model, &cage, y, to->f, &to->cage, w);
     cage_remember(model, h, from->h, f, from->jerk, y, to->f, to->jerk, error);
     const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;
     return ops->wrms_norm(error, weight);

@@ -157,9 +157,9 @@ def add_spin(spin, t, middle, slow, moved, relative):
     return turned
 
 
-def cage_substeps_advance(model, h, fast, f, state, y, w):
+def cage_substeps_advance(model, h, fast, f, state, y, films, w):
     """Substeps of a step of length h from `fast` under the slow rates f; state, w: state and kinematics in the middle of the
-    step; changes y as cage_substeps.c does.
+    step; films: RimFilmsStep; changes y as cage_substeps.c does.
 
     Returns the length of the substeps and the slow accelerations at the step's end as they foresee them: of the modes
     [2, n], changes of those of the halves [6, 2].
@@ -188,6 +188,8 @@ def cage_substeps_advance(model, h, fast, f, state, y, w):
     middle_in, spin = w.v_j[1:], float(np.squeeze(h0.s))
     middle = np.array([0.0, about_y, about_z, *middle_in.mean(axis=-1), 0.0])
     rigid = turn_out(-0.5 * spin * h, fast.rigid)
+    if films.follows.any():
+        v = v + films.first(w, sub, f, v)
 
     for step in range(1, steps + 1):
         # first half of the accelerations, drift
@@ -216,6 +218,11 @@ def cage_substeps_advance(model, h, fast, f, state, y, w):
         rigid = turn_out(spin * (step * sub - 0.5 * h), rigid)
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
+        if films.follows.any():
+            v = v + films.follow(step * sub, v, to_halves(model, h0, speed), last=False)
+    if films.follows.any():  # with the second half of the last substep as cage_predict will add it
+        at, halves_then = v + 0.5 * sub * (fast.modes + held), to_halves(model, h0, speed + 0.5 * sub * fast.rigid)
+        v = v + films.follow(h, at, halves_then, last=True)
     for blocks, change in ((CAGE_PLACES, moved), (CAGE_RATES, speed)):
         for block, rows in zip(blocks, to_halves(model, h0, change), strict=True):
             y[block] += rows

@@ -18,6 +18,8 @@
 // a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out, gyroscopic
 // terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
+// Stiff films on bent rims follow in the substeps (rim_films.c).
+//
 // The loads of balls on walls follow in the substeps, those of balls that arrive within the step too (wall_loads.c); the end
 // corrects them.
 //
@@ -277,8 +279,29 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
     rates[MOTION_ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
 }
 
+// Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
+static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS], const double *at,
+                         bool last, RimFilmsStep *films, double *v, const Work *w)
+{
+    double halves[2 * RELATIVE_MOTIONS] = {0.0};
+    to_halves(model, &w->half[0], 1.0, speed, 0, halves);
+    rim_films_follow(model, w, t, at, halves, last, v, films);
+}
+
+// Those at the step's end, with the second half of the last substep as cage_predict will add it.
+static void films_at_end(const Model *model, double h, const FastState *fast, const Foreseen *foreseen,
+                         const double speed[RELATIVE_MOTIONS], RimFilmsStep *films, double *v, const Work *w)
+{
+    const double half = 0.5 * films->substep;
+    double at[2 * N_MODES], then[RELATIVE_MOTIONS];
+    for (int i = 0; i < 2 * N_MODES; i++) at[i] = v[i] + half * (fast->modes[i] + foreseen->modes[i]);
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) then[i] = speed[i] + half * fast->rigid[i];
+    films_follow(model, h, then, at, true, films, v, w);
+}
+
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, const Work *w)
+                             const double *state, double *y, Foreseen *foreseen, RimFilmsStep *films,
+                             const Work *w)
 {
     const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
@@ -314,6 +337,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     half_damping(half, sub, &damping);
     wall_loads_find(model, h, fast, f, state, y, w, &loads);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
+    if (films) rim_films_first(model, w, sub, f, v, films);
 
     for (int step = 1;; step++) {
         // first half of the accelerations, drift
@@ -336,7 +360,10 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         y[Y_WORK] -= cage_joint_advance(model, sub, &k_in, &at, y) + sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
         wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
-        if (step == steps) break;
+        if (step == steps) {
+            if (films) films_at_end(model, h, fast, foreseen, speed, films, v, w);
+            break;
+        }
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, &joints);
@@ -346,6 +373,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         turn_out(s * (step * sub - 0.5 * h), rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
+        if (films) films_follow(model, step * sub, speed, v, false, films, v, w);
     }
     const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
                                              [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};

@@ -2,6 +2,7 @@
 // cage_substeps.c; twin: bearing_model/cage/elastic/cage_substeps.py.
 #pragma once
 
+#include "cage/elastic/rim_films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 
@@ -33,11 +34,12 @@ typedef struct {
 // Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the
 // step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
-// the middle.  Velocities and rates of the modes lack the last substep's second half.  Returns the length of
+// the middle; films: those that follow in the substeps, NULL if none does.  Velocities and rates of the modes lack the last substep's second half.  Returns the length of
 // the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, const Work *w);
+                             const double *state, double *y, Foreseen *foreseen, RimFilmsStep *films,
+                             const Work *w);
 
 // Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the
 // fast accelerations at `fast`, less those at `before` if there are any.

@@ -1,0 +1,52 @@
+// Films on bent rims within a step: in the substeps where they are stiff, else at both ends.  Equations in rim_films.c; twin:
+// bearing_model/cage/elastic/rim_films.py.
+#pragma once
+
+#include "numbers/isa.h"
+#include "physics/land_bent.h"
+#include "physics/model.h"
+
+// Forces on the shapes of both bent rims and rates of land and rim at an evaluation, both 0 of a rim that is not bent.  Part of the
+// saved state: no member is aligned beyond a double.
+typedef struct {
+    double force[2][RIM], rates[2][SQUEEZE][SQUEEZE];
+} RimFilms;
+
+// Those of a step; `follows`: whether they act in the substeps, for which the rest is.
+typedef struct {
+    const RimFilms *films;  // at the step's start
+    bool follows[2];
+    double held[2][RIM];                 // forces that act by impulses at both ends
+    double substep;                      // [s]
+    double answer[2][SQUEEZE][SQUEEZE];  // (1 + d D Y)^-1 d D
+    double mobility[2][SQUEEZE];         // Y
+    double now[2][RIM];                  // forces in the present substep
+    double begun[2][RIM];                // velocities of the shapes at the start
+    double acceleration[2][2],
+        by_film[2][2];       // of the lands along their half's axes by slow forces; what films change of them
+    double impulse[2][RIM];  // so far
+} RimFilmsStep;
+
+// Motions of both rims' shapes by coordinates S and D.
+#define rim_motions FOR_ISA(rim_motions)
+void rim_motions(const Model *model, const double *modes, double rim[2][RIM]);
+
+// Adds a part of impulses on the rims' shapes to velocities of S and D.
+#define rim_push FOR_ISA(rim_push)
+void rim_push(const Model *model, double part, double impulse[2][RIM], double *modes);
+
+// Those of a step of length h; false if no film follows in substeps.
+#define rim_films_begin FOR_ISA(rim_films_begin)
+bool rim_films_begin(const Model *model, double h, const RimFilms *films, RimFilmsStep *step);
+
+// Before the first substep of length d: constants, and half of its impulses to the velocities v of S and D.  f: slow rates;
+// w: kinematics of the halves.
+#define rim_films_first FOR_ISA(rim_films_first)
+void rim_films_first(const Model *model, const Work *w, double d, const double *f, double *v,
+                     RimFilmsStep *step);
+
+// The impulses of a substep at its end, t after the step's start, and half of the next one's unless it is the last.  at: velocities
+// of S and D with all other accelerations; halves: changes of the halves' velocities by the joints, in the order of the state.
+#define rim_films_follow FOR_ISA(rim_films_follow)
+void rim_films_follow(const Model *model, const Work *w, double t, const double *at,
+                      const double halves[2 * RELATIVE_MOTIONS], bool last, double *v, RimFilmsStep *step);
