@@ -54,7 +54,7 @@ class Assumed:
         """Value and usual range, each with its unit."""
         if self.value is None:
             return "by rule", f"{self.effect.low:g} … {self.effect.high:g} times"
-        return f"{self.value:.3g} {self.unit}", f"{self.low:.2g} … {self.high:.2g} {self.unit}"
+        return f"{self.value:.3g} {self.unit}", f"{self.low + 0.0:.3g} … {self.high + 0.0:.3g} {self.unit}"
 
 
 @cache

@@ -2,8 +2,6 @@
 
 import math
 
-from bearing_model.load_ratings import dynamic_rating, static_rating
-
 RATINGS = 1.5  # factor by which makers' C and C_0 do not differ from ISO 281 and ISO 76
 FASTEST = 1.5e6 / 60e3  # n d_m = 1.5 million mm/min [m/s]: oil jets and hybrid bearings go somewhat beyond
 SOLIDS = {  # property: least and largest of polymers, metals and ceramics, factor and unit shown
@@ -17,6 +15,8 @@ SOLIDS = {  # property: least and largest of polymers, metals and ceramics, fact
 
 def doubts(case):
     """Sentences on the values of a Case that few bearings have."""
+    from bearing_model.load_ratings import dynamic_rating, static_rating  # with SciPy, which takes half a second
+
     values = case.values
     balls = case.Z, values["bearing.D"], values["bearing.d_m"]
     for name, usual in (("C", dynamic_rating(*balls)), ("C_0", static_rating(*balls))):

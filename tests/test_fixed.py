@@ -16,7 +16,7 @@ import pytest
 from library import ROOT
 from mechanics import Instance, Z
 
-from bearing_model.generated.variables import CageModel, Method
+from bearing_model.generated.variables import CageModel, Lubrication, Method, Switch, TiltMode
 
 pytestmark = pytest.mark.c_only
 FIXED = {"solver.method": Method.FIXED}
@@ -144,9 +144,29 @@ def test_steps_that_the_films_do_not_bear_are_an_event(core):
             for n in range(1, 11):
                 bearing.step(n * 1e-4)
         seen[step] = bearing.messages
-    assert any("too long for the films between cage and ring" in text for text in seen[0.0])
+    assert any("may be too long for the films between cage and ring" in text for text in seen[0.0])
     assert seen[6.2e-6] == [text for text in seen[6.2e-6] if "too long" not in text]
     assert bearing.output("event.step_too_long_onsets") == 0.0
+
+
+def test_films_in_the_substeps_bear_long_steps(core, record_property):
+    """Balls that jam press the halves' rims onto their films, which allow 0.3 us.  Steps of 10 us against Runge-Kutta at
+    1e-5 from 10 to 20 ms: force in the pockets and stress of the heads, means and the 99.9 % quantile.  Films by impulses
+    at both ends of a step miss the quantile by 3.3 % and the force by 0.7 %.
+    """
+    jam = {
+        "scene.cage": CageModel.ELASTIC, "scene.statistics": Switch.ON, "start.settle": 0.01,
+        "scene.lubrication": Lubrication.MIXED, "ring.tilt_mode": TiltMode.SUPPORTED, "ring.k_tilt": 500.0,
+        "cage.pocket_clearance": 1e-4,
+    }  # fmt: skip
+    methods = {"solver.method": Method.EXPLICIT}, FIXED | {"solver.step": 1e-5}
+    found = []
+    for method, tolerance in zip(methods, (1e-5, 0.0), strict=True):
+        bearing = Instance(core, jam | method, {"shaft.omega": 4000.0 * np.pi / 30.0}, tolerance=tolerance).step(0.02)
+        found.append([bearing.output(f"stat.{name}") for name in ("Q_c_mean", "sigma_head_mean", "sigma_head_p999")])
+    error = np.array(found[1]) / found[0] - 1.0
+    record_property("error", error.tolist())
+    assert np.all(np.abs(error) < [0.002, 0.01, 0.01])
 
 
 def test_errors_beyond_the_tolerance_are_counted(core):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{749e14c5-5f3b-28c5-22e5-2a0eaa478250}"
+MODEL_GUID = "{b5a63b05-dba1-4958-9c3f-fbc81d1d1d0d}"
 Z = 9
 
 
@@ -584,7 +584,7 @@ OUTPUTS = {
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None, False, None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None, False, None),
         Variable("event.rivet_break", 7010, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
-        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong", None, False, None),
+        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong", None, False, None),
         Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None, False, None),
         Variable("event.cage_yield", 7021, "Real", "1", None, None, None, None, 1, "event", "1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield", None, False, None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None, False, None),

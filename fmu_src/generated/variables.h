@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{749e14c5-5f3b-28c5-22e5-2a0eaa478250}"  // digest of the table
+#define MODEL_GUID "{b5a63b05-dba1-4958-9c3f-fbc81d1d1d0d}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -570,7 +570,7 @@ typedef struct {
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
-        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results are wrong
+        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar cage_yield;  // [1] 1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start

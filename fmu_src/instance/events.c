@@ -229,11 +229,12 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
         return;
     case EVENT_RIVET_BREAK:  // reported one by one, with its place (bearing.c)
     case EVENT_STEP_TOO_LONG:
-        snprintf(text, size,
-                 "solver.method = fixed: steps of %.4g s are too long for the films between cage and ring, "
-                 "which allow "
-                 "%.4g s: the results are wrong; set solver.step to that or less",
-                 now->value, now->limit);
+        snprintf(
+            text, size,
+            "solver.method = fixed: steps of %.4g s may be too long for the films between cage and ring, "
+            "which allow "
+            "%.4g s: the results may be wrong; set solver.step to that or less",
+            now->value, now->limit);
         return;
     case EVENT_CAGE_YIELD:
         snprintf(
