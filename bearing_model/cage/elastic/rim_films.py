@@ -13,6 +13,9 @@ import numpy as np
 from bearing_model.generated.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_V_Y, CAGE_V_Z
 
 
+BORNE = 2.0  # substeps that any film bears at both ends of a step
+
+
 @dataclass
 class RimFilms:
     """Forces on the shapes of both bent rims [2, 4] and rates of land and rim [2, 6, 6] at an evaluation, 0 of one that is not
@@ -54,7 +57,8 @@ class RimFilmsStep:
 
     def __init__(self, model, h, films):
         self.model, self.rates, self.force = model, films.rates, films.force
-        self.follows = h * (films.rates[:, 0, 0] + films.rates[:, 1, 1]) > model.p.cage.m
+        stiff = h * (films.rates[:, 0, 0] + films.rates[:, 1, 1]) > model.p.cage.m
+        self.follows = stiff & (h > BORNE * model.modes.substep)
         self.held = np.where(self.follows[:, None], 0.0, films.force)
         self.now, self.impulse = films.force - self.held, np.zeros((2, 4))
 

@@ -34,8 +34,8 @@ typedef struct {
 // Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the
 // step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
-// the middle; films: those that follow in the substeps, NULL if none does.  Velocities and rates of the modes lack the last substep's second half.  Returns the length of
-// the substeps [s].
+// the middle; films: those that follow in the substeps, NULL if none does.  Velocities and rates of the modes lack the last
+// substep's second half.  Returns the length of the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
                              const double *state, double *y, Foreseen *foreseen, RimFilmsStep *films,

@@ -15,7 +15,7 @@
 // and films leave the halves' own motion to the step's end.  Held there, a half would carry its rim along: at 0.5 degrees of tilt
 // the 99.9 % pocket force would err by +3.4 %.  The step's end replaces the sum of P by gamma (F_n + F_{n+1}).
 //
-// A film is stiff where h D_land > m, the longest step that it would bear by itself.
+// A film is stiff where h D_land > m and the step longer than two substeps, which bear any film.
 #include "cage/elastic/rim_films.h"
 
 #include "cage/common/films.h"
@@ -51,12 +51,14 @@ void rim_push(const Model *model, double part, double impulse[2][RIM], double *m
     }
 }
 
+static const double BORNE = 2.0;  // substeps
+
 bool rim_films_begin(const Model *model, double h, const RimFilms *films, RimFilmsStep *step)
 {
     step->films = films;
     for (int half = 0; half < 2; half++) {
         const double rate = films->rates[half][0][0] + films->rates[half][1][1];
-        step->follows[half] = h * rate > model->p->cage.m;
+        step->follows[half] = h > BORNE * model->modes->substep && h * rate > model->p->cage.m;
         for (int i = 0; i < RIM; i++) step->held[half][i] = step->follows[half] ? 0.0 : films->force[half][i];
     }
     return step->follows[0] || step->follows[1];
