@@ -12,7 +12,6 @@ import numpy as np
 
 from bearing_model.generated.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_V_Y, CAGE_V_Z
 
-
 BORNE = 2.0  # substeps that any film bears at both ends of a step
 
 
