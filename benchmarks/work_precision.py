@@ -49,7 +49,7 @@ TABLES = {
     "Verner 8(7)": "ARKODE_VERNER_13_7_8",
 }
 JACOBIANS = {"dense": 0, "diagonal": 1, "bordered": 2}
-PYTHON_METHODS = ("RK45", "DOP853", "BDF", "Radau", "LSODA")
+PYTHON_METHODS = ("RK45", "DOP853", "BDF", "Radau")
 # of the default and the tight run: enough to resolve 1 %
 SEEDS = {"demo": 48, "slow": 128, "tilt": 48, "impact": 48, "jam": 16}
 CHANNELS = {"Q_c": "force", "sigma_head": "head", "sigma_mid": "mid"}

@@ -154,24 +154,7 @@ class Model:
             unit[i] = 1.0
             D[i] = (1.0 / self.implicit("implicit_solve", gamma, unit)[i] - 1.0) / gamma
         self.d.k_plate, self.d.k_rivet = stiffness
-        for name in ("plate_y", "plate_z", "head_y", "head_z"):
-            rows = block("joint", name)
-            rough = self.friction_rates(1e-3)[rows]
-            D[rows] = [self.friction_rates(1.0 / max(rate, 1.0))[rows][k] for k, rate in enumerate(rough)]
         return D
-
-    def friction_rates(self, h):
-        """Rates of the friction states by what a step h leaves of one: the midpoint rule's (1 - h D/2)/(1 + h D/2).
-        Exact to rounding for h D near 1.
-        """
-        memory, left = self.core.new("TwoHalfMemory"), []
-        self.kernel("two_half_remember")(self.work, memory)
-        for start in (0.0, 1.0):
-            y = np.full(variables.N_STATES, start)
-            self.kernel("two_half_advance")(self.pointer, h, memory, self.work, self.core.array(y))
-            left.append(y)
-        left = left[1] - left[0]
-        return 2.0 * (1.0 - left) / (h * (1.0 + left))
 
     def verlet_evaluate(self, t, y):
         """VerletState at the state y, without a history."""

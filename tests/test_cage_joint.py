@@ -5,11 +5,13 @@ import json
 
 import numpy as np
 import pytest
-from library import ROOT
+from library import ROOT, TWO_HALF
 from mechanics import SLICE, Z, pose, running_state
 from scipy.spatial.transform import Rotation
 
+from bearing_model.cage.common.cage_joint import JointStep, JointStiffness, cage_joint_follow, cage_joint_slide
 from bearing_model.generated import variables
+from bearing_model.physics.model import Model
 from rivet_model import half_loads, joint_contact
 from rivet_model.geometry import Geometry
 
@@ -22,7 +24,8 @@ JOINT = TABLE["joint"] | {
 }
 K_RIVET, K_PLATE, K_T, K_H = (JOINT[name] for name in ("k_rivet", "k_plate", "k_t_plate", "k_t_head"))  # [N/m]
 
-NAMES = ("plate_y", "plate_z", "head_y", "head_z")
+WORK = SLICE["work"]
+ROWS = slice(SLICE["joint_plate_y"].start, SLICE["joint_head_z"].stop)
 
 
 def numbers(lanes):
@@ -31,7 +34,7 @@ def numbers(lanes):
 
 
 class Joints:
-    """The Z joints alone: half 0 at rest (or moving), half 1 where the test puts it; friction states integrated here."""
+    """The Z joints alone: half 0 at rest (or moving), half 1 where the test puts it; friction states follow and slide."""
 
     def __init__(self, core, **changes):
         self.model = core.model(parameters={"joint.F_floor": 1e-3, "joint.fit": -10e-6, "joint.swell": 4e-6} | changes)
@@ -52,49 +55,35 @@ class Joints:
         self.model.kernel("two_half_joints")(self.model.pointer, self.core.array(self.y), self.w)
         return np.array(list(self.w.half[1].F))
 
-    def advance(self, dt, start=None):
-        """One explicit step of the friction states (from `start`, else from now) with the rates just evaluated."""
-        start = self.y if start is None else start
-        self.y = start + 0.0
-        for name in NAMES:
-            self.y[SLICE[f"joint_{name}"]] += dt * numbers(getattr(self.w, f"{name}_dot"))
-
-    def pull(self, path, speed=1e-3):
-        """Moves half 1 along y through the places of `path`; friction force per joint after each, and the dissipated
-        work.
+    def pull(self, path, u_x=0.0):
+        """Moves half 1 along y through the places of `path`; force per joint after each, and the work dissipated at a
+        joint.
         """
-        force, work = [], 0.0
+        force, start = [], self.y[WORK].item()
         for here, there in itertools.pairwise(path):
-            step, middle = there - here, 0.5 * (here + there)
-            dt = abs(step) / speed
-            before, v = self.y, (0.0, np.sign(step) * speed, 0.0)
-            self.move((0.0, here, 0.0), v)  # midpoint rule
-            self.advance(0.5 * dt)
-            self.move((0.0, middle, 0.0), v)
-            work += dt * numbers(self.w.joint_dissipated).sum() / Z
-            self.advance(dt, before)
-            force.append(-self.move((0.0, there, 0.0))[1] / Z)
-        return np.array(force), work
+            before = self.y.copy()
+            for name in ("joint_plate_y", "joint_head_y"):
+                self.y[SLICE[name]] += there - here
+            force.append(-self.move((u_x, there, 0.0))[1] / Z)
+            y = self.core.array(self.y)
+            self.model.kernel("cage_slide")(self.model.pointer, self.core.array(before), y, self.w)
+            self.y = np.array(list(y))
+        return np.array(force), (start - self.y[WORK].item()) / Z
 
 
 def test_pull_curve(core):
-    """Plates then heads hold mu P each, 2 mu P = 6 N in all; free slip up to the gap of 6 um; then the shank bears with
-    k_hole.
-
-    Dahl's law pulled one way: mu P (1 - exp(-k u/(mu P))) for each of the two.  Midpoint steps of 6 nm: observed 1e-4
-    of 6 N.
+    """Plates and heads together until the plates slip at mu P, then the heads alone until they slip at mu P more, 6 N in
+    all; free slip up to the gap of 6 um; then the shank bears with k_hole.
     """
     joints = Joints(core)  # fit -10 um + swell 4 um
-    u = np.linspace(0.0, 9e-6, 1501)
+    u = np.linspace(0.0, 9e-6, 901)
     force, _ = joints.pull(u)
-    capacity = MU * PRELOAD
+    capacity = MU * PRELOAD + 1e-3
     gap, k_hole = 6e-6, np.interp(-6e-6, JOINT["hole_fit"], JOINT["k_hole"])
-    law = sum(
-        (capacity + 1e-3) * (1.0 - np.exp(-k * u[1:] / (capacity + 1e-3))) for k in (K_T, K_H)
-    ) + k_hole * np.maximum(u[1:] - gap, 0.0)
-    assert np.abs(force - law).max() < 1e-3
+    law = sum(np.minimum(k * u[1:], capacity) for k in (K_T, K_H)) + k_hole * np.maximum(u[1:] - gap, 0.0)
+    np.testing.assert_allclose(force, law, rtol=2e-8)
     at = lambda place: force[np.searchsorted(u[1:], place)]
-    assert at(5.9e-6) == pytest.approx(2.0 * capacity, rel=1e-3)
+    assert at(5.9e-6) == pytest.approx(2.0 * capacity, rel=1e-9)
     assert at(8.9e-6) - at(6.5e-6) == pytest.approx(k_hole * 2.4e-6, rel=1e-3)
 
 
@@ -112,25 +101,209 @@ def test_play_of_the_hole(core, fit):
     assert after / np.hypot(*after) == pytest.approx([0.6, -0.8], rel=1e-8)
 
 
-@pytest.mark.parametrize("amplitude", [1e-7, 5e-7, 4e-6])
+@pytest.mark.parametrize("amplitude", [1e-7, 3e-7, 4e-6])
 def test_hysteresis(core, amplitude):
-    """Cycle of +-A: Dahl's loop encloses 4 F_c (A - (F_c/k) tanh(k A/F_c)) for plates and heads, and that is what is
-    dissipated.
-
-    From z(u) = z_c - (z_c + z_m) exp(-(u + A)/z_c), z_c = F_c/k, z_m = z_c tanh(A/z_c).  Observed 2e-6.
+    """Cycle of +-A: the loop of a spring and a friction element in series encloses 4 F_c (A - F_c/k), nothing as long as
+    nothing slips, and that is what is dissipated.
     """
     joints = Joints(core)
     F_c = MU * PRELOAD + 1e-3
-    for name, k in (("plate_y", K_T), ("head_y", K_H)):  # where the closed loop turns
-        joints.y[SLICE[f"joint_{name}"]] = -F_c / k * np.tanh(k * amplitude / F_c)
+    joints.pull(np.linspace(0.0, amplitude, 401))
+    joints.pull(np.linspace(amplitude, -amplitude, 801))  # where the closed loop begins
     there = np.linspace(-amplitude, amplitude, 801)
     force_there, work_there = joints.pull(there)
     force_back, work_back = joints.pull(there[::-1])
-    loop = sum(4.0 * F_c * (amplitude - F_c / k * np.tanh(k * amplitude / F_c)) for k in (K_T, K_H))
+    loop = sum(4.0 * F_c * max(amplitude - F_c / k, 0.0) for k in (K_T, K_H))
     ends = np.concatenate([[force_back[-1]], force_there, force_back])  # closes where it began
     enclosed = np.trapezoid(ends, np.concatenate([there, there[-2::-1]]))
-    assert work_there + work_back == pytest.approx(loop, rel=1e-4)
-    assert enclosed == pytest.approx(loop, rel=1e-4)
+    assert work_there + work_back == pytest.approx(loop, rel=1e-6, abs=1e-18)
+    assert enclosed == pytest.approx(loop, rel=1e-5, abs=1e-18)  # observed 1e-6: corners between two places
+
+
+# ------------------------------------------------------------------------------------------------------- the friction law
+
+
+class ByC:
+    """Friction of the joints alone, by the C core: states z [4, Z] that follow motions and slide."""
+
+    def __init__(self, core, floor=1e-3, mu=MU):
+        self.core = core
+        self.model = core.model(parameters=TWO_HALF | {"joint.F_floor": floor, "joint.mu": mu})
+        self.stiffness = core.new("JointStiffness")
+        self.stiffness.plate, self.stiffness.head = K_T, K_H
+        self.y, self.rubbed = core.array(np.zeros(variables.N_STATES)), np.zeros(Z)
+
+    @property
+    def z(self):
+        return np.array(list(self.y))[ROWS].reshape(4, Z)
+
+    def move(self, way, T, N_plate):
+        """Moves the joints by `way` [2, Z] under the forces T, N_plate [Z]; returns what is dissipated."""
+        step, lanes = self.core.new("JointStep"), self.core.lib.LANES
+        step.before[0 : 4 * Z] = list(self.z.ravel())
+        by_y, by_z, T, N = (self.core.array(np.pad(x, (0, lanes - Z))) for x in (*way, T, N_plate))
+        self.model.kernel("cage_joint_follow")(1.0, by_y, by_z, self.y)
+        lost = self.model.kernel("cage_joint_slide")(self.model.pointer, self.stiffness, T, N, self.y, step)
+        self.rubbed += list(step.rubbed)[:Z]
+        return lost
+
+
+class ByPython:
+    """The same by the twin."""
+
+    def __init__(self, core, floor=1e-3, mu=MU):
+        self.model = Model.of(TWO_HALF | {"joint.F_floor": floor, "joint.mu": mu})
+        self.y, self.rubbed, self.stiffness = np.zeros(variables.N_STATES), np.zeros(Z), JointStiffness(K_T, K_H, None)
+
+    @property
+    def z(self):
+        return self.y[ROWS].reshape(4, Z)
+
+    def move(self, way, T, N_plate):
+        step = JointStep(cage_joint_follow(1.0, way, self.y))
+        lost = cage_joint_slide(self.model, self.stiffness, T, N_plate, self.y, step)
+        self.rubbed += step.rubbed
+        return lost
+
+
+def shear(law):
+    """Forces [2, Z] that carry the joints' load."""
+    return K_T * law.z[:2] + K_H * law.z[2:]
+
+
+def carry(law, V, T, N_plate):
+    """Moves the joints until they carry the load V [2, Z] [N], below their slip load; returns how far [2, Z].
+
+    The law's force falls short of the elastic one, so that the steps of a Newton iteration with the elastic stiffness
+    approach from one side.
+    """
+    moved = np.zeros((2, Z))
+    for _ in range(400):
+        missing = V - shear(law)
+        if np.max(np.abs(missing)) < 1e-12:
+            return moved
+        moved += missing / (K_T + K_H)
+        law.move(missing / (K_T + K_H), T, N_plate)
+    raise AssertionError("the load is beyond the slip load")
+
+
+twins = pytest.mark.parametrize("twin", [ByC, ByPython])
+CLAMPED = np.full(Z, PRELOAD), np.full(Z, PRELOAD)
+SLIP_LOAD = 2.0 * (MU * PRELOAD + 1e-3)  # of plates and heads
+
+
+@twins
+def test_vibration_does_not_walk_the_joint(core, twin):
+    """A constant shear of 50 or 75 % of the slip load and a vibration of 5 to 24 % of it, along it or across it: after the
+    first cycle nothing moves in 10,000 cycles (Melan: it shakes down), not even by 1e-9 slip deflections.
+
+    Dahl's law, z' = v - |v| k z/C, would walk by 0.27 slip deflections a cycle at 50 +- 10 %.
+    """
+    law, angle = twin(core), np.linspace(0.0, np.pi / 2, Z)
+    share = np.array([0.05, 0.20, 0.24])[np.arange(Z) % 3]
+    constant = np.where(np.arange(Z) < 6, 0.5, 0.75) * SLIP_LOAD * np.array([np.ones(Z), np.zeros(Z)])
+    vibration = share * SLIP_LOAD * np.array([np.cos(angle), np.sin(angle)])
+    carry(law, constant, *CLAMPED)
+    for sign in (1.0, -1.0):
+        carry(law, constant + sign * vibration, *CLAMPED)
+    carry(law, constant, *CLAMPED)
+    begin, way = law.z.copy(), vibration / (K_T + K_H)
+    law.rubbed[:] = 0.0
+    lost = 0.0
+    for part in np.sin(2.0 * np.pi * np.arange(4 * 10_000) / 4.0):  # elastic: the load goes with the motion
+        now = part * way - (law.z[2:] - begin[2:])
+        lost += law.move(now, *CLAMPED)
+    law.move(begin[2:] - law.z[2:], *CLAMPED)
+    assert np.max(np.abs(law.z - begin)) < 1e-9 * SLIP_LOAD / (2.0 * K_T)
+    assert lost < 1e-12 and np.max(law.rubbed) < 1e-12
+    np.testing.assert_allclose(shear(law), constant, rtol=1e-9, atol=1e-9)
+
+
+@twins
+def test_a_turning_load_shakes_down(core, twin):
+    """A load of 20 to 95 % of the slip load that turns: after the first turn it moves the joint around a circle and the same
+    one for ever, in 300 turns by less than 1e-6 slip deflections.
+    """
+    law, size = twin(core), np.linspace(0.2, 0.95, Z) * SLIP_LOAD
+    steps, place, turns = 24, np.zeros((2, Z)), []
+    for i in range(301 * steps):
+        angle = 2.0 * np.pi * i / steps
+        place = place + carry(law, size * np.array([[np.cos(angle)], [np.sin(angle)]]), *CLAMPED)
+        if i % steps == 0:
+            turns.append(place)
+    drift = np.abs(turns[-1] - turns[1])
+    print(np.max(drift) / (SLIP_LOAD / 2.0 / K_T))
+    assert np.max(drift) < 1e-6 * SLIP_LOAD / 2.0 / K_T
+
+
+@twins
+def test_beyond_the_slip_load_coulombs_law_holds(core, twin):
+    """Joints that are moved on slide with mu times the clamping forces against the motion, at any step of it; when the
+    motion turns by a right angle, the force follows within a few slip deflections: z' = v - (v.n) n of the plates' and
+    heads' discs gives tan(theta/2) = tan(theta_0/2) e^(-u/z_c).
+    """
+    direction = np.array([0.6, -0.8])[:, None]
+    for ways in (np.full(1, 1e-5), np.full(100, 1e-7), np.full(20, 5e-7)):
+        law = twin(core)
+        T, N = np.linspace(5.0, 40.0, Z), np.linspace(30.0, 2.0, Z)
+        lost = sum(law.move(way * direction * np.ones(Z), T, N) for way in ways)
+        C_plate, C_head = MU * N + 1e-3, MU * T + 1e-3
+        np.testing.assert_allclose(shear(law), (C_plate + C_head) * direction, rtol=1e-12)
+        if len(ways) > 1:
+            slid = sum(C * (1e-5 - 0.5 * C / k) - 0.0 for C, k in ((C_plate, K_T), (C_head, K_H)))
+            elastic = sum(0.5 * C * C / k for C, k in ((C_plate, K_T), (C_head, K_H)))
+            # midpoints of the steps in which slip begins: h^2 k/8 of each spring at most
+            bound = Z * (K_T + K_H) * ways[0] ** 2 / 8.0
+            assert lost == pytest.approx(np.sum(slid - elastic), abs=bound)
+            np.testing.assert_allclose(
+                law.rubbed, N * (1e-5 - C_plate / K_T) + T * (1e-5 - C_head / K_H), rtol=1e-12
+            )
+    across, z_c = np.array([0.8, 0.6])[:, None], C_plate / K_T
+    for _ in range(400):
+        law.move(1e-3 * z_c * across, T, N)
+    theta = np.arctan2(*[np.sum(law.z[:2] * e, axis=0) for e in (direction, across)])
+    np.testing.assert_allclose(np.tan(0.5 * theta), np.tan(np.pi / 4) * np.exp(-0.4), rtol=1e-3)
+
+
+@twins
+def test_work_is_stored_or_dissipated(core, twin):
+    """Random motions under clamping forces that change, fall away and return: the work of the mean force over each motion is
+    what the springs store and what is dissipated, to rounding; nothing is dissipated that is negative.  A clamping force
+    that falls while nothing moves dissipates what the springs lose.
+    """
+    rng, law = np.random.default_rng(4), twin(core)
+
+    def stored():
+        return 0.5 * np.sum(K_T * law.z[:2] ** 2 + K_H * law.z[2:] ** 2)
+
+    work = dissipated = 0.0
+    for _ in range(300):
+        way = rng.normal(0.0, 10 ** rng.uniform(-9, -6), (2, Z))
+        T, N = rng.uniform(0.0, 40.0, (2, Z)) * rng.integers(0, 2, (2, Z))
+        before, E = shear(law), stored()
+        lost = law.move(way, T, N)
+        done = np.sum(0.5 * (before + shear(law)) * way)
+        assert lost >= 0.0
+        assert done == pytest.approx(stored() - E + lost, abs=1e-12 * (E + stored() + lost) + 1e-24)
+        work, dissipated = work + done, dissipated + lost
+        assert np.all(K_T * np.hypot(*law.z[:2]) <= (MU * N + 1e-3) * (1.0 + 1e-14))
+        assert np.all(K_H * np.hypot(*law.z[2:]) <= (MU * T + 1e-3) * (1.0 + 1e-14))
+    assert dissipated > 0.5 * work > 0.0
+    carry(law, 0.9 * SLIP_LOAD * np.array([np.cos(np.arange(Z)), np.sin(np.arange(Z))]), *CLAMPED)
+    E = stored()
+    lost = law.move(np.zeros((2, Z)), 0.5 * CLAMPED[0], 0.5 * CLAMPED[1])
+    assert lost == pytest.approx(E - stored(), rel=1e-12) and lost > 0.5 * E
+
+
+def test_the_twins_slide_alike(core):
+    """States and losses of both twins over a random path: to rounding."""
+    rng, (c, python) = np.random.default_rng(5), (kind(core) for kind in (ByC, ByPython))
+    for _ in range(200):
+        way, (T, N) = rng.normal(0.0, 3e-7, (2, Z)), rng.uniform(0.0, 40.0, (2, Z))
+        lost = [law.move(way, T, N) for law in (c, python)]
+        assert lost[0] == pytest.approx(lost[1], rel=1e-12, abs=1e-20)
+    np.testing.assert_allclose(c.z, python.z, rtol=1e-12, atol=1e-20)
+    np.testing.assert_allclose(c.rubbed, python.rubbed, rtol=1e-12)
 
 
 def test_axial_law(core):
@@ -166,14 +339,12 @@ def test_clamp_force_sets_the_friction(core, load):
         u_x = 0.5 * (low + high)
         joints.move((u_x, 0.0, 0.0))
         low, high = (u_x, high) if joints.w.two_half.pull[0] - joints.w.two_half.push[0] < N else (low, u_x)
-    for _ in range(8000):  # 16 um: 12 times the full deflection of the heads
-        joints.move((u_x, 1e-6, 0.0), (0.0, 1e-3, 0.0))
-        joints.advance(2e-6)
-    joints.move((u_x, 1e-6, 0.0))
+    joints.pull([0.0, 2e-6, 4e-6], u_x)  # within the play, 4 times the full deflection of the heads
+    joints.move((u_x, 4e-6, 0.0))
     T, pressed = joints.w.two_half.rivet[0][0], joints.w.two_half.N_plate[0]
     assert T - pressed == pytest.approx(N, rel=0.01)
     assert pytest.approx(N if load > 1.0 else PRELOAD, abs=0.02 * PRELOAD) == T
-    assert -(joints.w.S_y[0] + joints.w.H_y[0]) == pytest.approx(MU * (T + pressed) + 2 * 0.5, abs=3e-3)
+    assert -(joints.w.S_y[0] + joints.w.H_y[0]) == pytest.approx(MU * (T + pressed) + 2 * 0.5, rel=1e-9)
 
 
 @pytest.mark.parametrize(("omega", "preload"), [(754.0, 20.0), (754.0, 40.0), (1500.0, 20.0), (200.0, 60.0)])
@@ -201,14 +372,14 @@ def test_friction_is_smooth_in_the_speed(core):
     The table's states are 7 rad/s apart; joined by straight lines they would give jumps of some 3 %.
     """
     joints = Joints(core, **{"joint.fit": -60e-6})
-    joints.y[SLICE["joint_plate_y"]] = 1e-7
-    rate = []
+    joints.y[SLICE["joint_plate_y"]] = 1e-4  # far beyond what friction holds
+    capacity = []
     for omega in np.arange(300.0, 600.0, 0.1):
         for turning in joints.w.half:
             pose(core, turning, Omega=(omega, 0.0, 0.0))
-        joints.move((0.0, 0.0, 0.0), (0.0, 1e-3, 0.0))
-        rate.append(1.0 / (1e-3 - joints.w.plate_y_dot[0]))  # in proportion to the capacity
-    slope, curvature = np.diff(rate), np.diff(rate, n=2)
+        joints.move((0.0, 0.0, 0.0))
+        capacity.append(joints.w.S_y[0])
+    slope, curvature = np.diff(capacity), np.diff(capacity, n=2)
     print(np.abs(curvature).max() / np.abs(slope).max())
     assert np.abs(curvature).max() < 5e-3 * np.abs(slope).max()
 
@@ -234,7 +405,7 @@ def test_axial_natural_frequency(core):
 
 
 def test_common_motion_slips_nowhere(core):
-    """Halves offset in their plane that move as one body, turning and tilting: no joint velocity, no rate of friction.
+    """Halves offset in their plane that move as one body, turning and tilting: no joint velocity.
 
     u = 10 um at 757 rad/s would be 8 mm/s without the turn of the frame; observed 1e-17 m/s of 20 m/s.
     """
@@ -250,7 +421,6 @@ def test_common_motion_slips_nowhere(core):
         assert [joints.w.u_x[0], joints.w.u_y[3], joints.w.u_z[5]] == pytest.approx([1e-7, 8e-6, -6e-6], abs=1e-15)
         for v_j in (joints.w.v_jx, joints.w.v_jy, joints.w.v_jz):
             assert np.abs(numbers(v_j)).max() < 1e-12
-        assert np.abs([numbers(getattr(joints.w, f"{name}_dot")) for name in NAMES]).max() < 1e-12
 
 
 def test_slip_by_relative_rotation(core):

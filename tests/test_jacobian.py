@@ -427,7 +427,7 @@ UNDAMPED = {"bearing.lambda": 0.0, "cage.lambda": 0.0, "joint.zeta": 0.0, "oil.v
 
 @pytest.mark.parametrize("scene", SCENES, ids=lambda scene: "-".join(part.name for part in scene))
 def test_stiff_rates_against_the_diagonal(core, scene):
-    """D is what traction and friction states hold back: never far below -J_ii without the contacts' damping, which it
+    """D is what traction holds back: never far below -J_ii without the contacts' damping, which it
     leaves out, and of its size.
     """
     rng = np.random.default_rng(12)
@@ -441,8 +441,6 @@ def test_stiff_rates_against_the_diagonal(core, scene):
             stiff += ratio.size
             # observed 0.9999...9.5, the most where asperities slip against each other
             assert np.all((ratio > 0.999) & (ratio < 20.0)), (kind, name)
-        for name in ("joint_plate_y", "joint_plate_z", "joint_head_y", "joint_head_z"):
-            np.testing.assert_allclose(D[SLICE[name]], rate[SLICE[name]], rtol=1e-11)  # observed 2e-12: T - N cancels
     assert stiff > 50  # observed 144...199
 
 

@@ -217,7 +217,7 @@ def test_impact_of_soft_bodies(core, speed):
         series,
         (0.0, 5e-3),
         [h_0, speed, np.log(h_0)],
-        method="LSODA",
+        method="Radau",
         rtol=1e-8,
         atol=1e-12,
         max_step=5e-6,

@@ -14,7 +14,6 @@ from states_of_all_kinds import KINDS, SCENES, make_model, make_state
 from bearing_model.cage.cage import CageMemory, cage_film_matrices
 from bearing_model.cage.common.cage_joint import cage_joint_kinematics
 from bearing_model.cage.common.halves import halves_kinematics
-from bearing_model.cage.two_half.two_half import TwoHalfMemory
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     N_STATES,
@@ -50,12 +49,11 @@ def started(core, c, y):
 def copied(state):
     """The same as the twin's."""
     film = [[[yy, yz], [yz, zz]] for yy, yz, zz in state.film]
-    path = TwoHalfMemory(*(np.array(list(row))[:Z] for row in (state.cage.path.T, state.cage.path.N_plate)))
     return VerletState(
         *(np.array(list(rows))[:N_STATES] for rows in (state.y, state.f, state.jerk)),
         np.array(film),
         state.h,
-        CageMemory(path),
+        CageMemory(),
     )
 
 

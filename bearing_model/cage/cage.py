@@ -13,7 +13,13 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearing_model.cage.common.cage_joint import cage_joint_kinematics
+from bearing_model.cage.common.cage_joint import (
+    STATES,
+    JointStep,
+    cage_joint_follow,
+    cage_joint_kinematics,
+    cage_joint_slide,
+)
 from bearing_model.cage.common.films import HALF, N_HALVES, film_matrix, film_rates
 from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
@@ -36,13 +42,10 @@ from bearing_model.cage.elastic.cage_substeps import (
 from bearing_model.cage.elastic.elastic_half import elastic_half_derive, elastic_half_rest
 from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
 from bearing_model.cage.two_half.two_half import (
-    TwoHalfMemory,
-    two_half_advance,
     two_half_correct,
     two_half_joints,
     two_half_loads,
     two_half_matrices,
-    two_half_remember,
     two_half_stiffness,
 )
 from bearing_model.generated.variables import (
@@ -63,6 +66,7 @@ from bearing_model.generated.variables import (
     MODE_S_DOT,
     RETIRED_ITEMS,
     RING_V_X,
+    WORK,
     CageModel,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
@@ -80,7 +84,6 @@ PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D
 class CageMemory:
     """Carried from an evaluation to the next step, of the kind of cage that runs."""
 
-    path: TwoHalfMemory = None
     fast: FastState = None
     films: RimFilms = field(default_factory=RimFilms)
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
@@ -99,6 +102,7 @@ class CageStep:
     modes: np.ndarray = 0.0
     halves: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
     substep: float = 0.0
+    joints: JointStep = None
     rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
     impulse: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
@@ -190,8 +194,9 @@ def cage_joints(model, y, w):
 def cage_acceleration(model, y, w, y_dot):
     """Rates of all states of the cage under the forces on the halves."""
     halves_acceleration(model, y, w, y_dot)
-    y_dot[..., JOINT_PLATE_Y], y_dot[..., JOINT_PLATE_Z] = w.plate_y_dot, w.plate_z_dot
-    y_dot[..., JOINT_HEAD_Y], y_dot[..., JOINT_HEAD_Z] = w.head_y_dot, w.head_z_dot
+    v = w.elastic.joints.v if model.modes else w.v_j[1:]
+    for row, along in zip(STATES, (*v, *v), strict=True):
+        y_dot[..., row] = along
     if model.modes:
         cage_elastic_acceleration(model, y, w, y_dot)
 
@@ -204,7 +209,7 @@ def cage_split(model, y, w, f):
     it as CageMemory.
     """
     if not model.modes:
-        return CageMemory(path=two_half_remember(w))
+        return CageMemory()
     memory = CageMemory(fast=cage_substeps_split(model, y, w, f))
     if bent_halves(w).any():
         memory.films.force = np.where(bent_halves(w)[:, None], w.pressure.rim_force.T, 0.0)
@@ -220,12 +225,13 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
     y[CAGE_PSI] = y_0[CAGE_PSI] + h * np.concatenate([half.s - rotor_roll(half) for half in w.half])
     cage_joint_kinematics(model, w)
     if not model.modes:
-        two_half_advance(model, h, memory.path, w, y)
-        return CageStep()
+        across = w.v_j[1:]
+        return CageStep(joints=JointStep(cage_joint_follow(h, across, y), h * across))
     films = RimFilmsStep(model, h, memory.films)
     add_rates(model, 0.5 * h * rim_modes(model, films.held), y)
-    substep, modes, halves = cage_substeps_advance(model, h, memory.fast, f, middle, y, films, w)
-    return CageStep(modes, halves.ravel(), substep, rim_held=films.held, rim_before=films.before(0.5 * h))
+    substep, modes, halves, joints = cage_substeps_advance(model, h, memory.fast, f, middle, y, films, w)
+    before = films.before(0.5 * h)
+    return CageStep(modes, halves.ravel(), substep, joints=joints, rim_held=films.held, rim_before=before)
 
 
 def cage_predict(model, gamma, w, step, memory, y):
@@ -327,10 +333,29 @@ def cage_matrices(model, w, gamma):
     return films, *((none, none, none, 0.0, 0.0) if model.modes else two_half_matrices(model, w, gamma))
 
 
-def cage_correct(model, w, gamma, axial, shear, delta, y):
-    """Positions and friction states in y follow the corrections delta [12] of the velocities."""
+def cage_correct(model, w, gamma, axial, shear, delta, y, step):
+    """Positions in y follow the corrections delta [12] of the velocities; the friction states slip where friction does not hold
+    them, and the work loses what that dissipates.
+    """
     if not model.modes:
-        two_half_correct(model, w, gamma, axial, shear, delta, y)
+        two_half_correct(model, w, gamma, axial, shear, delta, y, step.joints)
+    y[WORK] -= slide(model, y, step.joints, w)
+
+
+def slide(model, y, step, w):
+    """Maps the friction states in y back under the loads in w, from step.before; returns what that dissipates [J]."""
+    at, k = w.elastic.joints if model.modes else w.two_half, joints_in_plane(model, w)[1]
+    return cage_joint_slide(model, k, at.rivet[0], at.N_plate, y, step)
+
+
+def cage_slide(model, before, y, w):
+    """The same at the end y of a step of another method, whose evaluation is w and whose start is `before`; changes y.
+    Returns what the slip dissipates, and normal force times slip of each joint [Z] [J].
+    """
+    step = JointStep(np.array([before[row] for row in STATES]))
+    lost = slide(model, y, step, w)
+    y[WORK] -= lost
+    return lost, step.rubbed
 
 
 def cage_remember(model, h, second, start, end, error):
@@ -373,20 +398,6 @@ def joints_in_plane(model, w):
 def cage_slip(model, w):
     """Slip of half 1 against half 0 at each joint, in the plane [m]."""
     return np.hypot(*joints_in_plane(model, w)[0])
-
-
-def cage_rubbing(model, w):
-    """Normal force times slip speed of plates and heads at each joint [W], without the slip that is elastic.
-
-    Where they slip, the traction is mu times the pressure, so that it is what they dissipate over mu.
-    """
-    joint, d, series = model.p.joint, model.d, model.modes.series if model.modes else 1.0
-    at = w.elastic.joints if model.modes else w.two_half
-    faces = ((at.N_plate, w.plate_rate, w.S, d.k_plate_t), (at.rivet[0], w.head_rate, w.H, d.k_head))
-    return sum(
-        rate * np.sum(F * F, axis=0) / (series * k) * normal / (joint.mu * normal + joint.F_floor)
-        for normal, rate, F, k in faces
-    )
 
 
 def pocket_energy(model, w):
@@ -433,9 +444,10 @@ def cage_energy(model, y, w):
 
 
 def cage_losses(model, w):
-    """Powers that joints and modes dissipate [W] by name, each [..., 1]."""
-    terms = {"joints": ball_array_sum(w.joint_dissipated)}
-    return terms | {"modes": w.elastic.dissipated} if model.modes else terms
+    """Powers that the damping of joints and modes dissipates [W] by name, each [..., 1].  What friction loses is no function
+    of a state: it is the work of a step's slip (cage_slide).
+    """
+    return {"modes": w.elastic.dissipated} if model.modes else {"joints": w.two_half.dissipated}
 
 
 def cage_flex(model, w, h):

@@ -61,6 +61,10 @@ class Ledger:
         for name, energy in energy_terms(model, y, w).items():
             self.stored[name] = self.stored.get(name, 0.0) + energy[-1, 0] - energy[0, 0]
 
+    def add_friction(self, lost):
+        """Add what the joints' friction has dissipated [J]."""
+        self.lost["joints"] = self.lost.get("joints", 0.0) + lost
+
     def copy(self):
         return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost), dict(self.changed))
 

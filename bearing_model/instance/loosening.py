@@ -17,11 +17,11 @@ class Loosening:
     loss: np.ndarray = field(default_factory=lambda: np.zeros(Z))
     in_force: np.ndarray = field(default_factory=lambda: np.zeros(Z))
 
-    def add(self, p, table, h, rubbing):
-        """Add steps of lengths h [s] with the rates of rubbing, force times slip [W], [steps, Z]."""
+    def add(self, p, table, rubbed):
+        """Add steps in which the joints have rubbed, force times slip [J], [steps, Z]."""
         joint = table.joint
         face = 0.25 * np.pi * joint["seat"] ** 2 - joint["A"]
-        self.loss = self.loss + p.joint.wear * joint["k_stack"] / face * np.sum(h[:, None] * rubbing, axis=0)
+        self.loss = self.loss + p.joint.wear * joint["k_stack"] / face * np.sum(rubbed, axis=0)
 
     def apply(self, p):
         """The Parameters p with the preloads that are left."""

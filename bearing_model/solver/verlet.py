@@ -2,7 +2,7 @@
 verlet.c and implicit.c.
 
     v_m = v_n + gamma a_n,  gamma = h/2
-    q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states: implicit midpoint (cage_joint_advance)
+    q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
     v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (predictor_limiter)
     (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    one linear solve, A ~ -da/dv, K ~ -da/dq of what is stiff (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
@@ -335,7 +335,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     cage_finish(model, gamma, cage, y, end)
     delta -= removed  # from here on delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
-    cage_correct(model, w, gamma, b.axial, b.shear, delta[CAGE], y)
+    cage_correct(model, w, gamma, b.axial, b.shear, delta[CAGE], y, cage)
     y[V] += removed + delta
     delta += gamma * foreseen
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
@@ -349,8 +349,8 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.f[V] = a + delta / gamma - SMOOTHING * damped
     end.jerk[V] = (end.f[V] - a) / h
 
-    # Friction states: their mean rate over the step, and the error h^3/24 q''' of the midpoint rule.
-    end.f[FRICTION] = (y - start.y)[FRICTION] / h
+    # Friction states follow the joints: mean rate of their motion over the step, and the error h^3/24 u''' of the midpoint rule.
+    end.f[FRICTION] = np.tile(cage.joints.way.ravel(), 2) / h
     end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
     error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
     cage_remember(model, h, second, start, end, error)

@@ -32,10 +32,12 @@ void cage_joints(const Model *model, const scalar *y, Work *w)
 void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
 {
     halves_acceleration(model, y, w, y_dot);
-    memcpy(&y_dot[Y_JOINT_PLATE_Y], w->plate_y_dot, Z * sizeof *y_dot);
-    memcpy(&y_dot[Y_JOINT_PLATE_Z], w->plate_z_dot, Z * sizeof *y_dot);
-    memcpy(&y_dot[Y_JOINT_HEAD_Y], w->head_y_dot, Z * sizeof *y_dot);
-    memcpy(&y_dot[Y_JOINT_HEAD_Z], w->head_z_dot, Z * sizeof *y_dot);
+    const scalar *v_y = model->modes ? w->elastic.joints.v_y : w->v_jy;
+    const scalar *v_z = model->modes ? w->elastic.joints.v_z : w->v_jz;
+    memcpy(&y_dot[Y_JOINT_PLATE_Y], v_y, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_JOINT_PLATE_Z], v_z, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_JOINT_HEAD_Y], v_y, Z * sizeof *y_dot);
+    memcpy(&y_dot[Y_JOINT_HEAD_Z], v_z, Z * sizeof *y_dot);
     if (model->modes) cage_elastic_acceleration(model, y, w, y_dot);
 }
 
@@ -47,10 +49,7 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
 #ifndef DUAL
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
-    if (!model->modes) {
-        two_half_remember(w, &memory->path);
-        return;
-    }
+    if (!model->modes) return;
     cage_substeps_split(model, y, w, f, &memory->fast);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
@@ -68,11 +67,15 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     cage_joint_kinematics(model, w);
     step->gamma = 0.5 * h;
     step->substep = step->axial = step->shear = 0.0;
+    memset(&step->joints, 0, sizeof step->joints);
     memset(step->rim_lack, 0, sizeof step->rim_lack);
     memset(step->bent, 0, sizeof step->bent);
     memset(step->squeeze, 0, sizeof step->squeeze);
     if (!model->modes) {
-        two_half_advance(model, h, &memory->path, w, y);
+        for (int k = 0; k < LANES; k++)
+            step->joints.way_y[k] = h * w->v_jy[k], step->joints.way_z[k] = h * w->v_jz[k];
+        memcpy(step->joints.before, &y[Y_JOINT_PLATE_Y], sizeof step->joints.before);
+        cage_joint_follow(h, w->v_jy, w->v_jz, y);
         return;
     }
     memcpy(&y[Y_MODE_S], &y_0[Y_MODE_S], (N_ALL_STATES - Y_MODE_S) * sizeof *y);
@@ -85,7 +88,7 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     const bool follow = rim_films_begin(model, h, &memory->films, &films);
     rim_push(model, step->gamma, films.held, &y[Y_MODE_S_DOT]);
     step->substep = cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen,
-                                          follow ? &films : NULL, w);
+                                          &step->joints, follow ? &films : NULL, w);
     memcpy(step->rim_held, films.held, sizeof step->rim_held);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < RIM; k++) {
@@ -201,10 +204,27 @@ void cage_finish(const Model *model, const CageStep *step, double *y, const doub
     rim_push(model, gamma, change, &y[Y_MODE_S_DOT]);
 }
 
-void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
-                  double *y)
+// Maps the friction states in y back under the loads in w, from step->before.
+static void slide(const Model *model, double *y, JointStep *step, Work *w)
 {
-    if (!model->modes) two_half_correct(model, w, gamma, step->axial, step->shear, delta, y);
+    const double *T = model->modes ? w->elastic.joints.rivet[0] : w->two_half.rivet[0];
+    const double *N_plate = model->modes ? w->elastic.joints.N_plate : w->two_half.N_plate;
+    const JointStiffness k_in = model->modes ? cage_elastic_stiffness(model) : two_half_stiffness(model->d);
+    y[Y_WORK] -= cage_joint_slide(model, &k_in, T, N_plate, y, step);
+    memcpy(w->joint_rubbed, step->rubbed, sizeof w->joint_rubbed);
+}
+
+void cage_correct(const Model *model, double gamma, const double *delta, double *y, CageStep *step, Work *w)
+{
+    if (!model->modes) two_half_correct(model, w, gamma, step->axial, step->shear, delta, y, &step->joints);
+    slide(model, y, &step->joints, w);
+}
+
+void cage_slide(const Model *model, const double *before, double *y, Work *w)
+{
+    JointStep step = {0};
+    memcpy(step.before, &before[Y_JOINT_PLATE_Y], sizeof step.before);
+    slide(model, y, &step, w);
 }
 
 void cage_remember(const Model *model, double h, double h_0, const double *restrict f,

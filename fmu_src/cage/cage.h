@@ -22,7 +22,6 @@
 // Carried from an evaluation to the next step, of the kind of cage that runs; of the other 0.  Part of the saved state: no
 // member is aligned beyond a double, so that nothing lies between them.
 typedef struct {
-    TwoHalfMemory path;
     FastState fast;
     RimFilms films;
     double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
@@ -82,6 +81,7 @@ typedef struct {
     Foreseen foreseen;  // slow accelerations at the end
     double gamma;       // half of the step [s]
     double substep;     // length of the substeps [s], 0 without any
+    JointStep joints;   // friction
     double axial, shear;
     // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2], squeeze velocities, the solution
     double rim_lack[2][RIM], squeeze[2][SQUEEZE];
@@ -128,10 +128,16 @@ void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step,
 #define cage_solve FOR_ISA(cage_solve)
 void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v);
 
-// Positions and friction states in y follow the corrections delta of the velocities.
+// Positions in y follow the corrections delta of the velocities; the friction states slip where friction does not hold them,
+// and the work loses what that dissipates.
 #define cage_correct FOR_ISA(cage_correct)
-void cage_correct(const Model *model, const Work *w, double gamma, const CageStep *step, const double *delta,
-                  double *y);
+void cage_correct(const Model *model, double gamma, const double *delta, double *y, CageStep *step, Work *w);
+
+// The same of a step of another method, which ends at the state y and its evaluation w: `before` is the state at its
+// start.
+typedef void CageSlide(const Model *model, const double *before, double *y, Work *w);
+#define cage_slide FOR_ISA(cage_slide)
+CageSlide cage_slide;
 
 // Velocities of the modes at the end, in y, with the forces on bent rims there; the evaluations behind foresee no films.
 #define cage_finish FOR_ISA(cage_finish)
@@ -163,18 +169,14 @@ CageLoads cage_loads;
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 
-#ifndef DUAL
-// Normal force times slip speed of plates and heads at each joint [W], without the slip that is elastic: wear by Archard's law.
-void cage_rubbing(const Model *model, const Work *w, double rubbing[Z]);
-#endif
-
 // Kinetic energy of the halves, elastic energy of pockets, joints and modes [J].
 scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 
-// Power that the halves' vibrations lose [W].
+// Power that the halves' vibrations and the damping between rigid halves lose [W].  What friction loses is no function of
+// a state: it is the work of a step's slip (cage_correct).
 INLINE scalar cage_losses(const Work *w)
 {
-    return w->elastic.dissipated;
+    return w->elastic.dissipated + w->two_half.dissipated;
 }
 
 // Motions of half h at the rivets by its modes, in the rivets' frames [m].

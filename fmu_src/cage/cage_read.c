@@ -1,4 +1,4 @@
-// Functions of cage.h that read the results of an evaluation: energy of the cage, slip and rubbing of its joints,
+// Functions of cage.h that read the results of an evaluation: energy of the cage, slip of its joints,
 // motion of the halves by their modes.
 #include "cage/cage.h"
 #include "cage/common/cage_joint.h"
@@ -127,27 +127,6 @@ void cage_slip(const Model *model, const Work *w, scalar slip[Z])
     const scalar *u_z = model->modes ? w->elastic.joints.u_z : w->u_z;
     for (int k = 0; k < Z; k++) slip[k] = scalar_sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k]);
 }
-
-#ifndef DUAL
-// Where plates and heads slip, the traction is mu times the pressure, so that F s' is what they dissipate over mu.
-static double rubbing_of(const Parameters *p, double normal, double rate, double F_y, double F_z, double k)
-{
-    const double lost = rate * (F_y * F_y + F_z * F_z) / k;
-    return lost * normal / (p->joint.mu * normal + p->joint.F_floor);
-}
-
-void cage_rubbing(const Model *model, const Work *w, double rubbing[Z])
-{
-    const Derived *d = model->d;
-    const double series = model->modes ? model->modes->series : 1.0;
-    const double *N = model->modes ? w->elastic.joints.N_plate : w->two_half.N_plate;
-    const double *T = model->modes ? w->elastic.joints.rivet[0] : w->two_half.rivet[0];
-    for (int k = 0; k < Z; k++)
-        rubbing[k] =
-            rubbing_of(model->p, N[k], w->plate_rate[k], w->S_y[k], w->S_z[k], series * d->k_plate_t) +
-            rubbing_of(model->p, T[k], w->head_rate[k], w->H_y[k], w->H_z[k], series * d->k_head);
-}
-#endif
 
 scalar cage_energy(const Model *model, const scalar *y, const Work *w)
 {

@@ -86,13 +86,6 @@ static void add_cage(Bearing *b, double h)
     s->eccentricity_time += h * sqrt(y * y + z * z) / b->d.play;
 }
 
-static void add_wear(Bearing *b, double h)
-{
-    double rubbing[Z];
-    cage_rubbing(&b->model, &b->w, rubbing);
-    loosening_add(&b->s.p, h, rubbing, &b->s.loosening);
-}
-
 // Adds the state just reached, after a step of length h, to peaks, statistics and fatigue.
 static void accepted_step(void *context, double h, const Work *w)
 {
@@ -105,7 +98,7 @@ static void accepted_step(void *context, double h, const Work *w)
     else
         s->end.stress_known = false;
     if (counts) add_cage(b, h);
-    if (s->p.joint.wear > 0.0) add_wear(b, h);
+    if (s->p.joint.wear > 0.0) loosening_add(&s->p, w->joint_rubbed, &s->loosening);
 }
 
 static void solver_message(void *context, const char *message)

@@ -7,12 +7,12 @@
 // Share of joint.preload by which a rivet's preload may be off the worn one.
 static const double PRELOAD_SHARE = 1e-3;
 
-void loosening_add(const Parameters *p, double h, const double rubbing[Z], Loosening *loose)
+void loosening_add(const Parameters *p, const double *rubbed, Loosening *loose)
 {
     const JointData *joint = &rivet_table.joint;
     const double face = 0.25 * PI * joint->seat * joint->seat - joint->A;
     const double loss = p->joint.wear * joint->k_stack / face;
-    for (int k = 0; k < Z; k++) loose->loss[k] += h * loss * rubbing[k];
+    for (int k = 0; k < Z; k++) loose->loss[k] += loss * rubbed[k];
 }
 
 void loosening_apply(const Loosening *loose, Parameters *p)

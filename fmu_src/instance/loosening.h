@@ -4,9 +4,7 @@
 //   P' = -k_stack V'/A             the faces press on A, the rivet's seat about its shank; the rivet loses the worn
 //                                  thickness as elongation against the flanges, k_stack [N/m]
 //
-// F s' is summed over plates (F = N_plate) and heads (F = T).  It is the power that their friction dissipates, divided
-// by mu.  This holds under partial slip too, because the friction stress at every slipping point is mu times the
-// pressure there (cage_rubbing).  The loss grows with every accepted step.  The preload changes at a communication
+// F s is summed over plates (F = N_plate) and heads (F = T), over every slip of a step (cage_joint_slide).  The loss grows with every accepted step.  The preload changes at a communication
 // point, once the loss not yet applied exceeds PRELOAD_SHARE of joint.preload.
 #pragma once
 
@@ -20,8 +18,8 @@ typedef struct {
     double in_force[Z];  // of it, what the constants have
 } Loosening;
 
-// Adds a step of length h [s] with the rates of rubbing, force times slip [W], of each joint.
-void loosening_add(const Parameters *p, double h, const double rubbing[Z], Loosening *loose);
+// Adds a step in which each joint has rubbed, force times slip [J].
+void loosening_add(const Parameters *p, const double *rubbed, Loosening *loose);
 
 // Takes the loss in force from the preloads in p.
 void loosening_apply(const Loosening *loose, Parameters *p);

@@ -221,8 +221,8 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    out->loss.modes = cage_losses(w);
-    out->loss.joints = ball_array_sum(w->joint_dissipated);
+    out->loss.modes = w->elastic.dissipated;
+    out->loss.joints = ball_array_sum(w->joint_dissipated) + w->two_half.dissipated;
     out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated;
     out->bearing.power_loss += out->loss.joints;
     out->bearing.power_loss += out->loss.modes;

@@ -341,14 +341,13 @@ typedef struct {
     Pockets pocket[2];      // of each half
 
     // joints, in the frame of half 0 (cage_joint.c): offset and velocity of half 1 against half 0 as rigid bodies; forces
-    // on half 1 by plates (S), heads (H) and hole (B), and their sum in the plane; rates of the friction states, their
-    // decay D, z' = v - D z [1/s]; stiffness of the hole where the shank bears, else 0 [N/m]; power (two_half.c adds
-    // that of its springs)
+    // on half 1 by plates (S), heads (H) and hole (B), and their sum in the plane; parts of the friction states' trial
+    // deflections that friction holds; stiffness of the hole where the shank bears, else 0 [N/m]; power of the friction
     ball_array u_x, u_y, u_z, v_jx, v_jy, v_jz;
     ball_array S_y, S_z, H_y, H_z, B_y, B_z, joint_F_y, joint_F_z;
-    ball_array plate_y_dot, plate_z_dot, head_y_dot, head_z_dot;
-    ball_array plate_rate, head_rate, k_bearing;
+    ball_array plate_held, head_held, k_bearing;
     ball_array joint_dissipated;
+    ball_array joint_rubbed;  // normal force times slip in the step that ends here [J] (cage_correct)
 
     // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
     // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)

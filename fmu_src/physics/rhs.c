@@ -38,7 +38,6 @@ static scalar net_power(const Model *model, const Work *w, const scalar *y_dot)
 {
     scalar power =
         shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
-    power -= ball_array_sum(w->joint_dissipated);
     power -= cage_losses(w);
     power += land_growth_power(model, w, y_dot);
     const RingLoad *load = model->ring_load;

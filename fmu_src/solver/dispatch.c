@@ -11,6 +11,7 @@
 #undef verlet_evaluate
 #undef race_contact_force
 #undef cage_loads
+#undef cage_slide
 #undef rivet_rom_stress
 #define DECLARE_2(isa)                         \
     Rhs rhs_##isa;                             \
@@ -18,11 +19,12 @@
     VerletStep verlet_step_##isa;              \
     VerletEvaluate verlet_evaluate_##isa;      \
     CageLoads cage_loads_##isa;                \
+    CageSlide cage_slide_##isa;                \
     RivetRomStress rivet_rom_stress_##isa;     \
     extern const VectorOps vector_ops_##isa, vector_ops_all_##isa
 #define KERNELS_2(isa)                                                                              \
     ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_all_##isa, \
-               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, rivet_rom_stress_##isa})
+               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, cage_slide_##isa, rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 

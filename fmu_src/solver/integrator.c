@@ -95,6 +95,17 @@ static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
     return 0;
 }
 
+// At the end of an accepted explicit step: the joints' friction states are mapped back.  The derivative there, which
+// is known from the last stage, depends on what friction holds of them alone, so that it stays.
+static int explicit_accepted(sunrealtype t, N_Vector y, void *user)
+{
+    (void)t;
+    Integrator *in = user;
+    if (in->warming_up) return 0;
+    in->kernels->cage_slide(in->model, in->s->now.y, state_vector_data(y), in->w);
+    return 0;
+}
+
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
@@ -289,7 +300,8 @@ static bool create_explicit(Integrator *in)
     if (in->y == NULL) return false;
     in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
     return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
-           explicit_table(in->arkode) == ARK_SUCCESS && warm_up(in, in->arkode, in->y);
+           explicit_table(in->arkode) == ARK_SUCCESS &&
+           ARKodeSetPostprocessStepFn(in->arkode, explicit_accepted) == ARK_SUCCESS && warm_up(in, in->arkode, in->y);
 }
 
 static bool create_bearing(Integrator *in)

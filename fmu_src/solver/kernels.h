@@ -18,6 +18,7 @@ typedef struct {
     VerletStep *verlet;
     VerletEvaluate *verlet_evaluate;
     CageLoads *cage_loads;
+    CageSlide *cage_slide;
     RivetRomStress *rivet_rom_stress;
 } Kernels;
 

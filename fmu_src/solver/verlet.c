@@ -3,7 +3,7 @@
 // docs/method.md.  The same step with dense matrices, to be read beside this file: bearing_model/solver/verlet.py.
 //
 //   gamma = h/2,  v_m = v_n + gamma a_n
-//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z: implicit midpoint rule
+//   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z too, and behind it return mapping
 //   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
 //   S (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration; S: cage_shear
@@ -49,7 +49,7 @@ static double sum_of(const double *x, int count)
     return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
-// Writes positions and friction states of the step's end and the velocities v_m of its middle into y.
+// Writes positions and trial deflections of the step's end and the velocities v_m of its middle into y.
 static void advance_positions(const Model *model, double h, const VerletState *from, double *y,
                               CageStep *step, Work *w)
 {
@@ -61,7 +61,7 @@ static void advance_positions(const Model *model, double h, const VerletState *f
     for (int i = 0; i < FRICTION; i++) y[i] = from->y[i] + h * y[VELOCITY + i];
     for (int i = FRICTION; i < VELOCITY; i++) y[i] = from->y[i];
 
-    // The cage's rotations psi and the friction states have rates that depend on the pose: midpoint rule.
+    // The cage's rotations psi and the joints' motions have rates that depend on the pose: midpoint rule.
     for (int i = Y_CAGE_X; i < Y_RING_X; i++) middle[i] = from->y[i] + gamma * y[VELOCITY + i];
     for (int i = Y_RING_X; i < FRICTION; i++) middle[i] = from->y[i];
     cage_advance(model, h, from->y, from->f, &from->cage, middle, y, step, w);
@@ -153,14 +153,18 @@ static void remember_velocities(const Model *model, const Work *w, double h, con
     }
 }
 
-// Mean rates of the friction states over the step, their changes and errors.  The midpoint rule's own leading
-// error is h^3 z'''/24.  The mean rates belong to the middles of the steps, so that their differences give
-// z'' and the differences of z'' give z'''.
-static void remember_friction(double h, const VerletState *from, VerletState *to, double *error)
+// Mean rates of the joints' motion over the step, which the friction states follow, their changes and errors.  The
+// midpoint rule's own leading error is h^3 u'''/24.  The mean rates belong to the middles of the steps, so that their
+// differences give u'' and the differences of u'' give u'''.
+static void remember_friction(double h, const JointStep *joints, const VerletState *from, VerletState *to,
+                              double *error)
 {
     const double inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h), second = h * h * inv_span;
+    for (int k = 0; k < Z; k++) {
+        to->f[Y_JOINT_PLATE_Y + k] = to->f[Y_JOINT_HEAD_Y + k] = joints->way_y[k] * inv_h;
+        to->f[Y_JOINT_PLATE_Z + k] = to->f[Y_JOINT_HEAD_Z + k] = joints->way_z[k] * inv_h;
+    }
     for (int i = FRICTION; i < Y_WORK; i++) {
-        to->f[i] = (to->y[i] - from->y[i]) * inv_h;
         to->jerk[i] = (to->f[i] - from->f[i]) * inv_span;
         error[i] = (h * second / 24.0) * (to->jerk[i] - from->jerk[i]);
     }
@@ -255,7 +259,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += delta[i];
     cage_foreseen(model, &cage, gamma, delta);
     correct_positions(model, gamma, delta, y);
-    cage_correct(model, w, gamma, &cage, delta, y);
+    cage_correct(model, gamma, delta, y, &cage, w);
 
     // The work by the trapezoidal rule.
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
@@ -264,7 +268,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = 0; i < FRICTION; i++) error[i] = 0.0;
     error[Y_WORK] = 0.0;
     remember_velocities(model, w, h, from, delta, to, error);
-    remember_friction(h, from, to, error);
+    remember_friction(h, &cage.joints, from, to, error);
     to->h = h;
     cage_finish(model, &cage, y, to->f, &to->cage, w);
     cage_remember(model, h, from->h, f, from->jerk, y, to->f, to->jerk, error);

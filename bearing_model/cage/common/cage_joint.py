@@ -2,18 +2,29 @@
 
        |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
     ---+-   -+---       T    tension of the rivet, N_plate force between the plates: two_half.py, cage_elastic.py
-    half 1     | u_x    plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)
+    half 1     | u_x    plate friction  S = -k_t z,  |S| <= C = mu N_plate + F_floor
     ===+=====+===       head friction   H = -k_h z_h, likewise with mu T + F_floor
     half 0     |        hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
     ---+-   -+---
        |     |
 
-The friction law is that of Dahl (1968): its force is a state, so that a closed joint does not creep.  Under a growing
-transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T more), then the halves
-move freely across the gap, and at last the shank bears against its holes.
+Friction is elastic and perfectly plastic: the deflection z of a spring follows the motion, z' = v, as long as Coulomb's
+law allows its force, and slips where it does not (Moreau 1977: z' - v is normal to the disc k |z| <= C).  Below the slip
+load nothing slips, so that a joint that carries a constant load under vibration shakes down (Melan's theorem) instead of
+creeping.  Between two moments the law is integrated by return mapping (Simo and Hughes 1998, section 1.4): z first
+follows the whole motion; its part beyond the disc, taken off along z, is slip,
+
+    z = f z_trial,  z_trial = z_0 + h v,  f = min(1, C/(k |z_trial|)),  dissipated: k (z_0 + z)/2 . (1 - f) z_trial
+
+for any h and for a capacity C that changes.  An evaluation has the trial deflections among its states and the forces of f
+z_trial; the end of a step or substep maps the states back (cage_joint_slide).  The dissipation is the work of the mean
+force over the motion less the change of k z^2/2: the balance of energy is closed in every step.
+
+Under a growing transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T more),
+then the halves move freely across the gap, and at last the shank bears against its holes.
 
 Force and reaction act at the same point, so momentum and energy are exact.
-Smoothness: C0 at bearing (a spring of finite stiffness begins), C0 at v = 0.
+Smoothness: C0 at bearing (a spring of finite stiffness begins) and where slip begins.
 """
 
 from dataclasses import dataclass
@@ -49,6 +60,17 @@ class JointMotion:
 
 
 @dataclass
+class JointStep:
+    """Friction over a step: the states [4, Z] from which the present ones followed the motion since the last mapping; motion of
+    the joints over the step [2, Z] [m]; normal force times slip [Z] [J].
+    """
+
+    before: np.ndarray
+    way: np.ndarray = None
+    rubbed: np.ndarray = 0.0
+
+
+@dataclass
 class JointShear:
     """Loads (r, t) [2, ..., Z] of half 1 that plates, heads and shanks carry in the plane [N]."""
 
@@ -76,13 +98,21 @@ def cage_joint_kinematics(model, w):
     w.v_j = np.array([vec_dot(e, v) + vec_dot(e, spin_y) * s_y + vec_dot(e, spin_z) * s_z for e in axes])
 
 
-def cage_joint_friction(k, capacity, z_y, z_z, v_y, v_z):
-    """Dahl's friction with force -k z: rates of z, their decay D, the dissipated power."""
-    # |v| has no derivative at v = 0; the complex step of |v| is taken as 0 there
-    speed_2 = v_y * v_y + v_z * v_z
-    speed = np.sqrt(np.where(np.real(speed_2) > 0.0, speed_2, 0.0))
-    rate = speed * k / capacity
-    return v_y - rate * z_y, v_z - rate * z_z, rate, k * rate * (z_y * z_y + z_z * z_z)
+STATES = JOINT_PLATE_Y, JOINT_PLATE_Z, JOINT_HEAD_Y, JOINT_HEAD_Z
+PLATES, HEADS = STATES[:2], STATES[2:]
+SLIDES = 0.999  # part of its capacity from which friction that is driven outward counts as sliding
+
+
+def held_part(k, C, z):
+    """Part f of a trial deflection z (y, z) that friction of the capacity C holds."""
+    return C / maximum(k * np.sqrt(z[0] * z[0] + z[1] * z[1] + 1e-30), C)
+
+
+def sliding_power(k, C, z, v):
+    """Power of sliding friction: the capacity times the speed along the force."""
+    size = np.sqrt(z[0] * z[0] + z[1] * z[1] + 1e-30)
+    slides = np.real(k * size) > SLIDES * np.real(C)
+    return np.where(slides, C * maximum(v[0] * z[0] + v[1] * z[1], 0.0) / size, 0.0)
 
 
 def cage_joint_bearing(k_hole, gap, u):
@@ -91,21 +121,29 @@ def cage_joint_bearing(k_hole, gap, u):
     return -k_hole * maximum(slip - gap, 0.0) / slip * u, slip
 
 
-def cage_joint_advance(model, h, k, at, y):
-    """The friction states in y [N_STATES] over a step h [s] with the velocities and forces `at` in its middle:
-    z += h z'/(1 + h D/2), D = |v| k/capacity.
-
-    The implicit midpoint rule of z' = v - D z, solved in closed form.  Returns what they dissipate, h k D z_m^2 with
-    z_m in the middle [J].
+def cage_joint_follow(h, v, y):
+    """The friction states in y follow the motion with the velocities v [2, Z] for the time h [s]: trial deflections.
+    Returns those before it [4, Z].
     """
-    joint, speed, lost = model.p.joint, np.hypot(*at.v), 0.0
-    pairs = ((k.plate, at.N_plate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (k.head, at.T, (JOINT_HEAD_Y, JOINT_HEAD_Z)))
-    for stiffness, load, blocks in pairs:
-        rate = speed * stiffness / (joint.mu * load + joint.F_floor)
-        for v, z in zip(at.v, blocks, strict=True):
-            change = h * (v - rate * y[z]) / (1.0 + 0.5 * h * rate)
-            lost += np.sum(h * stiffness * rate * (y[z] + 0.5 * change) ** 2)
-            y[z] += change
+    before = np.array([y[row] for row in STATES])
+    for row, along in zip(STATES, (*v, *v), strict=True):
+        y[row] += h * along
+    return before
+
+
+def cage_joint_slide(model, k, T, N_plate, y, step):
+    """Maps the trial deflections in y back onto what friction holds under the tension T of the rivets and the force N_plate
+    between the plates [Z]; adds to step.rubbed.  Returns what the slip dissipates [J].
+    """
+    joint, lost = model.p.joint, 0.0
+    for stiffness, N, rows, z_0 in ((k.plate, N_plate, PLATES, step.before[:2]), (k.head, T, HEADS, step.before[2:])):
+        trial = np.array([y[row] for row in rows])
+        f = held_part(stiffness, joint.mu * N + joint.F_floor, trial)
+        slip, mean = (1.0 - f) * trial, 0.5 * (z_0 + f * trial)
+        step.rubbed = step.rubbed + N * np.hypot(*slip)
+        lost += np.sum(np.maximum(stiffness * np.sum(mean * slip, axis=0), 0.0))
+        for row, held in zip(rows, f * trial, strict=True):
+            y[row] = held
     return lost
 
 
@@ -129,22 +167,19 @@ def add_wrench(w, F, M):
 
 
 def cage_joint_force(model, y, k, at, w):
-    """Friction and hole contact of all joints: sets S, H, B [2, ..., Z] (y, z), their sum joint_F, the rates of the
-    friction states and the dissipated power; adds the joints' wrench to both halves, as forces at the holes of the
-    halves as rigid bodies.
+    """Friction and hole contact of all joints: sets S, H, B [2, ..., Z] (y, z), their sum joint_F, the parts of the trial
+    deflections that friction holds and the power of the friction; adds the joints' wrench to both halves, as forces at the
+    holes of the halves as rigid bodies.
     """
     joint, d = model.p.joint, model.d
-    v_y, v_z = at.v
-    zp_y, zp_z, zh_y, zh_z = (y[..., block] for block in (JOINT_PLATE_Y, JOINT_PLATE_Z, JOINT_HEAD_Y, JOINT_HEAD_Z))
-
-    plates, heads = (joint.mu * load + joint.F_floor for load in (at.N_plate, at.T))
-    w.plate_y_dot, w.plate_z_dot, w.plate_rate, lost_plate = cage_joint_friction(k.plate, plates, zp_y, zp_z, v_y, v_z)
-    w.head_y_dot, w.head_z_dot, w.head_rate, lost_head = cage_joint_friction(k.head, heads, zh_y, zh_z, v_y, v_z)
-    w.joint_dissipated = lost_plate + lost_head
+    plates, heads = (np.array([y[..., row] for row in rows]) for rows in (PLATES, HEADS))
+    C_plate, C_head = (joint.mu * load + joint.F_floor for load in (at.N_plate, at.T))
+    w.plate_held, w.head_held = held_part(k.plate, C_plate, plates), held_part(k.head, C_head, heads)
+    w.S, w.H = -k.plate * w.plate_held * plates, -k.head * w.head_held * heads
+    w.joint_dissipated = sliding_power(k.plate, C_plate, plates, at.v) + sliding_power(k.head, C_head, heads, at.v)
 
     w.B, slip = cage_joint_bearing(k.hole, d.hole_gap, at.u)
     w.k_bearing = k.hole * (np.real(slip) > d.hole_gap)
-    w.S, w.H = np.array([-k.plate * zp_y, -k.plate * zp_z]), np.array([-k.head * zh_y, -k.head * zh_z])
     w.joint_F = w.S + w.H + w.B
 
     # force on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0

@@ -14,7 +14,12 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.cage.common.cage_joint import JointMotion, cage_joint_advance, cage_joint_shear
+from bearing_model.cage.common.cage_joint import (
+    JointStep,
+    cage_joint_follow,
+    cage_joint_shear,
+    cage_joint_slide,
+)
 from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_loads,
     cage_elastic_preload,
@@ -56,8 +61,6 @@ class FastState:
 
     e: np.ndarray  # motions of the joints out of the plane [3, Z]
     u: np.ndarray  # their offsets in it [2, Z]
-    T: np.ndarray  # loads of rivets and plates [Z]
-    N_plate: np.ndarray
     touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [8, Z]
     omega_2: float  # square of the halves' speed in space
     modes: np.ndarray  # accelerations by joints and springs [2, n]
@@ -123,10 +126,10 @@ def cage_substeps_split(model, y, w, f):
         f[block] -= change
     for block, change in zip((MODE_S_DOT, MODE_D_DOT), modes - half.damping * v, strict=True):
         f[block][: half.n] -= change
-    f[WORK] += np.sum(w.joint_dissipated) + e.dissipated
+    f[WORK] += e.dissipated
     touch = [np.array([getattr(e, f"touch_{name}")[h] for name in TOUCH]) for h in range(2)]
     omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
-    return FastState(j.e.copy(), j.u.copy(), j.rivet[0].copy(), j.N_plate.copy(), touch, omega_2, modes, rigid)
+    return FastState(j.e.copy(), j.u.copy(), touch, omega_2, modes, rigid)
 
 
 def turn(t, rates):
@@ -161,8 +164,8 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
     """Substeps of a step of length h from `fast` under the slow rates f; state, w: state and kinematics in the middle of the
     step; films: RimFilmsStep; changes y as cage_substeps.c does.
 
-    Returns the length of the substeps and the slow accelerations at the step's end as they foresee them: of the modes
-    [2, n], changes of those of the halves [6, 2].
+    Returns the length of the substeps, the slow accelerations at the step's end as they foresee them (of the modes [2, n],
+    changes of those of the halves [6, 2]), and the JointStep.
     """
     half, d, h0 = model.modes, model.d, w.half[0]
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -178,7 +181,7 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
 
     # the joints at the step's start; their velocities by modes and relative rigid motions, and those by the slow motion
     # of the rigid halves in the middle of the step
-    at, joints = JointMotion(fast.u, None, fast.T, fast.N_plate), SimpleNamespace(e=fast.e)
+    u, joints, slip = fast.u, SimpleNamespace(e=fast.e), JointStep(None)
     w.elastic = SimpleNamespace(joints=joints)
     _, c, s = circle(d)
     out, inside = joints_out(d, half.pad), joints_in(d, half.pad)  # rows: all joints, motion by motion
@@ -203,18 +206,18 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
         joints.e = joints.e + 0.5 * sub * (middle_out + by_out)
-        at.v = middle_in + np.array([c * r - s * t, s * r + c * t])
-        at.u = at.u + sub * at.v
-        lost = cage_joint_advance(model, sub, k_in, at, y)
-        y[WORK] -= lost + sub * model.p.cage.m * np.sum(half.damping * v_m**2)
+        across = middle_in + np.array([c * r - s * t, s * r + c * t])
+        u = u + sub * across
+        slip.before = cage_joint_follow(sub, across, y)
+        y[WORK] -= sub * model.p.cage.m * np.sum(half.damping * v_m**2)
         held = slow_modes + loads.accelerations(step * sub, q, to_halves(model, h0, moved))
         if step == steps:
             break
 
         # accelerations there, of which the second half
         cage_elastic_loads(model, P, joints)
-        at.T, at.N_plate = joints.rivet[0], joints.N_plate
-        modes, rigid = fast_accelerations(model, q, joints.load, cage_joint_shear(model, y, k_in, at.u))
+        y[WORK] -= cage_joint_slide(model, k_in, joints.rivet[0], joints.N_plate, y, slip)
+        modes, rigid = fast_accelerations(model, q, joints.load, cage_joint_shear(model, y, k_in, u))
         rigid = turn_out(spin * (step * sub - 0.5 * h), rigid)
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
@@ -229,7 +232,8 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
     for blocks, x in (((MODE_S, MODE_D), q), ((MODE_S_DOT, MODE_D_DOT), v)):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
-    return sub, held, to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0]))
+    slip.way = u - fast.u
+    return sub, held, to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])), slip
 
 
 def cage_substeps_finish(model, w, substep, fast, before, y):

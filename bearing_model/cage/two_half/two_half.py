@@ -25,7 +25,6 @@ Loads are on the +x half, in the frames (x, r, t) of the rivets, at body angles 
 Smoothness: C0 at opening, where a spring of finite stiffness begins.
 """
 
-from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -33,8 +32,8 @@ import numpy as np
 from bearing_model.cage.common.cage_joint import (
     JointMotion,
     JointStiffness,
-    cage_joint_advance,
     cage_joint_carried,
+    cage_joint_follow,
     cage_joint_force,
     cage_joint_loads,
 )
@@ -50,25 +49,11 @@ from bearing_model.generated.variables import (
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
-    JOINT_HEAD_Y,
-    JOINT_HEAD_Z,
-    JOINT_PLATE_Y,
-    JOINT_PLATE_Z,
     Z,
 )
-from bearing_model.numbers.lanes import maximum
+from bearing_model.numbers.lanes import ball_array_sum, maximum
 
 ROW_M_T, ROW_DP = 4, 5
-
-
-@dataclass
-class TwoHalfMemory:
-    """Part of the rivets' tension and of the plates' force that the springs do not have [N], [Z]: the addition of the load
-    path.  It is carried from an evaluation to the middle of the next step.
-    """
-
-    T: np.ndarray
-    N_plate: np.ndarray
 
 
 def two_half_stiffness(d):
@@ -126,7 +111,7 @@ def two_half_joints(model, y, w):
     F_x = t.push - t.pull - damping * w.v_j[0]
     at = JointMotion(w.u[1:], w.v_j[1:], t.rivet[0], t.N_plate, F_x)
     cage_joint_force(model, y, two_half_stiffness(model.d), at, w)
-    w.joint_dissipated = w.joint_dissipated + damping * w.v_j[0] * w.v_j[0]
+    t.dissipated = ball_array_sum(damping * w.v_j[0] * w.v_j[0])
 
 
 # ---------------------------------------------------------------------------------------------------- loads of the rivets
@@ -140,19 +125,6 @@ def two_half_loads(model, w):
 
 
 # --------------------------------------------------------------------------------------------------------------- a step
-
-
-def two_half_remember(w):
-    """TwoHalfMemory of an evaluation."""
-    t = w.two_half
-    return TwoHalfMemory(t.rivet[0] - t.pull, t.N_plate - t.push)
-
-
-def two_half_advance(model, h, memory, w, y):
-    """Friction states in y over a step h [s]; w has the kinematics of the joints in its middle."""
-    pull, push = springs(model.d, w.u[0])
-    T, N_plate = maximum(pull + memory.T, 0.0), maximum(push + memory.N_plate, 0.0)
-    cage_joint_advance(model, h, two_half_stiffness(model.d), JointMotion(w.u[1:], w.v_j[1:], T, N_plate), y)
 
 
 def vibration_weights(x_2):
@@ -182,14 +154,14 @@ def joint_matrix(model, w):
     return B.T * c @ B, B.T * k @ B
 
 
-def shear_matrix(model, w, gamma):
+def shear_matrix(model, w):
     """Force per offset [12, 12] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z + s y).
 
-    The lever of the split from the centres of mass is left out.  A friction state that decays with D follows the
-    velocity by gamma/(1 + gamma D) within a step.
+    The lever of the split from the centres of mass is left out.  Plates and heads that slip count with the secant of their
+    trial deflection.
     """
     d, (y, z) = model.d, turned_rivets(model, w)
-    k = d.k_plate_t / (1.0 + gamma * w.plate_rate) + d.k_head / (1.0 + gamma * w.head_rate) + w.k_bearing
+    k = d.k_plate_t * w.plate_held + d.k_head * w.head_held + w.k_bearing
     B = np.zeros((2, Z, N_HALVES))
     B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T
     B[1][:, HALF[[1, 2, 5], 1]] = np.array([np.zeros(Z), np.ones(Z), y]).T
@@ -204,15 +176,15 @@ def two_half_matrices(model, w, gamma):
     p, d = model.p, model.d
     M = np.repeat([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p], 2)[:, None]
     A, K = (force / M for force in joint_matrix(model, w))
-    K_shear = shear_matrix(model, w, gamma) / M
+    K_shear = shear_matrix(model, w) / M
     weight, axial = vibration_weights(8.0 * np.max(np.diag(gamma * A + gamma**2 * K)[HALF[[0, 3, 4], 0]]))
     weight_shear, shear = vibration_weights(8.0 * gamma**2 * np.max(np.diag(K_shear)[HALF[[1, 5], 0]]))
     return weight * A, weight * K, weight_shear * K_shear, axial, shear
 
 
-def two_half_correct(model, w, gamma, axial, shear, delta, y):
-    """Positions and friction states in y follow the corrections delta [12] of the velocities: half 1 against half 0 with
-    weights; z_{n+1} += c gamma u/(1 + gamma D), u the change of the joint's velocity.
+def two_half_correct(model, w, gamma, axial, shear, delta, y, joints):
+    """Positions and trial deflections in y follow the corrections delta [12] of the velocities: half 1 against half 0 with
+    weights; z_{n+1} += c gamma u, u the change of the joint's velocity.
     """
     d, h0 = model.d, w.half[0]
     relative = delta[HALF[:, 1]] - delta[HALF[:, 0]]
@@ -221,7 +193,6 @@ def two_half_correct(model, w, gamma, axial, shear, delta, y):
         y[q] += 0.5 * c * gamma * change * np.array([-1.0, 1.0])
     _, dv_y, dv_z, _, _, ds = relative
     u_y, u_z = (axis[1] * dv_y + axis[2] * dv_z for axis in (h0.b_y, h0.b_z))
-    u = u_y - ds * d.rivet_z, u_z + ds * d.rivet_y
-    for rate, blocks in ((w.plate_rate, (JOINT_PLATE_Y, JOINT_PLATE_Z)), (w.head_rate, (JOINT_HEAD_Y, JOINT_HEAD_Z))):
-        for u_i, z in zip(u, blocks, strict=True):
-            y[z] += shear * gamma * u_i / (1.0 + gamma * rate)
+    u = np.array([u_y - ds * d.rivet_z, u_z + ds * d.rivet_y])
+    cage_joint_follow(shear * gamma, u, y)
+    joints.way = joints.way + shear * gamma * u

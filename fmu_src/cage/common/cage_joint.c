@@ -3,18 +3,29 @@
 //
 //      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
 //   ---+-   -+---       T    tension of the rivet, N_plate force between the plates: two_half.c, cage_elastic.c
-//   half 1     | u_x    plate friction  S = -k_t z,  z' = v - |v| k_t z/(mu N_plate + F_floor)
+//   half 1     | u_x    plate friction  S = -k_t z,  |S| <= C = mu N_plate + F_floor
 //   ===+=====+===       head friction   H = -k_h z_h, likewise with mu T + F_floor
 //   half 0     |        hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
 //   ---+-   -+---
 //      |     |
 //
-// The friction law is that of Dahl (1968): its force is a state, so that a closed joint does not creep.  Under
-// a growing transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T
+// Friction is elastic and perfectly plastic: the deflection z of a spring follows the motion, z' = v, as long as
+// Coulomb's law allows its force, and slips where it does not (Moreau 1977: z' - v is normal to the disc k |z| <= C).
+// Below the slip load nothing slips, so that a joint that carries a constant load under vibration shakes down
+// (Melan's theorem) instead of creeping.  Between two moments the law is integrated by return mapping (Simo and
+// Hughes 1998, section 1.4): z first follows the whole motion; its part beyond the disc, taken off along z, is slip,
+//
+//     z = f z_trial,  z_trial = z_0 + h v,  f = min(1, C/(k |z_trial|)),  dissipated: k (z_0 + z)/2 . (1 - f) z_trial
+//
+// for any h and for a capacity C that changes.  An evaluation has the trial deflections among its states and the forces
+// of f z_trial; the end of a step or substep maps the states back (cage_joint_slide).  The dissipation is the work of the
+// mean force over the motion less the change of k z^2/2: the balance of energy is closed in every step.
+//
+// Under a growing transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T
 // more), then the halves move freely across the gap, and at last the shank bears against its holes.
 //
 // Force and reaction act at the same point, so momentum and energy are exact.
-// Smoothness: C0 at bearing (a spring of finite stiffness begins), C0 at v = 0.
+// Smoothness: C0 at bearing (a spring of finite stiffness begins) and where slip begins.
 #include "cage/common/cage_joint.h"
 
 #include "physics/rotor.h"
@@ -52,15 +63,22 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Dahl's friction with force -k z: sets the rate of z and its decay D, returns the dissipated power.
-INLINE wide cage_joint_friction(wide k, wide capacity, wide z_y, wide z_z, wide v_y, wide v_z, wide speed,
-                                scalar *dot_y, scalar *dot_z, scalar *D)
+// Part f of a trial deflection that friction of the capacity C holds.
+INLINE wide held_part(wide k, wide C, wide z_y, wide z_z)
 {
-    const wide rate = speed * k / capacity;
-    wide_store(D, rate);
-    wide_store(dot_y, v_y - rate * z_y);
-    wide_store(dot_z, v_z - rate * z_z);
-    return k * rate * (z_y * z_y + z_z * z_z);
+    return C / wide_max(k * wide_sqrt(z_y * z_y + z_z * z_z + 1e-30), C);
+}
+
+// Part of its capacity from which friction that is driven outward counts as sliding: states that a step has mapped back
+// lie on their disc but for what forces change behind the mapping.
+static const double SLIDES = 0.999;
+
+// Power of sliding friction: the capacity times the speed along the force.
+INLINE wide sliding_power(wide k, wide C, wide z_y, wide z_z, wide v_y, wide v_z)
+{
+    const wide zero = wide_set(0.0), size = wide_sqrt(z_y * z_y + z_z * z_z + 1e-30);
+    const wide power = C * wide_max(v_y * z_y + v_z * z_z, zero) / size;
+    return wide_select(wide_above(k * size - SLIDES * C, 0.0), power, zero);
 }
 
 // Force of a shank that bears against its holes, per offset.
@@ -84,42 +102,48 @@ INLINE void load_friction(const scalar *y, FrictionStates *z)
 }
 
 #ifndef DUAL
-// Friction states z at rows row_y, row_z of y over a step h by the implicit midpoint rule:
-// z += h z'/(1 + h D/2), D = speed k/capacity.  Returns the work h k D z_m^2 that they dissipate, z_m in the middle.
-static double advance(const JointMotion *at, double h, double k, const double *capacity, int row_y, int row_z,
-                      double *y)
+void cage_joint_follow(double h, const double *v_y, const double *v_z, double *y)
 {
-    ball_array z_y = {0}, z_z = {0}, lost;
+    for (int k = 0; k < Z; k++) {
+        y[Y_JOINT_PLATE_Y + k] += h * v_y[k];
+        y[Y_JOINT_PLATE_Z + k] += h * v_z[k];
+        y[Y_JOINT_HEAD_Y + k] += h * v_y[k];
+        y[Y_JOINT_HEAD_Z + k] += h * v_z[k];
+    }
+}
+
+// Maps the friction states at rows row_y, row_z of y back onto k |z| <= mu N + F_floor; N: normal force.
+static double slide(const Model *model, double k, const double *N, int row_y, int row_z, double *y,
+                    JointStep *step)
+{
+    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
+    ball_array z_y = {0}, z_z = {0}, y_0 = {0}, z_0 = {0}, lost;
     memcpy(z_y, &y[row_y], Z * sizeof *y);
     memcpy(z_z, &y[row_z], Z * sizeof *y);
+    memcpy(y_0, &step->before[row_y - Y_JOINT_PLATE_Y], Z * sizeof *y);
+    memcpy(z_0, &step->before[row_z - Y_JOINT_PLATE_Y], Z * sizeof *y);
     for (int b = 0; b < PACKETS; b++) {
         const int i = b * LANE_WIDTH;
-        const wide v_y = wide_load(&at->v_y[i]), v_z = wide_load(&at->v_z[i]);
-        const wide rate = wide_sqrt(v_y * v_y + v_z * v_z) * k / wide_load(&capacity[i]);
-        const wide inv = h / (1.0 + (0.5 * h) * rate);
-        const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]);
-        const wide change_y = (v_y - rate * a) * inv, change_z = (v_z - rate * c) * inv;
-        const wide middle_y = a + 0.5 * change_y, middle_z = c + 0.5 * change_z;
-        wide_store(&z_y[i], a + change_y);
-        wide_store(&z_z[i], c + change_z);
-        wide_store(&lost[i], (h * k) * rate * (middle_y * middle_y + middle_z * middle_z));
+        const wide normal = wide_load(&N[i]), C = mu * normal + floor;
+        const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]), f = held_part(wide_set(k), C, a, c);
+        const wide slip_y = (1.0 - f) * a, slip_z = (1.0 - f) * c;
+        const wide mean_y = 0.5 * (wide_load(&y_0[i]) + f * a), mean_z = 0.5 * (wide_load(&z_0[i]) + f * c);
+        wide_store(&z_y[i], f * a);
+        wide_store(&z_z[i], f * c);
+        const wide slip = (1.0 - f) * wide_sqrt(a * a + c * c);
+        wide_store(&step->rubbed[i], wide_load(&step->rubbed[i]) + normal * slip);
+        wide_store(&lost[i], wide_max(k * (mean_y * slip_y + mean_z * slip_z), wide_set(0.0)));
     }
     memcpy(&y[row_y], z_y, Z * sizeof *y);
     memcpy(&y[row_z], z_z, Z * sizeof *y);
     return ball_array_sum(lost);
 }
 
-double cage_joint_advance(const Model *model, double h, const JointStiffness *k_in, const JointMotion *at,
-                          double *y)
+double cage_joint_slide(const Model *model, const JointStiffness *k_in, const double *T, const double *N_plate,
+                        double *y, JointStep *step)
 {
-    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
-    ball_array plates, heads;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide_store(&plates[k], mu * wide_load(&at->N_plate[k]) + floor);
-        wide_store(&heads[k], mu * wide_load(&at->T[k]) + floor);
-    }
-    const double by_plates = advance(at, h, k_in->plate, plates, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y);
-    return by_plates + advance(at, h, k_in->head, heads, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y);
+    const double by_plates = slide(model, k_in->plate, N_plate, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y, step);
+    return by_plates + slide(model, k_in->head, T, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y, step);
 }
 
 void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k_in, const ball_array u_y,
@@ -174,13 +198,14 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
         const wide v_y = wide_load(&at->v_y[k]), v_z = wide_load(&at->v_z[k]);
 
         // friction
-        const wide speed = wide_sqrt(v_y * v_y + v_z * v_z);
         const wide zp_y = wide_load(&z.plate_y[k]), zp_z = wide_load(&z.plate_z[k]);
         const wide zh_y = wide_load(&z.head_y[k]), zh_z = wide_load(&z.head_z[k]);
-        wide lost = cage_joint_friction(k_t, mu * wide_load(&at->N_plate[k]) + floor, zp_y, zp_z, v_y, v_z,
-                                        speed, &w->plate_y_dot[k], &w->plate_z_dot[k], &w->plate_rate[k]);
-        lost += cage_joint_friction(k_h, mu * wide_load(&at->T[k]) + floor, zh_y, zh_z, v_y, v_z, speed,
-                                    &w->head_y_dot[k], &w->head_z_dot[k], &w->head_rate[k]);
+        const wide plates = mu * wide_load(&at->N_plate[k]) + floor, heads = mu * wide_load(&at->T[k]) + floor;
+        const wide held_p = held_part(k_t, plates, zp_y, zp_z), held_h = held_part(k_h, heads, zh_y, zh_z);
+        const wide S_y = -k_t * held_p * zp_y, S_z = -k_t * held_p * zp_z;
+        const wide H_y = -k_h * held_h * zh_y, H_z = -k_h * held_h * zh_z;
+        wide_store(&w->plate_held[k], held_p);
+        wide_store(&w->head_held[k], held_h);
 
         // hole contact
         const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
@@ -188,18 +213,18 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
         const wide bearing = bearing_of(slip, gap, k_hole);
         wide_store(&w->k_bearing[k], wide_select(wide_above(slip - gap, 0.0), k_hole, zero));
 
-        wide_store(&w->S_y[k], -k_t * zp_y);
-        wide_store(&w->S_z[k], -k_t * zp_z);
-        wide_store(&w->H_y[k], -k_h * zh_y);
-        wide_store(&w->H_z[k], -k_h * zh_z);
+        wide_store(&w->S_y[k], S_y);
+        wide_store(&w->S_z[k], S_z);
+        wide_store(&w->H_y[k], H_y);
+        wide_store(&w->H_z[k], H_z);
         wide_store(&w->B_y[k], -bearing * u_y);
         wide_store(&w->B_z[k], -bearing * u_z);
-        wide_store(&w->joint_dissipated[k], lost);
+        wide_store(&w->joint_dissipated[k], sliding_power(k_t, plates, zp_y, zp_z, v_y, v_z) +
+                                                sliding_power(k_h, heads, zh_y, zh_z, v_y, v_z));
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
         const wide f_x = wide_load(&at->F_x[k]);
-        const wide f_y = -k_t * zp_y - k_h * zh_y - bearing * u_y,
-                   f_z = -k_t * zp_z - k_h * zh_z - bearing * u_z;
+        const wide f_y = S_y + H_y - bearing * u_y, f_z = S_z + H_z - bearing * u_z;
         const wide r_x = wide_load(&w->u_x[k]), r_y = wide_load(&d->rivet_y[k]) + wide_load(&w->u_y[k]);
         const wide r_z = wide_load(&d->rivet_z[k]) + wide_load(&w->u_z[k]);
         wide_store(&F_x[k], f_x);

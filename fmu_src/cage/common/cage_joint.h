@@ -21,8 +21,8 @@ typedef struct {
 #define cage_joint_kinematics FOR_ISA(cage_joint_kinematics)
 void cage_joint_kinematics(const Model *model, Work *w);
 
-// Friction and hole contact of all joints: sets S, H, B, F and the rates of the friction states; adds the joints' wrench
-// to both halves, as forces at the holes of the halves as rigid bodies.
+// Friction and hole contact of all joints: sets S, H, B, F; adds the joints' wrench to both halves, as forces at the holes of
+// the halves as rigid bodies.
 #define cage_joint_force FOR_ISA(cage_joint_force)
 void cage_joint_force(const Model *model, const scalar *y, const JointStiffness *k, const JointMotion *at,
                       Work *w);
@@ -32,11 +32,21 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
 void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k, const ball_array u_y,
                       const ball_array u_z, ball_array F_y, ball_array F_z);
 
-// Advances the friction states in y over a step h with the velocities and forces `at` in its middle.  Returns what they
-// dissipate [J].
-#define cage_joint_advance FOR_ISA(cage_joint_advance)
-double cage_joint_advance(const Model *model, double h, const JointStiffness *k, const JointMotion *at,
-                          double *y);
+// Friction over a step: the states, row by row, from which the present ones followed the motion since the last mapping;
+// motion of each joint over the step [m]; normal force times slip [J].
+typedef struct {
+    double before[4 * Z], way_y[LANES], way_z[LANES], rubbed[LANES];
+} JointStep;
+
+// The friction states in y follow the motion with the velocities v for the time h: trial deflections.
+#define cage_joint_follow FOR_ISA(cage_joint_follow)
+void cage_joint_follow(double h, const double *v_y, const double *v_z, double *y);
+
+// Maps the trial deflections in y back onto what friction holds under the tension T of the rivets and the force N_plate
+// between the plates; adds to step->rubbed.  Returns what the slip dissipates [J].
+#define cage_joint_slide FOR_ISA(cage_joint_slide)
+double cage_joint_slide(const Model *model, const JointStiffness *k, const double *T, const double *N_plate,
+                        double *y, JointStep *step);
 
 // Loads (r, t) of half 1 that plates, heads and shanks carry in the plane.
 typedef struct {

@@ -31,8 +31,9 @@
 // substeps too: sampled at the ends of the steps and held, it would feed vibrations that turn by more than a
 // little, by 120/s at 12,000 r/min.
 //
-// The friction states follow the implicit midpoint rule (cage_joint_advance).  What they and the modes'
-// damping dissipate is summed over the substeps.  docs/method.md has the measured reasons.
+// The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
+// end of each substep (cage_joint_slide), at the step's end by cage_correct.  What they and the modes' damping dissipate is
+// summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
 #include "cage/common/cage_joint.h"
@@ -138,14 +139,12 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
     memcpy(fast->e, joints->e, sizeof fast->e);
     memcpy(fast->u_y, joints->u_y, sizeof fast->u_y);
     memcpy(fast->u_z, joints->u_z, sizeof fast->u_z);
-    memcpy(fast->T, joints->rivet[0], sizeof fast->T);
-    memcpy(fast->N_plate, joints->N_plate, sizeof fast->N_plate);
     to_halves(model, &w->half[0], -1.0, fast->rigid, Y_CAGE_V_X, f);
     for (int i = 0; i < N_MODES; i++) {
         f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
         f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
     }
-    f[Y_WORK] += ball_array_sum(w->joint_dissipated) + w->elastic.dissipated;
+    f[Y_WORK] += w->elastic.dissipated;
 }
 
 // Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across
@@ -300,8 +299,8 @@ static void films_at_end(const Model *model, double h, const FastState *fast, co
 }
 
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, RimFilmsStep *films,
-                             const Work *w)
+                             const double *state, double *y, Foreseen *foreseen, JointStep *slip,
+                             RimFilmsStep *films, const Work *w)
 {
     const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
@@ -318,13 +317,9 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     // the joints at the step's start
     ElasticJoints joints;
     const JointStiffness k_in = cage_elastic_stiffness(model);
-    const JointMotion at = {joints.u_y,      joints.u_z,     joints.v_y, joints.v_z,
-                            joints.rivet[0], joints.N_plate, NULL};
     memcpy(joints.e, fast->e, sizeof fast->e);
     memcpy(joints.u_y, fast->u_y, sizeof fast->u_y);
     memcpy(joints.u_z, fast->u_z, sizeof fast->u_z);
-    memcpy(joints.rivet[0], fast->T, sizeof fast->T);
-    memcpy(joints.N_plate, fast->N_plate, sizeof fast->N_plate);
     memset(joints.pull_S, 0, sizeof joints.pull_S);  // coordinates beyond the half's modes are not written
     memset(joints.pull_D, 0, sizeof joints.pull_D);
     memcpy(modes, fast->modes, sizeof modes);
@@ -357,7 +352,9 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         cage_elastic_out(half, v_m, out);
         cage_elastic_in(half, v_m + N_MODES, in);
         move_joints(model, sub, &middle, relative, out, in, &joints);
-        y[Y_WORK] -= cage_joint_advance(model, sub, &k_in, &at, y) + sub * modes_lose(model, v_m);
+        memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);
+        cage_joint_follow(sub, joints.v_y, joints.v_z, y);
+        y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
         wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
         if (step == steps) {
@@ -367,6 +364,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, &joints);
+        y[Y_WORK] -= cage_joint_slide(model, &k_in, joints.rivet[0], joints.N_plate, y, slip);
         cage_joint_shear(model, y, &k_in, joints.u_y, joints.u_z, joints.F_y, joints.F_z);
         cage_elastic_pull(model, &joints);
         fast_accelerations(model, y, &joints, modes, rigid);
@@ -374,6 +372,10 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         if (films) films_follow(model, step * sub, speed, v, false, films, v, w);
+    }
+    for (int k = 0; k < LANES; k++) {
+        slip->way_y[k] = joints.u_y[k] - fast->u_y[k];
+        slip->way_z[k] = joints.u_z[k] - fast->u_z[k];
     }
     const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
                                              [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};

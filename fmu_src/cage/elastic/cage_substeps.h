@@ -2,6 +2,7 @@
 // cage_substeps.c; twin: bearing_model/cage/elastic/cage_substeps.py.
 #pragma once
 
+#include "cage/common/cage_joint.h"
 #include "cage/elastic/rim_films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
@@ -9,9 +10,7 @@
 // Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part
 // of the saved state: no member is aligned beyond a double, so that nothing lies between them.
 typedef struct {
-    double e[3][LANES], u_y[LANES],
-        u_z[LANES];                   // motions of the joints out of the plane and offsets in it (model.h)
-    double T[LANES], N_plate[LANES];  // loads of rivets and plates [N]
+    double e[3][LANES], u_y[LANES], u_z[LANES];  // motions of the joints out of the plane and offsets in it
     // contacts with the walls of each half (model.h), their loads [N]
     double touch_x[2][LANES], touch_t[2][LANES], touch_K[2][LANES], touch_delta[2][LANES], touch_Q[2][LANES];
     double touch_r[2][LANES], touch_chi[2][LANES], touch_radius[2][LANES];
@@ -35,11 +34,11 @@ typedef struct {
 // step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
 // the middle; films: those that follow in the substeps, NULL if none does.  Velocities and rates of the modes lack the last
-// substep's second half.  Returns the length of the substeps [s].
+// substep's second half, friction states its mapping.  Returns the length of the substeps [s].
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, RimFilmsStep *films,
-                             const Work *w);
+                             const double *state, double *y, Foreseen *foreseen, JointStep *slip,
+                             RimFilmsStep *films, const Work *w);
 
 // Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the
 // fast accelerations at `fast`, less those at `before` if there are any.

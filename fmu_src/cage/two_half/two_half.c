@@ -131,8 +131,7 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
     const JointStiffness k_in = two_half_stiffness(d);
     const JointMotion at = {w->u_y, w->u_z, w->v_jy, w->v_jz, t->rivet[0], t->N_plate, F_x};
     cage_joint_force(model, y, &k_in, &at, w);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        wide_store(&w->joint_dissipated[k], wide_load(&w->joint_dissipated[k]) + wide_load(&damped[k]));
+    t->dissipated = ball_array_sum(damped);
 }
 
 // Adds what the load path puts on plates, heads and shanks.
@@ -153,30 +152,6 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
 
 // ---- a step -------------------------------------------------------------------------------------------------
 #ifndef DUAL
-void two_half_remember(const Work *w, TwoHalfMemory *memory)
-{
-    const TwoHalfWork *t = &w->two_half;
-    for (int k = 0; k < LANES; k++) {
-        memory->T[k] = t->rivet[0][k] - t->pull[k];
-        memory->N_plate[k] = t->N_plate[k] - t->push[k];
-    }
-}
-
-void two_half_advance(const Model *model, double h, const TwoHalfMemory *memory, const Work *w, double *y)
-{
-    const wide zero = wide_set(0.0);
-    ball_array T, N_plate;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide pull, push;
-        springs(model->d, wide_load(&w->u_x[k]), k, &pull, &push);
-        wide_store(&T[k], wide_max(pull + wide_load(&memory->T[k]), zero));
-        wide_store(&N_plate[k], wide_max(push + wide_load(&memory->N_plate[k]), zero));
-    }
-    const JointStiffness k_in = two_half_stiffness(model->d);
-    const JointMotion at = {w->u_y, w->u_z, w->v_jy, w->v_jz, T, N_plate, NULL};
-    cage_joint_advance(model, h, &k_in, &at, y);
-}
-
 // Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
 // matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
 // order four (Fox and Goodwin); for large x they tend to 1.5 and 1.7, which takes 22 % of the amplitude a step:
@@ -267,13 +242,12 @@ double two_half_solve(const Model *model, const Work *w, double gamma, const Hal
     return correction;
 }
 
-// Stiffness [N/m] across the axis of a packet's joints from k on, as a step of length 2 gamma meets it: sticking plates
-// and heads, d(z)/d(v) = gamma/(1 + gamma D) of friction states that decay with D, and holes in which a shank bears.
-static wide shear_stiffness(const Model *model, const Work *w, double gamma, int k)
+// Stiffness [N/m] across the axis of a packet's joints from k on: plates and heads, of those that slip the secant of
+// their trial deflection, and holes in which a shank bears.
+static wide shear_stiffness(const Model *model, const Work *w, int k)
 {
-    const wide plate = model->d->k_plate_t / (1.0 + gamma * wide_load(&w->plate_rate[k]));
-    const wide head = model->d->k_head / (1.0 + gamma * wide_load(&w->head_rate[k]));
-    return plate + head + wide_load(&w->k_bearing[k]);
+    return model->d->k_plate_t * wide_load(&w->plate_held[k]) +
+           model->d->k_head * wide_load(&w->head_held[k]) + wide_load(&w->k_bearing[k]);
 }
 
 // Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
@@ -290,7 +264,7 @@ double two_half_shear(const Model *model, const Work *w, double gamma, double *v
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide s_y = wide_load(&d->rivet_y[k]), s_z = wide_load(&d->rivet_z[k]);
         const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
-        const wide rate_k = gamma * gamma * shear_stiffness(model, w, gamma, k);
+        const wide rate_k = gamma * gamma * shear_stiffness(model, w, k);
         wide_store(&rate[k], rate_k);
         wide_store(&rate_y[k], rate_k * y);
         wide_store(&rate_z[k], rate_k * z);
@@ -321,30 +295,27 @@ double two_half_shear(const Model *model, const Work *w, double gamma, double *v
 
 enum { VELOCITY = Y_CAGE_V_X - Y_CAGE_X };  // rows from a position to its velocity
 
-// The friction states are the deflections of springs and follow likewise: z_{n+1} += c gamma u/(1 + gamma D) with the
-// change u of the velocity of half 1 against half 0 at the joint, in the frame of half 0, the decay D of z and the
-// weight c of the motion across the axis.
+// The friction states are the deflections of springs and follow likewise: z_{n+1} += c gamma u with the change u of the
+// velocity of half 1 against half 0 at the joint, in the frame of half 0, and the weight c of the motion across the
+// axis.  cage_joint_slide maps them back behind it.
 static void correct_friction(const Model *model, const Work *w, double gamma, const double *delta, double c,
-                             double *y)
+                             double *y, JointStep *joints)
 {
     const Derived *d = model->d;
     const Rotor *h0 = &w->half[0];
     const double dv_y = delta[Y_CAGE_V_Y + 1] - delta[Y_CAGE_V_Y];
     const double dv_z = delta[Y_CAGE_V_Z + 1] - delta[Y_CAGE_V_Z], ds = delta[Y_CAGE_S + 1] - delta[Y_CAGE_S];
     const double u_0y = h0->b_y[1] * dv_y + h0->b_y[2] * dv_z, u_0z = h0->b_z[1] * dv_y + h0->b_z[2] * dv_z;
+    double u_y[Z], u_z[Z];
     for (int k = 0; k < Z; k++) {
-        const double u_y = u_0y - ds * d->rivet_z[k], u_z = u_0z + ds * d->rivet_y[k];
-        const double plate = c * gamma / (1.0 + gamma * w->plate_rate[k]);
-        const double head = c * gamma / (1.0 + gamma * w->head_rate[k]);
-        y[Y_JOINT_PLATE_Y + k] += plate * u_y;
-        y[Y_JOINT_PLATE_Z + k] += plate * u_z;
-        y[Y_JOINT_HEAD_Y + k] += head * u_y;
-        y[Y_JOINT_HEAD_Z + k] += head * u_z;
+        u_y[k] = u_0y - ds * d->rivet_z[k], u_z[k] = u_0z + ds * d->rivet_y[k];
+        joints->way_y[k] += c * gamma * u_y[k], joints->way_z[k] += c * gamma * u_z[k];
     }
+    cage_joint_follow(c * gamma, u_y, u_z, y);
 }
 
 void two_half_correct(const Model *model, const Work *w, double gamma, double axial, double shear,
-                      const double *delta, double *y)
+                      const double *delta, double *y, JointStep *joints)
 {
     for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
         const int half_1 = half_0 + 1;
@@ -354,6 +325,6 @@ void two_half_correct(const Model *model, const Work *w, double gamma, double ax
         y[half_0] -= share;
         y[half_1] += share;
     }
-    correct_friction(model, w, gamma, delta, shear, y);
+    correct_friction(model, w, gamma, delta, shear, y, joints);
 }
 #endif

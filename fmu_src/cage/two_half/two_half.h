@@ -22,19 +22,6 @@ void two_half_joints(const Model *model, const scalar *y, Work *w);
 #define two_half_loads FOR_ISA(two_half_loads)
 void two_half_loads(const Model *model, const Work *w, JointLoads *load);
 
-// Part of the rivets' tension and of the plates' force that the springs do not have [N]: what the load path adds.  It is
-// carried from an evaluation to the middle of the next step.
-typedef struct {
-    double T[LANES], N_plate[LANES];
-} TwoHalfMemory;
-
-#define two_half_remember FOR_ISA(two_half_remember)
-void two_half_remember(const Work *w, TwoHalfMemory *memory);
-
-// Friction states in y over a step h; w has the kinematics of the joints in its middle.
-#define two_half_advance FOR_ISA(two_half_advance)
-void two_half_advance(const Model *model, double h, const TwoHalfMemory *memory, const Work *w, double *y);
-
 // Holds back the relative motion across the axis of the velocities v; returns the weight of the position correction.
 #define two_half_shear FOR_ISA(two_half_shear)
 double two_half_shear(const Model *model, const Work *w, double gamma, double *v);
@@ -45,7 +32,7 @@ double two_half_shear(const Model *model, const Work *w, double gamma, double *v
 double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
                       HalfVelocity half[2]);
 
-// Positions and friction states in y follow the corrections delta of the velocities.
+// Positions and trial deflections in y follow the corrections delta of the velocities.
 #define two_half_correct FOR_ISA(two_half_correct)
 void two_half_correct(const Model *model, const Work *w, double gamma, double axial, double shear,
-                      const double *delta, double *y);
+                      const double *delta, double *y, JointStep *joints);

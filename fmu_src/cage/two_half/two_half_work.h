@@ -6,6 +6,7 @@
 typedef struct {
     // of the springs between the halves: pull of the rivet's, push of the plates' [N]
     ball_array pull, push;
+    scalar dissipated;  // by their damping [W]
 
     // what bonded joints of halves that bend would carry in the plane (r, t) [N]
     ball_array bonded_V[2];
