@@ -80,7 +80,7 @@ def joint_data(geometry):
         "d": g.shank_diameter,
         "grip": 2 * g.flange_thickness,
         "seat": g.seat_diameter,
-        "k_t_plate": 1.5e7,
+        "k_t_plate": 1e8,
         "k_t_head": 6.5e6,
         "k_stack": stack_stiffness(g),
         "alpha_rivet": g.alpha_rivet,

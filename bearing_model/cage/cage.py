@@ -56,10 +56,6 @@ from bearing_model.generated.variables import (
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
-    JOINT_HEAD_Y,
-    JOINT_HEAD_Z,
-    JOINT_PLATE_Y,
-    JOINT_PLATE_Z,
     MODE_D,
     MODE_D_DOT,
     MODE_S,
@@ -148,7 +144,7 @@ def cage_friction_scale(p):
     """Deflections at which the plates slip that the scale of the friction states gets: their errors hardly change the halves'
     velocities, and less so where halves give way.
     """
-    return 40.0 if cage_vibrates(p) else 20.0
+    return 300.0 if cage_vibrates(p) else 130.0
 
 
 def cage_rest(model, omega, y):
@@ -195,7 +191,7 @@ def cage_acceleration(model, y, w, y_dot):
     """Rates of all states of the cage under the forces on the halves."""
     halves_acceleration(model, y, w, y_dot)
     v = w.elastic.joints.v if model.modes else w.v_j[1:]
-    for row, along in zip(STATES, (*v, *v), strict=True):
+    for row, along in zip(STATES, (*v, 0.0, 0.0), strict=True):
         y_dot[..., row] = along
     if model.modes:
         cage_elastic_acceleration(model, y, w, y_dot)
@@ -422,11 +418,10 @@ def joint_energy(model, y, w):
         axial = 2.0 * (0.5 * np.sum(j.e * j.trial, axis=0) - j.U)
     else:
         axial = 0.5 * (w.two_half.pull**2 / d.k_rivet + w.two_half.push**2 / d.k_plate)
-    plates, heads = (
-        y[..., a] ** 2 + y[..., b] ** 2 for a, b in ((JOINT_PLATE_Y, JOINT_PLATE_Z), (JOINT_HEAD_Y, JOINT_HEAD_Z))
-    )
+    y_2 = [y[..., row] ** 2 for row in STATES]
     bearing = maximum(np.sqrt(u[0] * u[0] + u[1] * u[1] + 1e-30) - d.hole_gap, 0.0)
-    return axial + 0.5 * (k.plate * plates + k.head * heads + k.hole * bearing**2)
+    in_plane = k.stick * (y_2[0] + y_2[1]) + k.head * (y_2[2] + y_2[3]) + k.hole * bearing**2
+    return axial + 0.5 * in_plane
 
 
 def cage_energy(model, y, w):

@@ -350,7 +350,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     end.jerk[V] = (end.f[V] - a) / h
 
     # Friction states follow the joints: mean rate of their motion over the step, and the error h^3/24 u''' of the midpoint rule.
-    end.f[FRICTION] = np.tile(cage.joints.way.ravel(), 2) / h
+    end.f[FRICTION] = np.append(cage.joints.way.ravel() / h, np.zeros(2 * Z))
     end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
     error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
     cage_remember(model, h, second, start, end, error)

@@ -36,8 +36,7 @@ void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_d
     const scalar *v_z = model->modes ? w->elastic.joints.v_z : w->v_jz;
     memcpy(&y_dot[Y_JOINT_PLATE_Y], v_y, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_JOINT_PLATE_Z], v_z, Z * sizeof *y_dot);
-    memcpy(&y_dot[Y_JOINT_HEAD_Y], v_y, Z * sizeof *y_dot);
-    memcpy(&y_dot[Y_JOINT_HEAD_Z], v_z, Z * sizeof *y_dot);
+    for (int k = 0; k < Z; k++) y_dot[Y_JOINT_HEAD_Y + k] = y_dot[Y_JOINT_HEAD_Z + k] = 0.0;
     if (model->modes) cage_elastic_acceleration(model, y, w, y_dot);
 }
 

@@ -77,7 +77,7 @@ static scalar joints_energy(const Model *model, const scalar *y, const JointStif
         const scalar h_y = y[Y_JOINT_HEAD_Y + k], h_z = y[Y_JOINT_HEAD_Z + k];
         const scalar slip = scalar_sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k]);
         const scalar bearing = scalar_max(0.0, slip - model->d->hole_gap[k]);
-        E += 0.5 * (k_in->plate * (z_y * z_y + z_z * z_z) + k_in->head * (h_y * h_y + h_z * h_z) +
+        E += 0.5 * (k_in->stick * (z_y * z_y + z_z * z_z) + k_in->head * (h_y * h_y + h_z * h_z) +
                     k_in->hole[k] * bearing * bearing);
     }
     return E;

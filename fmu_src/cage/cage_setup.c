@@ -41,7 +41,7 @@ double cage_orbit_scale(const Parameters *p)
 
 double cage_friction_scale(const Parameters *p)
 {
-    return cage_vibrates(p) ? 40.0 : 20.0;
+    return cage_vibrates(p) ? 300.0 : 130.0;
 }
 
 // Elastic halves are as far apart as their bodies are under the centrifugal load.

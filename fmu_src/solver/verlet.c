@@ -161,8 +161,8 @@ static void remember_friction(double h, const JointStep *joints, const VerletSta
 {
     const double inv_h = 1.0 / h, inv_span = 2.0 / (h + from->h), second = h * h * inv_span;
     for (int k = 0; k < Z; k++) {
-        to->f[Y_JOINT_PLATE_Y + k] = to->f[Y_JOINT_HEAD_Y + k] = joints->way_y[k] * inv_h;
-        to->f[Y_JOINT_PLATE_Z + k] = to->f[Y_JOINT_HEAD_Z + k] = joints->way_z[k] * inv_h;
+        to->f[Y_JOINT_PLATE_Y + k] = joints->way_y[k] * inv_h;
+        to->f[Y_JOINT_PLATE_Z + k] = joints->way_z[k] * inv_h;
     }
     for (int i = FRICTION; i < Y_WORK; i++) {
         to->jerk[i] = (to->f[i] - from->f[i]) * inv_span;

@@ -2,26 +2,34 @@
 
        |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
     ---+-   -+---       T    tension of the rivet, N_plate force between the plates: two_half.py, cage_elastic.py
-    half 1     | u_x    plate friction  S = -k_t z,  |S| <= C = mu N_plate + F_floor
-    ===+=====+===       head friction   H = -k_h z_h, likewise with mu T + F_floor
+    half 1     | u_x    plate friction  S, |S| <= C_p = mu N_plate + F_floor
+    ===+=====+===       head friction   H = -k_h z_h, |H| <= C_h = mu T + F_floor
     half 0     |        hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
     ---+-   -+---
        |     |
 
-Friction is elastic and perfectly plastic: the deflection z of a spring follows the motion, z' = v, as long as Coulomb's
-law allows its force, and slips where it does not (Moreau 1977: z' - v is normal to the disc k |z| <= C).  Below the slip
-load nothing slips, so that a joint that carries a constant load under vibration shakes down (Melan's theorem) instead of
-creeping.  Between two moments the law is integrated by return mapping (Simo and Hughes 1998, section 1.4): z first
-follows the whole motion; its part beyond the disc, taken off along z, is slip,
+    u --[ k_t, z_p ]--+--[ plates: C_p ]--------------+--      S + H = -k_t z_p: the sticking joint's own deflection
+                      +--[ k_h, z_h ]--[ heads: C_h ]-+        z_h: deflection of the heads, which the plates' slip drags
 
-    z = f z_trial,  z_trial = z_0 + h v,  f = min(1, C/(k |z_trial|)),  dissipated: k (z_0 + z)/2 . (1 - f) z_trial
+Under a growing transverse load the plates slip first (at C_p), then the heads slip on the rivet (at C_h more), then the
+halves move freely across the gap, and at last the shank bears against its holes.  Finite elements of the joint with
+Coulomb's friction show the same (tests/test_joint_backbone.py): plates that stick leave the heads alone, and the
+heads are one spring with one slider.
 
-for any h and for a capacity C that changes.  An evaluation has the trial deflections among its states and the forces of f
-z_trial; the end of a step or substep maps the states back (cage_joint_slide).  The dissipation is the work of the mean
-force over the motion less the change of k z^2/2: the balance of energy is closed in every step.
+Both frictions are elastic and perfectly plastic: a deflection follows the motion as long as Coulomb's law allows its
+force, and slips where it does not (Moreau 1977: the slip is normal to the disc |S| <= C_p).  Below the slip
+load nothing slips, so that a joint that carries a constant load under vibration shakes down (Melan's theorem)
+instead of creeping.  Between two moments the law is integrated by return mapping (Simo and Hughes 1998, chapter 2): z_p
+first follows the whole motion, trial deflections,
 
-Under a growing transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T more),
-then the halves move freely across the gap, and at last the shank bears against its holes.
+      X = k_t z_p - k_h z_h                               what the plates would carry
+      z_h += max(|X| - C_p, 0)/(k_t + k_h) X/|X|          their slip drags the heads (linear kinematic hardening)
+      z_h *= min(1, C_h/(k_h |z_h|))                      which slip on the rivet
+      k_t z_p = k_h z_h + min(1, C_p/|X'|) X'             X' = k_t z_p - k_h z_h
+
+for any motion and for capacities that change.  An evaluation has the trial deflections among its states and the forces of
+the mapped ones; the end of a step or substep maps the states (cage_joint_slide).  The dissipation is the work of the
+mean force over the motion less the change of (k_t z_p^2 + k_h z_h^2)/2: the balance of energy is closed in every step.
 
 Force and reaction act at the same point, so momentum and energy are exact.
 Smoothness: C0 at bearing (a spring of finite stiffness begins) and where slip begins.
@@ -39,9 +47,11 @@ from bearing_model.rivet.rivet_rom import JointLoads
 
 @dataclass
 class JointStiffness:
-    """Stiffnesses of plates, heads and holes in the plane of the split [N/m]."""
+    """Stiffnesses in the plane of the split [N/m]: of the joint as long as its plates stick, of the heads that the plates'
+    slip drags, of holes in which a shank bears.
+    """
 
-    plate: float
+    stick: float
     head: float
     hole: np.ndarray  # [Z]
 
@@ -101,32 +111,46 @@ def cage_joint_kinematics(model, w):
 STATES = JOINT_PLATE_Y, JOINT_PLATE_Z, JOINT_HEAD_Y, JOINT_HEAD_Z
 PLATES, HEADS = STATES[:2], STATES[2:]
 SLIDES = 0.999  # part of its capacity from which friction that is driven outward counts as sliding
+NOTHING = 1e-30  # [N2]: forces without a direction
 
 
-def held_part(k, C, z):
-    """Part f of a trial deflection z (y, z) that friction of the capacity C holds."""
-    return C / maximum(k * np.sqrt(z[0] * z[0] + z[1] * z[1] + 1e-30), C)
+def length_of(v):
+    """Length of vectors (y, z)."""
+    return np.sqrt(v[0] * v[0] + v[1] * v[1] + NOTHING)
 
 
-def sliding_power(k, C, z, v):
-    """Power of sliding friction: the capacity times the speed along the force."""
-    size = np.sqrt(z[0] * z[0] + z[1] * z[1] + 1e-30)
-    slides = np.real(k * size) > SLIDES * np.real(C)
-    return np.where(slides, C * maximum(v[0] * z[0] + v[1] * z[1], 0.0) / size, 0.0)
+def hold(k, C_plates, C_heads, joint, head):
+    """Friction mapped back: deflections (y, z) of joints and heads, forces of the plates [N], parts of the trial forces that
+    plates and heads hold.
+    """
+    X = k.stick * joint - k.head * head
+    size = length_of(X)
+    head = head + maximum(size - C_plates, 0.0) / ((k.stick + k.head) * size) * X
+    held_heads = C_heads / maximum(length_of(k.head * head), C_heads)
+    head = held_heads * head
+    X = k.stick * joint - k.head * head
+    held_plates = C_plates / maximum(length_of(X), C_plates)
+    return (k.head * head + held_plates * X) / k.stick, head, held_plates * X, held_plates, held_heads
+
+
+def sliding_power(C, F, v):
+    """Power of friction of the force F that slides with the velocity v."""
+    slides = np.real(length_of(F)) > SLIDES * np.real(C)
+    return np.where(slides, maximum(v[0] * F[0] + v[1] * F[1], 0.0), 0.0)
 
 
 def cage_joint_bearing(k_hole, gap, u):
     """Force (y, z) of shanks that bear against their holes, at offsets u, and |u|."""
-    slip = np.sqrt(u[0] * u[0] + u[1] * u[1] + 1e-30)
+    slip = length_of(u)
     return -k_hole * maximum(slip - gap, 0.0) / slip * u, slip
 
 
 def cage_joint_follow(h, v, y):
-    """The friction states in y follow the motion with the velocities v [2, Z] for the time h [s]: trial deflections.
-    Returns those before it [4, Z].
+    """The joints' deflections in y follow the motion with the velocities v [2, Z] for the time h [s]: trial deflections.
+    Returns the friction states before it [4, Z].
     """
     before = np.array([y[row] for row in STATES])
-    for row, along in zip(STATES, (*v, *v), strict=True):
+    for row, along in zip(PLATES, v, strict=True):
         y[row] += h * along
     return before
 
@@ -135,23 +159,21 @@ def cage_joint_slide(model, k, T, N_plate, y, step):
     """Maps the trial deflections in y back onto what friction holds under the tension T of the rivets and the force N_plate
     between the plates [Z]; adds to step.rubbed.  Returns what the slip dissipates [J].
     """
-    joint, lost = model.p.joint, 0.0
-    for stiffness, N, rows, z_0 in ((k.plate, N_plate, PLATES, step.before[:2]), (k.head, T, HEADS, step.before[2:])):
-        trial = np.array([y[row] for row in rows])
-        f = held_part(stiffness, joint.mu * N + joint.F_floor, trial)
-        slip, mean = (1.0 - f) * trial, 0.5 * (z_0 + f * trial)
-        step.rubbed = step.rubbed + N * np.hypot(*slip)
-        lost += np.sum(np.maximum(stiffness * np.sum(mean * slip, axis=0), 0.0))
-        for row, held in zip(rows, f * trial, strict=True):
-            y[row] = held
-    return lost
+    mu, floor, (joint_0, head_0) = model.p.joint.mu, model.p.joint.F_floor, step.before.reshape(2, 2, -1)
+    trial, head = (np.array([y[row] for row in rows]) for rows in (PLATES, HEADS))
+    joint, head, *_ = hold(k, mu * N_plate + floor, mu * T + floor, trial, head)
+    plates_slip, bent = trial - joint, head - head_0
+    work = 0.5 * np.sum(k.stick * (joint_0 + joint) * plates_slip - k.head * (head_0 + head) * bent, axis=0)
+    step.rubbed = step.rubbed + N_plate * np.hypot(*plates_slip) + T * np.hypot(*(plates_slip - bent))
+    for row, value in zip(STATES, (*joint, *head), strict=True):
+        y[row] = value
+    return np.sum(np.maximum(work, 0.0))
 
 
 def cage_joint_shear(model, y, k, u):
     """Forces (y, z) [2, Z] on half 1 in the plane, for offsets u [2, Z] and the friction states in y."""
     B, _ = cage_joint_bearing(k.hole, model.d.hole_gap, u)
-    S = np.array([y[JOINT_PLATE_Y], y[JOINT_PLATE_Z]])
-    return -k.plate * S - k.head * np.array([y[JOINT_HEAD_Y], y[JOINT_HEAD_Z]]) + B
+    return B - k.stick * np.array([y[row] for row in PLATES])
 
 
 def add_wrench(w, F, M):
@@ -172,11 +194,14 @@ def cage_joint_force(model, y, k, at, w):
     holes of the halves as rigid bodies.
     """
     joint, d = model.p.joint, model.d
-    plates, heads = (np.array([y[..., row] for row in rows]) for rows in (PLATES, HEADS))
-    C_plate, C_head = (joint.mu * load + joint.F_floor for load in (at.N_plate, at.T))
-    w.plate_held, w.head_held = held_part(k.plate, C_plate, plates), held_part(k.head, C_head, heads)
-    w.S, w.H = -k.plate * w.plate_held * plates, -k.head * w.head_held * heads
-    w.joint_dissipated = sliding_power(k.plate, C_plate, plates, at.v) + sliding_power(k.head, C_head, heads, at.v)
+    trial, head = (np.array([y[..., row] for row in rows]) for rows in (PLATES, HEADS))
+    C_plates, C_heads = (joint.mu * load + joint.F_floor for load in (at.N_plate, at.T))
+    _, head, plates, w.plate_held, w.head_held = hold(k, C_plates, C_heads, trial, head)
+    w.S, w.H = -plates, -k.head * head
+    # plates whose heads still stick slip with a part of the motion
+    by_heads, by_plates = sliding_power(C_heads, -w.H, at.v), sliding_power(C_plates, plates, at.v)
+    part = np.where(np.real(by_heads) > 0.0, 1.0, k.stick / (k.stick + k.head))
+    w.joint_dissipated = np.where(np.real(by_plates) > 0.0, by_heads, 0.0) + part * by_plates
 
     w.B, slip = cage_joint_bearing(k.hole, d.hole_gap, at.u)
     w.k_bearing = k.hole * (np.real(slip) > d.hole_gap)

@@ -103,8 +103,8 @@ def elastic_half_derive(p, d, table):
     pocket = unit * np.moveaxis(modes.pocket[entry], 0, -3)
     ribbon = p.cage.shape == CageShape.RIBBON
     pad = unit * np.moveaxis(rivet_shapes(modes)[order][:, :, : len(PAD)], 1, 2)
-    series, k_hole = 1.0 / (1.0 + shear * (d.k_plate_t + d.k_head)), d.k_hole / (1.0 + shear * d.k_hole)
-    held = series * (d.k_plate_t + d.k_head) + np.max(k_hole)
+    series, k_hole = 1.0 / (1.0 + shear * d.k_plate_t), d.k_hole / (1.0 + shear * d.k_hole)
+    held = series * d.k_plate_t + np.max(k_hole)
     uniform = (modes.harmonic[entry] == 0) & (part == 0.0)
     # [nodes, n]; between them a quarter farther at most
     u_2 = np.sum(pocket[..., slice(None) if ribbon else [0, 2], :] ** 2, axis=(-2, -1)).reshape(-1, len(entry))

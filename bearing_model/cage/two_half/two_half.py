@@ -58,7 +58,7 @@ ROW_M_T, ROW_DP = 4, 5
 
 def two_half_stiffness(d):
     """Stiffnesses of the joints in the plane."""
-    return JointStiffness(d.k_plate_t, d.k_head, d.k_hole)
+    return JointStiffness(d.k_plate_t, d.k_drag, d.k_hole)
 
 
 # --------------------------------------------------------------------------------------------------------------- joints
@@ -157,11 +157,12 @@ def joint_matrix(model, w):
 def shear_matrix(model, w):
     """Force per offset [12, 12] of the joints across the axis: of half 1 against half 0 at a rivet, (v_y - s z, v_z + s y).
 
-    The lever of the split from the centres of mass is left out.  Plates and heads that slip count with the secant of their
-    trial deflection.
+    The lever of the split from the centres of mass is left out.  Joints that slip lie between plates which stick and heads by the
+    part of the trial force that friction holds.
     """
     d, (y, z) = model.d, turned_rivets(model, w)
-    k = d.k_plate_t * w.plate_held + d.k_head * w.head_held + w.k_bearing
+    slipping = d.k_head * w.head_held
+    k = slipping + (d.k_plate_t - slipping) * w.plate_held + w.k_bearing
     B = np.zeros((2, Z, N_HALVES))
     B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T
     B[1][:, HALF[[1, 2, 5], 1]] = np.array([np.zeros(Z), np.ones(Z), y]).T

@@ -3,26 +3,34 @@
 //
 //      |  T  |          u    hole of half 1 - hole of half 0 at rivet k, in the body frame of half 0, v its rate
 //   ---+-   -+---       T    tension of the rivet, N_plate force between the plates: two_half.c, cage_elastic.c
-//   half 1     | u_x    plate friction  S = -k_t z,  |S| <= C = mu N_plate + F_floor
-//   ===+=====+===       head friction   H = -k_h z_h, likewise with mu T + F_floor
+//   half 1     | u_x    plate friction  S, |S| <= C_p = mu N_plate + F_floor
+//   ===+=====+===       head friction   H = -k_h z_h, |H| <= C_h = mu T + F_floor
 //   half 0     |        hole contact    B = -k_hole max(0, |u| - gap) u/|u|,  gap = max(0, -fit_a): the diametral play
 //   ---+-   -+---
 //      |     |
 //
-// Friction is elastic and perfectly plastic: the deflection z of a spring follows the motion, z' = v, as long as
-// Coulomb's law allows its force, and slips where it does not (Moreau 1977: z' - v is normal to the disc k |z| <= C).
-// Below the slip load nothing slips, so that a joint that carries a constant load under vibration shakes down
-// (Melan's theorem) instead of creeping.  Between two moments the law is integrated by return mapping (Simo and
-// Hughes 1998, section 1.4): z first follows the whole motion; its part beyond the disc, taken off along z, is slip,
+//   u --[ k_t, z_p ]--+--[ plates: C_p ]--------------+--      S + H = -k_t z_p: the sticking joint's own deflection
+//                     +--[ k_h, z_h ]--[ heads: C_h ]-+        z_h: deflection of the heads, which the plates' slip drags
 //
-//     z = f z_trial,  z_trial = z_0 + h v,  f = min(1, C/(k |z_trial|)),  dissipated: k (z_0 + z)/2 . (1 - f) z_trial
+// Under a growing transverse load the plates slip first (at C_p), then the heads slip on the rivet (at C_h more), then the
+// halves move freely across the gap, and at last the shank bears against its holes.  Finite elements of the joint with
+// Coulomb's friction show the same (tests/test_joint_backbone.py): plates that stick leave the heads alone, and the
+// heads are one spring with one slider.
 //
-// for any h and for a capacity C that changes.  An evaluation has the trial deflections among its states and the forces
-// of f z_trial; the end of a step or substep maps the states back (cage_joint_slide).  The dissipation is the work of the
-// mean force over the motion less the change of k z^2/2: the balance of energy is closed in every step.
+// Both frictions are elastic and perfectly plastic: a deflection follows the motion as long as Coulomb's law allows its
+// force, and slips where it does not (Moreau 1977: the slip is normal to the disc |S| <= C_p).  Below the slip
+// load nothing slips, so that a joint that carries a constant load under vibration shakes down (Melan's theorem)
+// instead of creeping.  Between two moments the law is integrated by return mapping (Simo and Hughes 1998, chapter 2): z_p
+// first follows the whole motion, trial deflections,
 //
-// Under a growing transverse load the plates slip first (at mu N_plate), then the heads slip on the rivet (at mu T
-// more), then the halves move freely across the gap, and at last the shank bears against its holes.
+//     X = k_t z_p - k_h z_h                               what the plates would carry
+//     z_h += max(|X| - C_p, 0)/(k_t + k_h) X/|X|          their slip drags the heads (linear kinematic hardening)
+//     z_h *= min(1, C_h/(k_h |z_h|))                      which slip on the rivet
+//     k_t z_p = k_h z_h + min(1, C_p/|X'|) X'             X' = k_t z_p - k_h z_h
+//
+// for any motion and for capacities that change.  An evaluation has the trial deflections among its states and the forces of
+// the mapped ones; the end of a step or substep maps the states (cage_joint_slide).  The dissipation is the work of the
+// mean force over the motion less the change of (k_t z_p^2 + k_h z_h^2)/2: the balance of energy is closed in every step.
 //
 // Force and reaction act at the same point, so momentum and energy are exact.
 // Smoothness: C0 at bearing (a spring of finite stiffness begins) and where slip begins.
@@ -63,22 +71,47 @@ void cage_joint_kinematics(const Model *model, Work *w)
     }
 }
 
-// Part f of a trial deflection that friction of the capacity C holds.
-INLINE wide held_part(wide k, wide C, wide z_y, wide z_z)
+static const double NOTHING = 1e-30;  // [N2]: forces without a direction
+
+INLINE wide length_of(wide y, wide z)
 {
-    return C / wide_max(k * wide_sqrt(z_y * z_y + z_z * z_z + 1e-30), C);
+    return wide_sqrt(y * y + z * z + NOTHING);
 }
 
-// Part of its capacity from which friction that is driven outward counts as sliding: states that a step has mapped back
-// lie on their disc but for what forces change behind the mapping.
+// Friction of a packet's joints mapped back: deflections (y, z) of joints and heads, forces of the plates [N], parts of
+// the trial forces that plates and heads hold.
+typedef struct {
+    wide joint[2], head[2], plates[2], held_plates, held_heads;
+} Held;
+
+INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, const wide joint[2],
+                 const wide head[2])
+{
+    Held on;
+    const double k = k_in->stick, k_h = k_in->head;
+    const wide zero = wide_set(0.0), X_y = k * joint[0] - k_h * head[0], X_z = k * joint[1] - k_h * head[1];
+    const wide size = length_of(X_y, X_z);
+    const wide dragged = wide_max(size - C_plates, zero) / ((k + k_h) * size);
+    const wide h_y = head[0] + dragged * X_y, h_z = head[1] + dragged * X_z;
+    on.held_heads = C_heads / wide_max(length_of(k_h * h_y, k_h * h_z), C_heads);
+    on.head[0] = on.held_heads * h_y, on.head[1] = on.held_heads * h_z;
+
+    const wide R_y = k * joint[0] - k_h * on.head[0], R_z = k * joint[1] - k_h * on.head[1];
+    on.held_plates = C_plates / wide_max(length_of(R_y, R_z), C_plates);
+    on.plates[0] = on.held_plates * R_y, on.plates[1] = on.held_plates * R_z;
+    for (int i = 0; i < 2; i++) on.joint[i] = (k_h * on.head[i] + on.plates[i]) * (1.0 / k);
+    return on;
+}
+
+// Part of its capacity from which friction that is driven outward counts as sliding: states that a step has mapped lie
+// on their discs but for what forces change behind the mapping.
 static const double SLIDES = 0.999;
 
-// Power of sliding friction: the capacity times the speed along the force.
-INLINE wide sliding_power(wide k, wide C, wide z_y, wide z_z, wide v_y, wide v_z)
+// Power of friction of the force F that slides with the velocity v.
+INLINE wide sliding_power(wide C, wide F_y, wide F_z, wide v_y, wide v_z)
 {
-    const wide zero = wide_set(0.0), size = wide_sqrt(z_y * z_y + z_z * z_z + 1e-30);
-    const wide power = C * wide_max(v_y * z_y + v_z * z_z, zero) / size;
-    return wide_select(wide_above(k * size - SLIDES * C, 0.0), power, zero);
+    const wide zero = wide_set(0.0), size = length_of(F_y, F_z);
+    return wide_select(wide_above(size - SLIDES * C, 0.0), wide_max(v_y * F_y + v_z * F_z, zero), zero);
 }
 
 // Force of a shank that bears against its holes, per offset.
@@ -87,18 +120,29 @@ INLINE wide bearing_of(wide slip, wide gap, wide k_hole)
     return k_hole * wide_max(slip - gap, wide_set(0.0)) / slip;
 }
 
-// Friction states of plates and heads, padded.
+enum { JOINT, HEAD = 2, STATES = 4 };  // blocks of the friction states, of each y and z
+
+_Static_assert(Y_JOINT_HEAD_Y == Y_JOINT_PLATE_Y + HEAD * Z && Y_JOINT_HEAD_Z == Y_JOINT_PLATE_Y + 3 * Z,
+               "the friction states stand in a row");
+
+// Friction states, padded: deflections of the joints and of their heads.
 typedef struct {
-    ball_array plate_y, plate_z, head_y, head_z;
+    ball_array row[STATES];
 } FrictionStates;
 
-INLINE void load_friction(const scalar *y, FrictionStates *z)
+INLINE void load_friction(const scalar *rows, FrictionStates *z)
 {
-    for (int k = Z; k < LANES; k++) z->plate_y[k] = z->plate_z[k] = z->head_y[k] = z->head_z[k] = 0.0;
-    memcpy(z->plate_y, &y[Y_JOINT_PLATE_Y], Z * sizeof *y);
-    memcpy(z->plate_z, &y[Y_JOINT_PLATE_Z], Z * sizeof *y);
-    memcpy(z->head_y, &y[Y_JOINT_HEAD_Y], Z * sizeof *y);
-    memcpy(z->head_z, &y[Y_JOINT_HEAD_Z], Z * sizeof *y);
+    for (int i = 0; i < STATES; i++) {
+        for (int k = Z; k < LANES; k++) z->row[i][k] = 0.0;
+        memcpy(z->row[i], &rows[i * Z], Z * sizeof *rows);
+    }
+}
+
+INLINE Held hold_packet(const JointStiffness *k_in, wide C_plates, wide C_heads, const FrictionStates *z, int k)
+{
+    const wide joint[2] = {wide_load(&z->row[JOINT][k]), wide_load(&z->row[JOINT + 1][k])};
+    const wide head[2] = {wide_load(&z->row[HEAD][k]), wide_load(&z->row[HEAD + 1][k])};
+    return hold(k_in, C_plates, C_heads, joint, head);
 }
 
 #ifndef DUAL
@@ -107,59 +151,50 @@ void cage_joint_follow(double h, const double *v_y, const double *v_z, double *y
     for (int k = 0; k < Z; k++) {
         y[Y_JOINT_PLATE_Y + k] += h * v_y[k];
         y[Y_JOINT_PLATE_Z + k] += h * v_z[k];
-        y[Y_JOINT_HEAD_Y + k] += h * v_y[k];
-        y[Y_JOINT_HEAD_Z + k] += h * v_z[k];
     }
-}
-
-// Maps the friction states at rows row_y, row_z of y back onto k |z| <= mu N + F_floor; N: normal force.
-static double slide(const Model *model, double k, const double *N, int row_y, int row_z, double *y,
-                    JointStep *step)
-{
-    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
-    ball_array z_y = {0}, z_z = {0}, y_0 = {0}, z_0 = {0}, lost;
-    memcpy(z_y, &y[row_y], Z * sizeof *y);
-    memcpy(z_z, &y[row_z], Z * sizeof *y);
-    memcpy(y_0, &step->before[row_y - Y_JOINT_PLATE_Y], Z * sizeof *y);
-    memcpy(z_0, &step->before[row_z - Y_JOINT_PLATE_Y], Z * sizeof *y);
-    for (int b = 0; b < PACKETS; b++) {
-        const int i = b * LANE_WIDTH;
-        const wide normal = wide_load(&N[i]), C = mu * normal + floor;
-        const wide a = wide_load(&z_y[i]), c = wide_load(&z_z[i]), f = held_part(wide_set(k), C, a, c);
-        const wide slip_y = (1.0 - f) * a, slip_z = (1.0 - f) * c;
-        const wide mean_y = 0.5 * (wide_load(&y_0[i]) + f * a), mean_z = 0.5 * (wide_load(&z_0[i]) + f * c);
-        wide_store(&z_y[i], f * a);
-        wide_store(&z_z[i], f * c);
-        const wide slip = (1.0 - f) * wide_sqrt(a * a + c * c);
-        wide_store(&step->rubbed[i], wide_load(&step->rubbed[i]) + normal * slip);
-        wide_store(&lost[i], wide_max(k * (mean_y * slip_y + mean_z * slip_z), wide_set(0.0)));
-    }
-    memcpy(&y[row_y], z_y, Z * sizeof *y);
-    memcpy(&y[row_z], z_z, Z * sizeof *y);
-    return ball_array_sum(lost);
 }
 
 double cage_joint_slide(const Model *model, const JointStiffness *k_in, const double *T, const double *N_plate,
                         double *y, JointStep *step)
 {
-    const double by_plates = slide(model, k_in->plate, N_plate, Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, y, step);
-    return by_plates + slide(model, k_in->head, T, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z, y, step);
+    const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
+    FrictionStates z, z_0;
+    ball_array lost;
+    load_friction(&y[Y_JOINT_PLATE_Y], &z);
+    load_friction(step->before, &z_0);
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
+        const wide N = wide_load(&N_plate[k]), tension = wide_load(&T[k]);
+        const Held on = hold_packet(k_in, mu * N + floor, mu * tension + floor, &z, k);
+
+        // slips of plates and heads, and the work of the mean forces over them
+        wide plates[2], heads[2], work = wide_set(0.0);
+        for (int i = 0; i < 2; i++) {
+            const wide head_0 = wide_load(&z_0.row[HEAD + i][k]), joint_0 = wide_load(&z_0.row[JOINT + i][k]);
+            plates[i] = wide_load(&z.row[JOINT + i][k]) - on.joint[i];
+            heads[i] = plates[i] - (on.head[i] - head_0);
+            work += 0.5 * (k_in->stick * (joint_0 + on.joint[i]) * plates[i] -
+                           k_in->head * (head_0 + on.head[i]) * (on.head[i] - head_0));
+            wide_store(&z.row[JOINT + i][k], on.joint[i]);
+            wide_store(&z.row[HEAD + i][k], on.head[i]);
+        }
+        wide_store(&lost[k], wide_max(work, wide_set(0.0)));
+        wide_store(&step->rubbed[k], wide_load(&step->rubbed[k]) + N * wide_hypot(plates[0], plates[1]) +
+                                         tension * wide_hypot(heads[0], heads[1]));
+    }
+    for (int i = 0; i < STATES; i++) memcpy(&y[Y_JOINT_PLATE_Y + i * Z], z.row[i], Z * sizeof *y);
+    return ball_array_sum(lost);
 }
 
 void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k_in, const ball_array u_y,
                       const ball_array u_z, ball_array F_y, ball_array F_z)
 {
-    FrictionStates z;
-    load_friction(y, &z);
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide along = wide_load(&u_y[k]), across = wide_load(&u_z[k]);
-        const wide slip = wide_sqrt(along * along + across * across + 1e-30);
-        const wide bearing = bearing_of(slip, wide_load(&model->d->hole_gap[k]), wide_load(&k_in->hole[k]));
-        wide_store(&F_y[k], -k_in->plate * wide_load(&z.plate_y[k]) - k_in->head * wide_load(&z.head_y[k]) -
-                                bearing * along);
-        wide_store(&F_z[k], -k_in->plate * wide_load(&z.plate_z[k]) - k_in->head * wide_load(&z.head_z[k]) -
-                                bearing * across);
+    for (int k = 0; k < Z; k++) {
+        const double slip = sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k] + NOTHING);
+        const double bearing = k_in->hole[k] * fmax(slip - model->d->hole_gap[k], 0.0) / slip;
+        F_y[k] = -k_in->stick * y[Y_JOINT_PLATE_Y + k] - bearing * u_y[k];
+        F_z[k] = -k_in->stick * y[Y_JOINT_PLATE_Z + k] - bearing * u_z[k];
     }
+    for (int k = Z; k < LANES; k++) F_y[k] = F_z[k] = 0.0;
 }
 #endif
 
@@ -190,41 +225,41 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
     const Derived *d = model->d;
     FrictionStates z;
     ball_array F_x, M_x, M_y, M_z;
-    load_friction(y, &z);
+    load_friction(&y[Y_JOINT_PLATE_Y], &z);
     const wide zero = wide_set(0.0), floor = wide_set(p->joint.F_floor), mu = wide_set(p->joint.mu);
-    const wide k_t = wide_set(k_in->plate), k_h = wide_set(k_in->head);
+    const double k_h = k_in->head, part = k_in->stick / (k_in->stick + k_h);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide u_y = wide_load(&at->u_y[k]), u_z = wide_load(&at->u_z[k]);
         const wide v_y = wide_load(&at->v_y[k]), v_z = wide_load(&at->v_z[k]);
 
-        // friction
-        const wide zp_y = wide_load(&z.plate_y[k]), zp_z = wide_load(&z.plate_z[k]);
-        const wide zh_y = wide_load(&z.head_y[k]), zh_z = wide_load(&z.head_z[k]);
-        const wide plates = mu * wide_load(&at->N_plate[k]) + floor, heads = mu * wide_load(&at->T[k]) + floor;
-        const wide held_p = held_part(k_t, plates, zp_y, zp_z), held_h = held_part(k_h, heads, zh_y, zh_z);
-        const wide S_y = -k_t * held_p * zp_y, S_z = -k_t * held_p * zp_z;
-        const wide H_y = -k_h * held_h * zh_y, H_z = -k_h * held_h * zh_z;
-        wide_store(&w->plate_held[k], held_p);
-        wide_store(&w->head_held[k], held_h);
+        // friction; plates whose heads still stick slip with a part of the motion
+        const wide C_plates = mu * wide_load(&at->N_plate[k]) + floor;
+        const wide C_heads = mu * wide_load(&at->T[k]) + floor;
+        const Held on = hold_packet(k_in, C_plates, C_heads, &z, k);
+        const wide H_y = k_h * on.head[0], H_z = k_h * on.head[1];
+        const wide by_heads = sliding_power(C_heads, H_y, H_z, v_y, v_z);
+        const wide by_plates = sliding_power(C_plates, on.plates[0], on.plates[1], v_y, v_z);
+        const wide heads_slide = wide_select(wide_above(by_heads, 0.0), wide_set(1.0), wide_set(part));
+        wide_store(&w->joint_dissipated[k], wide_select(wide_above(by_plates, 0.0), by_heads, zero) + heads_slide * by_plates);
+        wide_store(&w->plate_held[k], on.held_plates);
+        wide_store(&w->head_held[k], on.held_heads);
 
         // hole contact
-        const wide slip = wide_sqrt(u_y * u_y + u_z * u_z + 1e-30);
+        const wide slip = length_of(u_y, u_z);
         const wide gap = wide_load(&d->hole_gap[k]), k_hole = wide_load(&k_in->hole[k]);
         const wide bearing = bearing_of(slip, gap, k_hole);
         wide_store(&w->k_bearing[k], wide_select(wide_above(slip - gap, 0.0), k_hole, zero));
 
-        wide_store(&w->S_y[k], S_y);
-        wide_store(&w->S_z[k], S_z);
-        wide_store(&w->H_y[k], H_y);
-        wide_store(&w->H_z[k], H_z);
+        wide_store(&w->S_y[k], -on.plates[0]);
+        wide_store(&w->S_z[k], -on.plates[1]);
+        wide_store(&w->H_y[k], -H_y);
+        wide_store(&w->H_z[k], -H_z);
         wide_store(&w->B_y[k], -bearing * u_y);
         wide_store(&w->B_z[k], -bearing * u_z);
-        wide_store(&w->joint_dissipated[k], sliding_power(k_t, plates, zp_y, zp_z, v_y, v_z) +
-                                                sliding_power(k_h, heads, zh_y, zh_z, v_y, v_z));
 
         // wrench on half 1 at its hole, which is at s + u from the centre of half 0, in the frame of half 0
         const wide f_x = wide_load(&at->F_x[k]);
-        const wide f_y = S_y + H_y - bearing * u_y, f_z = S_z + H_z - bearing * u_z;
+        const wide f_y = -(on.plates[0] + H_y + bearing * u_y), f_z = -(on.plates[1] + H_z + bearing * u_z);
         const wide r_x = wide_load(&w->u_x[k]), r_y = wide_load(&d->rivet_y[k]) + wide_load(&w->u_y[k]);
         const wide r_z = wide_load(&d->rivet_z[k]) + wide_load(&w->u_z[k]);
         wide_store(&F_x[k], f_x);

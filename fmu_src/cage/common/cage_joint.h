@@ -5,9 +5,10 @@
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Stiffnesses of plates, heads and holes in the plane of the split [N/m].
+// Stiffnesses in the plane of the split [N/m]: of the joint as long as its plates stick, of the heads that the plates' slip
+// drags, of holes in which a shank bears.
 typedef struct {
-    double plate, head;
+    double stick, head;
     const double *hole;  // [LANES]
 } JointStiffness;
 

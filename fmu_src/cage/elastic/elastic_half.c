@@ -158,7 +158,7 @@ static double longest_substep(const Parameters *p, const Derived *d, const Elast
     for (int a = 0; a < PAD_OUT; a++)  // both halves move, and both are loaded: 2 (1/2)^2
         for (int b = 0; b < PAD_OUT; b++) K[a][b] = 0.5 * half->K[a][b];
     for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);
-    for (int c = 0; c < PAD_IN; c++) shear[c][c] = half->series * (d->k_plate_t + d->k_head) + k_hole;
+    for (int c = 0; c < PAD_IN; c++) shear[c][c] = half->series * d->k_plate_t + k_hole;
     const double out[3] = {0.5 * p->cage.m, 0.5 * d->J_t, 0.5 * d->J_t};
     const double in[3] = {0.5 * p->cage.m, 0.5 * p->cage.m, 0.5 * d->J_p};
     return SUBSTEP_TURN / sqrt(fmax(fastest(p, half, true, K, out), fastest(p, half, false, shear, in)));
@@ -343,7 +343,7 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     if (ribbon) take_alike(half);
     find_reach(ribbon, half);
     half->of.m = p->cage.m, half->of.J_p = d->J_p, half->of.J_t = d->J_t;
-    half->of.friction = d->k_plate_t + d->k_head;
+    half->of.friction = d->k_plate_t;
     half->of.k_hole = -1.0;
 }
 
@@ -351,13 +351,13 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
 {
     const HalfModes *table = &rivet_table.modes;
     const bool same = half->of.m == p->cage.m && half->of.J_p == d->J_p && half->of.J_t == d->J_t &&
-                      half->of.friction == d->k_plate_t + d->k_head;
+                      half->of.friction == d->k_plate_t;
     if (!same) derive_body(p, d, half);
     take_forces(p, half);
 
     // mean over r and t, of both halves
     const double shear = table->pad[PAD_R][PAD_R] + table->pad[PAD_T][PAD_T];
-    half->series = 1.0 / (1.0 + shear * (d->k_plate_t + d->k_head));
+    half->series = 1.0 / (1.0 + shear * d->k_plate_t);
     double k_hole = 0.0;
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
     for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);

@@ -242,12 +242,13 @@ double two_half_solve(const Model *model, const Work *w, double gamma, const Hal
     return correction;
 }
 
-// Stiffness [N/m] across the axis of a packet's joints from k on: plates and heads, of those that slip the secant of
-// their trial deflection, and holes in which a shank bears.
+// Stiffness [N/m] across the axis of a packet's joints from k on: between that of plates which stick and that of heads by
+// the part of the trial force that friction holds, and holes in which a shank bears.
 static wide shear_stiffness(const Model *model, const Work *w, int k)
 {
-    return model->d->k_plate_t * wide_load(&w->plate_held[k]) +
-           model->d->k_head * wide_load(&w->head_held[k]) + wide_load(&w->k_bearing[k]);
+    const double stick = model->d->k_plate_t, heads = model->d->k_head;
+    const wide slipping = heads * wide_load(&w->head_held[k]);
+    return slipping + (stick - slipping) * wide_load(&w->plate_held[k]) + wide_load(&w->k_bearing[k]);
 }
 
 // Holds back the motion of half 1 against half 0 across the axis and about it, (v_y, v_z, s): at a rivet at (y, z) its
