@@ -6,13 +6,16 @@ import numpy as np
 import pytest
 from joint_friction import ALONG_X, JointFriction, Sliding, compliance, deviation, loop_area
 from skfem import MeshQuad
+from test_cage_joint import Joints
 
+from bearing_model.cage.common.joint_slip import joint_slip
 from rivet_model import load_cases, stiffness
 from rivet_model.elasticity import Body
 from rivet_model.geometry import Geometry
 from rivet_model.section_mesh import edge_nodes, graded
 
 G = Geometry()
+TWINS = True
 P, MU = 20.0, 0.15
 SURFACES = {"plates": (True, False), "heads": (False, True), "both": (True, True)}
 
@@ -134,7 +137,40 @@ def test_heads_are_one_elastic_plastic_element(joint, whole):
     assert deviation(heads, lambda u: np.minimum(k * u, MU * P), deltas)[1] < 0.005
 
 
-def test_plates_are_stiffer_than_their_regularization(joint):
-    """Closed plates slip within tens of nanometres: k_t_plate is far below every secant."""
-    plates = joint.sliding(P, MU, heads=False)
-    assert MU * P / plates.full_slip > 10 * stiffness.K_T_PLATE
+def test_plates_are_rigid_beside_the_heads(joint):
+    """The plates slip within 14 nm, outside first; until then the heads carry 2.5 % of mu P.  Small loops lose T^3, as
+    Mindlin's do (observed exponent 2.9; at fineness 3, 3.0).
+    """
+    plates, both = joint.sliding(P, MU, heads=False), joint.sliding(P, MU)
+    assert plates.full_slip < 14e-9
+    backbone = both.backbone()
+    assert 0.0 < np.interp(MU * P, backbone.T, backbone.T_head) < 0.03 * MU * P
+    backbone, shears = plates.backbone(), MU * P * np.array([0.2, 0.5])
+    losses = [plates.cycle(delta)[1] for delta in np.interp(shears, backbone.T, backbone.delta)]
+    assert np.log(losses[1] / losses[0]) / np.log(2.5) == pytest.approx(3.0, abs=0.1)
+
+
+def test_law_of_the_load_path(joint, whole):
+    """joint_slip: the plates hold mu P at no slip, then the heads drag the rivet (observed 0.15 % of 2 mu P).
+
+    The displacement of the law is the slip, where the plates already slip.
+    """
+    both = joint.sliding(P, MU)
+    K, k_head = 1e7, stiffness.head_friction(whole)[0]
+    V = MU * P + np.linspace(0.0, 20.0, 401)
+    slip, heads, _ = joint_slip(V, K, 1.0, MU * P, MU * P, k_head, 1.0)
+    slips = slip > 15e-9
+    shear = both.follow(slip).T[slips]
+    assert np.abs(MU * P + heads[slips] - shear).max() < 0.0025 * 2 * MU * P
+
+
+@pytest.mark.xfail(strict=True, reason="Dahl's law: friction grows to mu P by an exponential")
+def test_law_of_the_motion(core, joint):
+    """Loops of the motion's joint where its plates slip: past twice their deflection mu P/k_t_plate from each turn."""
+    count, amplitude = 300, 1e-6
+    path = np.interp(np.arange(3 * count + 1) / count, np.arange(4), amplitude * np.array([0.0, 1.0, -1.0, 1.0]))
+    force, _ = Joints(core, **{"joint.fit": stiffness.OPEN}).pull(path)
+    turned = np.abs(np.diff(path[::count])).repeat(count) * (np.arange(3 * count) % count + 1) / count
+    slips = turned > 2.05 * MU * P / stiffness.K_T_PLATE
+    error = (force - joint.sliding(P, MU).follow(path).T[1:])[slips]
+    assert np.abs(error).max() < 0.004 * 2 * MU * P
