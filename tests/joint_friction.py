@@ -7,8 +7,8 @@ couple 2 t T_h):
 
     slip = delta - C F,  |F_j| <= mu N_j,  slip grows only along F_j where |F_j| = mu N_j     N_j: preload on ring j
 
-Slip tractions have one direction, x (Cattaneo 1938, Mindlin 1949), and the limit holds in the mean over each ring. Bores
-are open, rims stay parallel.
+Slip tractions on a ring have one direction (Cattaneo 1938, Mindlin 1949), and the limit holds in the mean over the ring.
+Of two directions each has the same C, so that a load may turn.  Bores are open, rims stay parallel.
 """
 
 from dataclasses import dataclass
@@ -23,33 +23,48 @@ from rivet_model.section_mesh import Fineness, edge_nodes
 ALONG_X = (1.0, -1.0, 0.0)  # harmonic 1 of a unit traction along x: cos theta, -sin theta
 
 
-def pivot(C, limit, push, state):
-    """F with |F| <= limit and slip = push - C F: zero inside, along F at the limit; block principal pivoting (lcp.py).
+def within(limit, v):
+    """v [rings, directions] cut to the length `limit` [rings], and its derivative by v [rings, directions, directions]."""
+    length = np.maximum(np.linalg.norm(v, axis=1), 1e-300)[:, None, None]
+    unit = v / length[:, :, 0]
+    along = unit[:, :, None] * unit[:, None, :]
+    one, ratio = np.eye(v.shape[1]), limit[:, None, None] / length
+    derivative = np.where(ratio < 1.0, ratio * (one - along), one)
+    return np.minimum(ratio[:, 0], 1.0) * v, derivative
 
-    state: -1, 0, 1 of each ring in a similar case.  Returns F, slip, state.
+
+def rub(C, limit, push, F):
+    """Forces F [rings, directions] with |F| <= limit and slip = push - C F: zero inside, along F at the limit.
+
+    Newton on F = within(F + slip/c), c = diag C, from the F of a similar case.  (Alart and Curnier 1991)
     """
-    state, fewest, patience = state.copy(), len(push) + 1, 6
-    for _ in range(1000):
-        free = state == 0
-        F = state * limit
-        F[free] = np.linalg.solve(C[np.ix_(free, free)], push[free] - C[np.ix_(free, ~free)] @ F[~free])
-        slip = push - C @ F
-        slip[free] = 0.0
-        tiny = 1e-13 * np.abs(push).max()
-        wanted = np.where(free, np.sign(F) * (np.abs(F) > limit * (1 + 1e-12)), state * (state * slip > -tiny))
-        wrong = np.flatnonzero(wanted != state)
-        if len(wrong) == 0:
-            return F, slip, state
-        patience = 6 if len(wrong) < fewest else patience - 1
-        fewest = min(fewest, len(wrong))
-        changed = wrong if patience >= 0 else wrong[-1:]
-        state[changed] = wanted[changed]
-    raise ArithmeticError(f"friction not found: {len(wrong)} wrong rings of {len(push)}")
+    c = np.diag(C)[:, None]
+
+    def residual(F):
+        cut, derivative = within(limit, F + (push - C @ F) / c)
+        return F - cut, derivative
+
+    rest, derivative = residual(F)
+    for _ in range(100):
+        if np.abs(rest).max() < 1e-12 * limit.max():
+            return F
+        n, d = F.shape
+        step = np.einsum("iab,ij->iajb", derivative, np.eye(n) - C / c)
+        change = np.linalg.solve(np.eye(n * d) - step.reshape(n * d, n * d), rest.ravel()).reshape(n, d)
+        for share in 0.5 ** np.arange(12):
+            there, tangent = residual(F - share * change)
+            if np.linalg.norm(there) < np.linalg.norm(rest):
+                break
+        F, rest, derivative = F - share * change, there, tangent
+    raise ArithmeticError(f"friction not found: {np.abs(rest).max():g} N of {limit.max():g} N left")
 
 
 @dataclass
 class Path:
-    """Shear T [N] at each delta [m], its part under the heads, and the friction's work since the start [J]."""
+    """Shear T [N] at each delta [m], its part under the heads, and the friction's work since the start [J].
+
+    delta, T and T_head are numbers (along x) or have a row (x, y) for each step.
+    """
 
     delta: np.ndarray
     T: np.ndarray
@@ -74,15 +89,17 @@ class Sliding:
         return (self.C @ self.limit).max()
 
     def follow(self, deltas):
-        """Path through the rims' displacements `deltas`, from no shear."""
-        slip, state = np.zeros(len(self.C)), np.zeros(len(self.C))
-        rows, work = [], 0.0
-        for delta in deltas:
-            F, grown, state = pivot(self.C, self.limit, delta - slip, state)
+        """Path through the rims' displacements `deltas` [steps] or [steps, 2], from no shear."""
+        path = np.asarray(deltas, dtype=float)
+        steps = path.reshape(len(path), -1)
+        slip, F = (np.zeros((len(self.C), steps.shape[1])) for _ in range(2))
+        T, T_head, work = np.zeros_like(steps), np.zeros_like(steps), np.zeros(len(steps))
+        for i, delta in enumerate(steps):
+            F = rub(self.C, self.limit, delta - slip, F)
+            grown = delta - slip - self.C @ F
             slip += grown
-            work += F @ grown
-            rows.append((F.sum(), F[len(F) - self.heads :].sum(), work))
-        return Path(np.asarray(deltas), *np.array(rows).T)
+            T[i], T_head[i], work[i] = F.sum(axis=0), F[len(F) - self.heads :].sum(axis=0), np.sum(F * grown)
+        return Path(path, T.reshape(path.shape), T_head.reshape(path.shape), work.cumsum())
 
     def backbone(self, last=None, count=400):
         """Path of a first loading up to `last` [m] (full slip if not given), steps growing from the smallest."""
