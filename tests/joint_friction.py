@@ -130,23 +130,17 @@ class JointFriction:
             section_mesh.flange_mesh(g, fine), g.E_flange, g.nu_flange, lambda x: x[0] > g.patch_radius - 1e-9
         )
         self.head_rings, self.plate_rings = section_mesh.head_radii(g, fine), section_mesh.plate_radii(g, fine)
-        top, plane = (
-            edge_nodes(self.flange.mesh, z=t, between=seat),
-            edge_nodes(self.flange.mesh, z=0.0),
-        )
+        top, plane = edge_nodes(self.flange.mesh, z=t, between=seat), edge_nodes(self.flange.mesh, z=0.0)
         up, down = (edge_nodes(self.rivet.mesh, z=z, between=seat) for z in (t, -t))
-        area, turn = self.flange.ring_moments(top, self.head_rings, 0)
-        self.head_area, self.plate_area = (
-            2 * np.pi * area,
-            2 * np.pi * self.flange.ring_moments(plane, self.plate_rings, 0)[0],
-        )
-        self.lever = turn / area  # mean radius of the rings under the head
+        head_area, turn = 2 * np.pi * self.flange.ring_moments(top, self.head_rings, 0)
+        plate_area = 2 * np.pi * self.flange.ring_moments(plane, self.plate_rings, 0)[0]
+        self.lever = turn / head_area  # mean radius of the rings under the head
 
         def loads(body, nodes, rings, area, direction):
             return body.traction_loads(nodes, rings, direction, 0) / area
 
         axial = (0.0, 0.0, 1.0)
-        head, plate = (self.head_rings, self.head_area), (self.plate_rings, self.plate_area)
+        head, plate = (self.head_rings, head_area), (self.plate_rings, plate_area)
         self.on_flange = {
             "plate_x": loads(self.flange, plane, *plate, ALONG_X),
             "head_x": loads(self.flange, top, *head, ALONG_X),
@@ -192,8 +186,8 @@ class JointFriction:
         """Rings that rub at the preload P [N]: in the split plane, under the heads, or both."""
         limit = mu * P * np.concatenate([self.plate_share, self.head_share])
         on_plate = np.arange(len(limit)) < len(self.plate_rings)
-        rub = np.flatnonzero((limit > 0.0) & np.where(on_plate, plates, heads))
-        return Sliding(self.C[np.ix_(rub, rub)], limit[rub], np.count_nonzero(~on_plate[rub]))
+        on = np.flatnonzero((limit > 0.0) & np.where(on_plate, plates, heads))
+        return Sliding(self.C[np.ix_(on, on)], limit[on], np.count_nonzero(~on_plate[on]))
 
 
 def deviation(sliding, law, deltas):
