@@ -6,6 +6,7 @@ import numpy as np
 from mechanics import SLICE, running_state
 
 from bearing_model.generated.variables import N_STATES, CageModel, Lubrication, TiltMode, Traction
+from bearing_model.solver.verlet import FRICTION
 
 KINDS = (
     "pockets closed",
@@ -62,6 +63,8 @@ def make_state(model, kind, rng):
             y[SLICE[name]] = 0.0
     if kind == "dry land":
         push_cage(model, y, 1.02)
+    if kind == "pockets open":  # plates and heads slip
+        y[FRICTION] *= 300.0
     if kind == "joints apart":  # plates open, shanks against their holes
         y[SLICE["cage_x"]][1] += 1e-5
         y[SLICE["cage_z"]][1] += 3e-5

@@ -186,13 +186,19 @@ def test_law_of_the_load_path(joint, whole):
     assert np.abs(MU * P + heads[slips] - shear).max() < 0.0025 * 2 * MU * P
 
 
-@pytest.mark.xfail(strict=True, raises=AssertionError, reason="Dahl's law: friction grows to mu P by an exponential")
 def test_law_of_the_motion(core, joint):
-    """Loops of the motion's joint where its plates slip: past twice their deflection mu P/k_t_plate from each turn."""
+    """Loops of the motion's joint where its plates slip.
+
+    The joint's own deflection T/k_t_plate, a regularization of 60 nm at most, is taken off: the slip beyond it has the shear of
+    the finite elements but for the 13 nm within which their plates begin to slip, twice that after a turn.
+    """
     count, amplitude = 300, 1e-6
     path = np.interp(np.arange(3 * count + 1) / count, np.arange(4), amplitude * np.array([0.0, 1.0, -1.0, 1.0]))
     force, _ = Joints(core, **{"joint.fit": stiffness.OPEN}).pull(path)
     turned = np.abs(np.diff(path[::count])).repeat(count) * (np.arange(3 * count) % count + 1) / count
-    slips = turned > 2.05 * MU * P / stiffness.K_T_PLATE
-    error = (force - joint.sliding(P, MU).follow(path).T[1:])[slips]
-    assert np.abs(error).max() < 0.004 * 2 * MU * P
+    both, plates = joint.sliding(P, MU), joint.sliding(P, MU, heads=False).full_slip
+    slips = turned > 2.05 * (MU * P / stiffness.K_T_PLATE + plates)
+    shear = both.follow(path - np.append(0.0, force) / stiffness.K_T_PLATE).T[1:]
+    error, full = np.abs(force - shear), np.abs(shear) > 0.999 * 2 * MU * P
+    assert error[slips].max() < 0.004 * 2 * MU * P + 2 * plates * joint.sliding(P, MU, plates=False).stiffness
+    assert np.count_nonzero(full) > 300 and error[full & slips].max() < 1e-3 * 2 * MU * P

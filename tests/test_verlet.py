@@ -335,7 +335,7 @@ def expected_error(model, y, h, blocks):
     error[POSITIONS] = (-jerk / 6.0 + by_stiffness / 4.0)[POSITIONS]
     across = joint_motion(model, y, jerk, verlet.HALF[[1, 2, 5]])
     error[FRICTION], estimate[FRICTION] = (
-        (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *across]) / 12.0,
+        (along(middle) / 8.0 - third / 24.0)[FRICTION] + np.concatenate([*across, *np.zeros((2, Z))]) / 12.0,
         third[FRICTION] / 24.0,
     )
     history = VerletState(y, f.copy(), (f - rhs(model, 0.0, before)) / h, h=h, cage=verlet_evaluate(model, 0.0, y).cage)
@@ -381,7 +381,8 @@ def test_local_error(core, record_property):
 
         velocities        a"/12 - (A + J) a'/2                                estimate a"/12
         positions         -a'/6, where a stiffness acts + a'/12, half 1 against half 0 -a'/12
-        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/12 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s)
+        friction states   (dg/dq a - dg/dv a' + dg/dz z")/8 + u"/12 - z"'/24   estimate z"'/24;  u": of the joint's velocity, by a' of (v_y, v_z, s);
+                          deflections of joints that stick
 
     Derivatives of the trajectory by complex steps and differences of Runge-Kutta steps; everything is extrapolated to h
     = 0.
@@ -391,7 +392,7 @@ def test_local_error(core, record_property):
     found = [local_error(core, t) for t in np.arange(3e-3, 6.1e-3, 0.5e-3)]
     record_property("deviation", [{name: float(value) for name, value in deviation.items()} for deviation, _ in found])
     print([max(deviation.values()) for deviation, _ in found], [share for _, share in found])
-    assert all(len(deviation) == 31 for deviation, _ in found)
+    assert all(len(deviation) == 29 for deviation, _ in found)
     assert (
         np.median([max(deviation.values()) for deviation, _ in found]) < 0.05
         # observed 2.3e-2, by another compiler 3.4e-2: plates against rivets turn by 0.3 in the longest step, and their

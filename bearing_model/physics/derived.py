@@ -244,7 +244,6 @@ def derive_joint(p, d, table):
     d.k_plate = table.half.k_closed - table.half.k_open
     d.k_plate_t = joint["k_t_plate"]
     d.k_head = joint["k_t_head"]
-    d.k_drag = 1.0 / (1.0 / d.k_head - 1.0 / d.k_plate_t)
     d.k_hole = np.where(intact, joint_hole_stiffness(table, fit_a), 0.0)
     d.hole_gap = np.where(intact, np.maximum(0.0, -fit_a), BROKEN_PLAY)
     d.inv_R = 2.0 / joint["d_m"]
@@ -277,7 +276,7 @@ def derive_scales(p, d):
         "angle": length / r,
         "tilt": length / r,
         "plate": friction / d.k_plate_t,
-        "head": friction / d.k_drag,
+        "head": friction / d.k_head,
         "energy": 1e30,
     }
     scales = STATE_SCALES | ELASTIC_SCALES if vibrates else STATE_SCALES

@@ -29,15 +29,22 @@ void cage_joints(const Model *model, const scalar *y, Work *w)
     (model->modes ? cage_elastic_joints : two_half_joints)(model, y, w);
 }
 
-void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
+// Trial deflections follow the joints, heads the plates' slip alone.
+static void friction_rates(const scalar *v_y, const scalar *v_z, scalar *y_dot)
 {
-    halves_acceleration(model, y, w, y_dot);
-    const scalar *v_y = model->modes ? w->elastic.joints.v_y : w->v_jy;
-    const scalar *v_z = model->modes ? w->elastic.joints.v_z : w->v_jz;
     memcpy(&y_dot[Y_JOINT_PLATE_Y], v_y, Z * sizeof *y_dot);
     memcpy(&y_dot[Y_JOINT_PLATE_Z], v_z, Z * sizeof *y_dot);
     for (int k = 0; k < Z; k++) y_dot[Y_JOINT_HEAD_Y + k] = y_dot[Y_JOINT_HEAD_Z + k] = 0.0;
-    if (model->modes) cage_elastic_acceleration(model, y, w, y_dot);
+}
+
+void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
+{
+    halves_acceleration(model, y, w, y_dot);
+    if (model->modes) {
+        friction_rates(w->elastic.joints.v_y, w->elastic.joints.v_z, y_dot);
+        cage_elastic_acceleration(model, y, w, y_dot);
+    } else
+        friction_rates(w->v_jy, w->v_jz, y_dot);
 }
 
 void cage_loads(const Model *model, const Work *w, JointLoads *load)
@@ -206,10 +213,13 @@ void cage_finish(const Model *model, const CageStep *step, double *y, const doub
 // Maps the friction states in y back under the loads in w, from step->before.
 static void slide(const Model *model, double *y, JointStep *step, Work *w)
 {
-    const double *T = model->modes ? w->elastic.joints.rivet[0] : w->two_half.rivet[0];
-    const double *N_plate = model->modes ? w->elastic.joints.N_plate : w->two_half.N_plate;
+    const ElasticJoints *elastic = &w->elastic.joints;
+    const TwoHalfWork *rigid = &w->two_half;
     const JointStiffness k_in = model->modes ? cage_elastic_stiffness(model) : two_half_stiffness(model->d);
-    y[Y_WORK] -= cage_joint_slide(model, &k_in, T, N_plate, y, step);
+    if (model->modes)
+        y[Y_WORK] -= cage_joint_slide(model, &k_in, elastic->rivet[0], elastic->N_plate, y, step);
+    else
+        y[Y_WORK] -= cage_joint_slide(model, &k_in, rigid->rivet[0], rigid->N_plate, y, step);
     memcpy(w->joint_rubbed, step->rubbed, sizeof w->joint_rubbed);
 }
 

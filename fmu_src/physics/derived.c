@@ -365,7 +365,6 @@ static void derive_joint(const Parameters *p, Derived *d)
     d->k_plate = joint->k_plate;
     d->k_plate_t = joint->k_t_plate;
     d->k_head = joint->k_t_head;
-    d->k_drag = 1.0 / (1.0 / d->k_head - 1.0 / d->k_plate_t);
     const CageHalfData *half = &rivet_table.half;
     d->inv_R = 2.0 / joint->d_m;
     for (int i = 0; i < ROWS; i++) d->centrifugal[i] = cage_centrifugal(p) * half->spin[i];
@@ -394,7 +393,7 @@ static void derive_scales(const Parameters *p, Derived *d)
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
     d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
     d->scale[SCALE_PLATE] = friction / d->k_plate_t;
-    d->scale[SCALE_HEAD] = friction / d->k_drag;
+    d->scale[SCALE_HEAD] = friction / d->k_head;
     d->scale[SCALE_ENERGY] = 1e30;
 }
 

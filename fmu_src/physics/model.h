@@ -188,9 +188,8 @@ typedef struct {
     double P_mean;               // preload of the rivets that are not broken, mean [N]
     constants fit_eff;           // elastic fit of the same pressure [m]
     unsigned fit_flags[Z];       // rivet_rom_fit_flags
-    // stiffnesses [N/m]: k_plate_t of a joint in the plane as long as its plates stick, k_head of one whose plates slip, k_drag of
-    // the heads alone, 1/k_head = 1/k_plate_t + 1/k_drag
-    double k_rivet, k_plate, k_plate_t, k_head, k_drag;
+    // stiffnesses [N/m]; k_plate_t: of a joint in the plane as long as its plates stick, k_head: of heads that their slip drags
+    double k_rivet, k_plate, k_plate_t, k_head;
     constants k_hole, hole_gap;  // stiffness of the hole [N/m], diametral play of the shank [m]
     bool any_broken;
     double c_joint;            // axial damping of one closed joint [N.s/m]

@@ -54,7 +54,7 @@ ROW_DP = 5
 def cage_elastic_stiffness(model):
     """Stiffnesses in the plane, in series with the residual of the modes."""
     half, d = model.modes, model.d
-    return JointStiffness(half.series * d.k_plate_t, d.k_drag, half.k_hole)
+    return JointStiffness(half.series * d.k_plate_t, d.k_head, half.k_hole)
 
 
 def cage_elastic_out(half, S):

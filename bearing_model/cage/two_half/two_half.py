@@ -58,7 +58,7 @@ ROW_M_T, ROW_DP = 4, 5
 
 def two_half_stiffness(d):
     """Stiffnesses of the joints in the plane."""
-    return JointStiffness(d.k_plate_t, d.k_drag, d.k_hole)
+    return JointStiffness(d.k_plate_t, d.k_head, d.k_hole)
 
 
 # --------------------------------------------------------------------------------------------------------------- joints
@@ -161,7 +161,7 @@ def shear_matrix(model, w):
     part of the trial force that friction holds.
     """
     d, (y, z) = model.d, turned_rivets(model, w)
-    slipping = d.k_head * w.head_held
+    slipping = w.head_held / (1.0 / d.k_plate_t + 1.0 / d.k_head)
     k = slipping + (d.k_plate_t - slipping) * w.plate_held + w.k_bearing
     B = np.zeros((2, Z, N_HALVES))
     B[0][:, HALF[[1, 2, 5], 1]] = np.array([np.ones(Z), np.zeros(Z), -z]).T

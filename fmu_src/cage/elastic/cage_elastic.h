@@ -36,7 +36,7 @@ void cage_elastic_pull(const Model *model, ElasticJoints *joints);
 INLINE JointStiffness cage_elastic_stiffness(const Model *model)
 {
     const ElasticHalf *half = model->modes;
-    return (JointStiffness){half->series * model->d->k_plate_t, model->d->k_drag, half->k_hole};
+    return (JointStiffness){half->series * model->d->k_plate_t, model->d->k_head, half->k_hole};
 }
 
 // Joints by the present state (cage_joint_kinematics before); adds their forces and moments to both halves.

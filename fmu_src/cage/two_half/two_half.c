@@ -246,7 +246,7 @@ double two_half_solve(const Model *model, const Work *w, double gamma, const Hal
 // the part of the trial force that friction holds, and holes in which a shank bears.
 static wide shear_stiffness(const Model *model, const Work *w, int k)
 {
-    const double stick = model->d->k_plate_t, heads = model->d->k_head;
+    const double stick = model->d->k_plate_t, heads = 1.0 / (1.0 / stick + 1.0 / model->d->k_head);
     const wide slipping = heads * wide_load(&w->head_held[k]);
     return slipping + (stick - slipping) * wide_load(&w->plate_held[k]) + wide_load(&w->k_bearing[k]);
 }

@@ -11,7 +11,7 @@
 // Stiffnesses of the joints in the plane.
 INLINE JointStiffness two_half_stiffness(const Derived *d)
 {
-    return (JointStiffness){d->k_plate_t, d->k_drag, d->k_hole};
+    return (JointStiffness){d->k_plate_t, d->k_head, d->k_hole};
 }
 
 // Forces of the joints (cage_joint_kinematics before), tension of the rivets.
