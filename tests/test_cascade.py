@@ -10,6 +10,7 @@ from riveted_bearing import UserError
 from riveted_bearing.design.cascade import (
     Cascade,
     State,
+    bench_of,
     breaks_of,
     follow,
     next_break,
@@ -22,14 +23,15 @@ from riveted_bearing.fmu import Model
 from riveted_bearing.sweep import cluster
 
 
-def states_by(rates_of, opens=lambda gone: False, seeds=3):
-    """state_at(gone) for rates [Z, 2] per hour that are known."""
+def states_by(rates_of, parts=lambda gone: False, seeds=3):
+    """state_at(gone) for rates [Z, 2] per hour that are known; parts: whether every run stops."""
 
     def state_at(gone):
         rates = np.array(rates_of(gone), float)
         for k in gone:
             rates[k - 1] = 0.0
-        return State(tuple(gone), rates, np.full(len(rates), 1e8), 1e-6, opens(gone)), np.tile(rates, (seeds, 1, 1))
+        state = State(tuple(gone), rates, np.full(len(rates), 1e8), 1e-6, len(rates))  # all joints open: no end
+        return state, None if parts(gone) else np.tile(rates, (seeds, 1, 1))
 
     return state_at
 
@@ -61,13 +63,35 @@ def test_a_middle_breaks_where_its_damage_is_larger():
 
 
 def test_what_ends_a_cascade():
-    """Enough are gone; the cage opens; nothing is damaged."""
-    some = [[1e-3, 0.0]] * 5
-    assert len(follow(states_by(lambda gone: some), 2)) == 3
-    opened = follow(states_by(lambda gone: some, opens=lambda gone: len(gone) == 1), 3)
-    assert len(opened) == 2 and opened[-1].opens and opened[-1].rivet is None
+    """Enough are gone; none is left; the halves part; the time is over; nothing is damaged.  Open joints are no end."""
+    some = [[1e-3 * (1.0 + k), 0.0] for k in range(5)]
+    enough = follow(states_by(lambda gone: some), 2)
+    assert len(enough) == 3 and enough[-1].end == "as many as asked for" and enough[-1].rivet is None
+    none_left = follow(states_by(lambda gone: some), 5)
+    assert [state.rivet for state in none_left] == [5, 4, 3, 2, 1, None] and none_left[-1].end == "no rivet is left"
+    parted = follow(states_by(lambda gone: some, parts=lambda gone: len(gone) == 1), 3)
+    assert len(parted) == 2 and "the halves part" in parted[-1].end
+    late = follow(
+        states_by(lambda gone: some), 3, until=210.0
+    )  # the first break comes after 200 h, the second 50 h later
+    assert len(late) == 2 and late[-1].end.startswith("the next break comes 50 h later")
     calm = follow(states_by(lambda gone: np.zeros((5, 2))), 3)
-    assert len(calm) == 1 and calm[0].hours == np.inf
+    assert len(calm) == 1 and calm[0].hours == np.inf and calm[0].end == "nothing is damaged any more"
+
+
+def test_what_a_case_leaves_out_is_gone():
+    """Rivets that are missing from the start are gone in each state and break no more, whatever their rates."""
+    some = [[1e-3 * (1.0 + k), 0.0] for k in range(5)]
+
+    def state_at(gone):
+        return State(tuple(gone), np.array(some), np.full(5, 1e8), 0.0, 5), np.tile(some, (2, 1, 1))
+
+    found = follow(state_at, 2, missing=[5])
+    assert [state.gone for state in found] == [(5,), (4, 5), (3, 4, 5)] and [state.rivet for state in found] == [
+        4,
+        3,
+        None,
+    ]
 
 
 def test_seeds_that_disagree_leave_the_order_unsure():
@@ -77,9 +101,24 @@ def test_seeds_that_disagree_leave_the_order_unsure():
 
     def state_at(gone):
         rates = np.array([[[3.0, 0.0], [1.0, 0.0], [0.0, 0.0]], [[1.0, 0.0], [2.9, 0.0], [0.0, 0.0]]])
-        return State((), rates.mean(axis=0), np.full(3, 1e8), 0.0, False), rates
+        return State((), rates.mean(axis=0), np.full(3, 1e8), 0.0, 0), rates
 
     assert follow(state_at, 1)[0].sure == pytest.approx(0.75, abs=0.04)
+
+
+def test_cases_change_single_values(tmp_path, fmu):
+    """A case's parameters and inputs join those of the document, one by one; tilt, speed and loads can be cases."""
+    document = {
+        "seeds": 1,
+        "parameters": {"joint": {"preload": "30 N"}, "start.settle": 1e-3},
+        "inputs": {"shaft": {"omega": 500.0}},
+    }
+    case = {"parameters": {"joint": {"fit": "-90 um"}}, "inputs": {"shaft": {"tilt_y": "0.1 deg"}}}
+    scene = bench_of(tmp_path / "c.toml", document, Model(fmu), tmp_path, None, None, case).scene
+    assert scene.parameters["joint.preload"] == 30.0 and scene.parameters["joint.fit"] == pytest.approx(-90e-6)
+    assert scene.inputs["shaft.omega"].value == [500.0] and scene.inputs["shaft.tilt_y"].value == pytest.approx(
+        np.deg2rad(0.1)
+    )
 
 
 @pytest.mark.parametrize(
@@ -90,7 +129,10 @@ def test_seeds_that_disagree_leave_the_order_unsure():
         ({"breaks": 0}, "breaks"),
         ({"case": [{"name": "a"}, {"name": "a"}]}, "case"),
         ({"case": {"name": "a"}}, "case"),
-        ({"breaks": 9}, "less than the number of rivets, 9"),
+        ({"breaks": 10}, "at most the rivets that stand, 9, are allowed"),
+        ({"parameters": {"rivet[2].intact": 0}, "breaks": 9}, "at most the rivets that stand, 8, are allowed"),
+        ({"until": "20 N"}, "until"),
+        ({"until": -1}, "until"),
     ],
 )
 def test_what_cannot_be_is_refused_by_name(tmp_path, fmu, document, words):

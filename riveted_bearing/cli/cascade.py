@@ -35,7 +35,7 @@ def cascade(
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
-    """What happens when the first rivet goes: order, times and loads until three are gone or the cage opens; a second
+    """What happens when the first rivet goes: order, times and loads until three are gone, and why it ends; a second
     call does only missing runs.
     """
     from ..design.cascade import default_document, plan_cascade, run_cascades, run_single, write_cascades, write_picture
@@ -94,9 +94,11 @@ def print_cascade(found):
         )
         gone = ", ".join(map(str, state.gone)) or "none"
         table.add_row(
-            gone + (" (opens)" if state.opens else ""),
+            gone,
             *ends,
             f"{state.stress.max() / 1e6:.0f}",
             f"{1e6 * state.dislocation:.1f}",
         )
     console.print(table)
+    last = found.states[-1]
+    console.print(f"end: {last.end}; joints open at once: {last.open} of {len(last.rates)}", soft_wrap=True)

@@ -3,15 +3,20 @@
     scene = "demo"                       # as in a sweep (default: none, the FMU's own parameters and inputs), and so are [simulation], [parameters], [inputs]
     seeds = 4                            # runs of each state of the cage
     breaks = 3                           # rivets that break before the end
+    until = "20000 h"                    # what breaks later is not followed (default: no limit)
     [[case]]                             # each case is a cascade of its own; without one there is a single one
     name = "clearance"
     [case.parameters]
     joint.fit = "-90 um"
+    [case.inputs]
+    shaft.tilt_y = "0.1 deg"
 
-A state of the cage is the list of rivets that are gone (rivet[k].intact = 0).  Its runs give the damage per hour of
-each rivet's head and middle, mean over the seeds.  Damage adds up over the states (Miner); the place that first reaches
-1 breaks, and with it the rivet carries nothing.  A cascade ends when enough rivets are gone, when the cage opens - all
-joints that stand are open at one communication point -, or when nothing is damaged any more.
+A state of the cage is the list of rivets that are gone (rivet[k].intact = 0); those that a case leaves out are gone from the
+start.  Its runs give the damage per hour of each rivet's head and middle, mean over the seeds.  Damage adds up over
+the states (Miner); the place that first reaches 1 breaks, and with it the rivet carries nothing.  A cascade ends when as many
+rivets have broken as were asked for, when no rivet is left, when the halves part so that the FMU stops every run, when the next
+break comes after `until` hours, or when nothing is damaged any more.  Joints that open are no end: between elastic
+halves at speed all of them do, under the centrifugal load.
 
 The same as one simulation for each seed (run_single): rivets break by themselves (scene.breakage = on), and
 fatigue.acceleration is so large that the first one breaks in the middle of the run.  Its times of breakage, multiplied
@@ -21,7 +26,8 @@ How sure the order is: the share of bootstrap resamples of the seeds in which th
 """
 
 import json
-from dataclasses import asdict, dataclass
+import textwrap
+from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
@@ -29,12 +35,14 @@ from ..errors import UserError
 from ..file_kinds import check_keys
 from ..plot import HEAD, MIDDLE, MUTED, STYLE, plt
 from ..results import write_atomically
-from ..scene import refusal, section_of
-from ..sweep import count_of
-from ..units import hours_text
+from ..scene import leaves, refusal, section_of
+from ..sweep import count_of, known_names
+from ..units import hours_text, to_si
 from .bench import COMMON, Bench
 
-KEYS = (*(key for key in COMMON if key != "between"), "breaks", "case")
+KEYS = (*(key for key in COMMON if key != "between"), "breaks", "until", "case")
+SECTIONS = ("parameters", "inputs")
+HOURS = {"h": 1.0, "d": 1.0 / 24.0, "years": 1.0 / 8766.0}  # of one hour
 PLACES = ("head", "middle")
 RESAMPLES = 2000
 
@@ -45,19 +53,20 @@ class State:
     mean over seeds, and loads.
 
     hours: how long it lasts; rivet, place: what breaks at its end, None if nothing does; sure: share of the resamples
-    that agree. stress [Z]: 99.9 % quantile of the heads [Pa]; dislocation: largest between the halves [m]; opens:
-    whether all standing joints were open at once.
+    that agree; end: why nothing is followed any more. stress [Z]: 99.9 % quantile of the heads [Pa]; dislocation: largest
+    between the halves [m]; open: most joints that were open at once.
     """
 
     gone: tuple
     rates: np.ndarray
     stress: np.ndarray
     dislocation: float
-    opens: bool
+    open: int
     hours: float = np.inf
     rivet: int | None = None
     place: str | None = None
     sure: float | None = None
+    end: str | None = None
 
 
 @dataclass(frozen=True)
@@ -80,20 +89,45 @@ class Cascade:
 
 
 def plan_cascade(path, document):
-    """Names and parameters of the cases, number of breaks; UserError names what cannot be used."""
+    """Names and parameters of the cases, number of breaks, hours that are followed; UserError names what cannot be used."""
     check_keys(path, document, KEYS, "cascade")
     cases = document.get("case", [{}])
     if not isinstance(cases, list) or not all(
-        isinstance(case, dict) and set(case) <= {"name", "parameters"} for case in cases
+        isinstance(case, dict) and set(case) <= {"name", *SECTIONS} for case in cases
     ):
-        raise refusal(path, "case", cases, "[[case]] tables with name and [case.parameters] are needed")
+        raise refusal(path, "case", cases, "[[case]] tables with name, [case.parameters] and [case.inputs] are needed")
     named = {
-        str(case.get("name", i + 1 if len(cases) > 1 else path.stem)): section_of(path, case, "parameters")
+        str(case.get("name", i + 1 if len(cases) > 1 else path.stem)): {
+            section: section_of(path, case, section) for section in SECTIONS
+        }
         for i, case in enumerate(cases)
     }
     if len(named) < len(cases):
         raise refusal(path, "case", [case.get("name") for case in cases], "each case needs a name of its own")
-    return named, count_of(path, "breaks", document.get("breaks", 3))
+    return named, count_of(path, "breaks", document.get("breaks", 3)), until_of(path, document)
+
+
+def bench_of(path, document, model, folder, client, progress, case, own=()):
+    """Bench of a case: what the document says, changed by the case's parameters and inputs, changed by own parameters."""
+    common = {key: document[key] for key in ("description", "scene", "simulation", "seeds", "seed") if key in document}
+    names = known_names(model)
+    for section in SECTIONS:
+        common[section] = dict(leaves(section_of(path, document, section), names)) | dict(leaves(case[section], names))
+    common["parameters"] |= dict(own)
+    return Bench(path, common, model, folder, client, progress)
+
+
+def until_of(path, document):
+    """Hours that a cascade is followed."""
+    if "until" not in document:
+        return np.inf
+    try:
+        hours = float(to_si(document["until"], HOURS))
+    except ValueError as problem:
+        raise refusal(path, "until", document["until"], f'{problem}; a time is needed, as "20000 h"') from None
+    if not 0.0 < hours < np.inf:
+        raise refusal(path, "until", document["until"], "a time above 0 h is needed")
+    return hours
 
 
 def default_document(model, shipped):
@@ -110,22 +144,21 @@ def default_document(model, shipped):
 
 def run_cascades(path, document, model, folder, client, progress=None):
     """The Cascades of all cases; runs are read from the folder where they are there."""
-    cases, breaks = plan_cascade(path, document)
-    common = {
-        key: value
-        for key, value in document.items()
-        if key in ("description", "scene", "simulation", "inputs", "seeds", "seed")
-    }
+    cases, breaks, until = plan_cascade(path, document)
     found = []
-    for name, parameters in cases.items():
-        section = section_of(path, document, "parameters") | parameters
-        bench = Bench(path, common | {"parameters": section}, model, folder, client, progress)
+    for name, case in cases.items():
+        bench = bench_of(path, document, model, folder, client, progress, case)
         bench.counts_damage = True
         bench.label = name
         rivets = sum(each.startswith("rivet[") and each.endswith("].intact") for each in model.parameters)
-        if breaks >= rivets:
-            raise refusal(path, "breaks", breaks, f"less than the number of rivets, {rivets}, is allowed")
-        states = follow(lambda gone, bench=bench, rivets=rivets: state_of(bench, rivets, gone), breaks, bench.first)
+        missing = missing_of(bench.scene, rivets)
+        if breaks > rivets - len(missing):
+            raise refusal(
+                path, "breaks", breaks, f"at most the rivets that stand, {rivets - len(missing)}, are allowed"
+            )
+        states = follow(
+            lambda gone, bench=bench, rivets=rivets: state_of(bench, rivets, gone), breaks, bench.first, missing, until
+        )
         found.append(Cascade(name, tuple(states), tuple(bench.basis())))
     return found
 
@@ -136,16 +169,10 @@ def run_single(path, document, model, folder, client, found, progress=None):
     found: Cascades of run_cascades, whose first state says by how much the damage is to be accelerated.  A case in which
     nothing is damaged has no breaks.
     """
-    cases, breaks = plan_cascade(path, document)
-    common = {
-        key: document[key]
-        for key in ("description", "scene", "simulation", "inputs", "seeds", "seed")
-        if key in document
-    }
+    cases, breaks, _ = plan_cascade(path, document)
     lives = {}
     for cascade in found:
-        section = section_of(path, document, "parameters") | cases[cascade.name]
-        plain = Bench(path, common | {"parameters": section}, model, folder, client, progress)
+        plain = bench_of(path, document, model, folder, client, progress, cases[cascade.name])
         settle = plain.scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
         first = cascade.states[0].hours
         if not np.isfinite(first):
@@ -158,7 +185,7 @@ def run_single(path, document, model, folder, client, found, progress=None):
                 f"fatigue.acceleration = {factor:.3g}; at most {float(most):g} is allowed: leave --single out, or raise load or speed"
             )
         own = {"scene.breakage": "on", "fatigue.acceleration": factor}
-        bench = Bench(path, common | {"parameters": section | own}, model, folder, client, progress)
+        bench = bench_of(path, document, model, folder, client, progress, cases[cascade.name], own)
         rivets = len(cascade.states[0].rates)
         names = [f"rivet[{k}].{what}" for k in range(1, rivets + 1) for what in ("break_time", "broken")]
         # a run ends where all rivets are broken
@@ -173,34 +200,49 @@ def breaks_of(values, settle, factor):
     return [(k, place, (t - settle) * factor / 3600.0) for t, k, place in sorted(broken)]
 
 
+def missing_of(scene, rivets):
+    """Rivets (numbers from 1) that the parameters of a scene leave out."""
+    return [k for k in range(1, rivets + 1) if float(scene.parameters.get(f"rivet[{k}].intact", 1.0)) == 0.0]
+
+
 def state_of(bench, rivets, gone):
-    """State without its end, and the damage rates with each seed [seeds, Z, 2]."""
+    """State without its end, and the damage rates with each seed [seeds, Z, 2]; None where the FMU stops every run."""
+    if len(gone) == rivets:
+        return State(tuple(gone), np.zeros((rivets, 2)), np.zeros(rivets), 0.0, 0), None
     numbers = range(1, rivets + 1)
     names = [f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")] + [
         f"stat.rivet_head_p999[{k}]" for k in numbers
     ]
     names += ["simulated_time", "start.settle", "max(cage.dislocation)", "max(event.joint_open)"]
     values = bench([f"rivet[{k}].intact" for k in gone], [[0.0] * len(gone)], names)[0]  # [seeds, names]
-    if np.isnan(values).all():
-        raise UserError(f"{bench.path}: with the rivets {', '.join(map(str, gone))} gone the FMU stops every run")
+    if np.isnan(values).any(axis=1).all():
+        return State(tuple(gone), np.zeros((rivets, 2)), np.zeros(rivets), 0.0, rivets - len(gone)), None
     values = values[~np.isnan(values).any(axis=1)]
     hours = np.maximum(values[:, -4] - values[:, -3], 1e-9) / 3600.0
     hours *= float(bench.scene.parameters.get("fatigue.acceleration", 1.0))
     rates = values[:, : 2 * rivets].reshape(-1, rivets, 2) / hours[:, None, None]
     stress = values[:, 2 * rivets : 3 * rivets].mean(axis=0)
-    opens = bool(np.max(values[:, -1]) >= rivets - len(gone))
-    return State(tuple(gone), rates.mean(axis=0), stress, float(np.max(values[:, -2])), opens), rates
+    return State(
+        tuple(gone), rates.mean(axis=0), stress, float(np.max(values[:, -2])), int(np.max(values[:, -1]))
+    ), rates
 
 
-def follow(state_at, breaks, seed=1):
-    """States of a cascade; state_at(gone) gives a State and its rates with each seed."""
-    damage, gone, states, rng = None, [], [], np.random.default_rng(seed)
+def follow(state_at, breaks, seed=1, missing=(), until=np.inf):
+    """States of a cascade; state_at(gone) gives a State and its rates with each seed.  missing: gone from the start; until:
+    hours that are followed.
+    """
+    damage, gone, states, rng = None, list(missing), [], np.random.default_rng(seed)
     while True:
         state, rates = state_at(gone)
         damage = np.zeros(state.rates.shape) if damage is None else damage
+        if missing and not states:
+            damage[np.array(missing) - 1] = -np.inf
         hours, first = next_break(damage, state.rates)
-        if len(gone) >= breaks or state.opens or not np.isfinite(hours):
-            return [*states, state]
+        end = end_of(
+            state, rates, len(gone) - len(missing) >= breaks, hours, until - sum(each.hours for each in states)
+        )
+        if end:
+            return [*states, replace(state, end=end)]
         resampled = rates[rng.integers(len(rates), size=(RESAMPLES, len(rates)))].mean(axis=1)
         sure = float(np.mean([next_break(damage, each)[1] == first for each in resampled]))
         damage = damage + hours * state.rates
@@ -212,13 +254,26 @@ def follow(state_at, breaks, seed=1):
                 state.rates,
                 state.stress,
                 state.dislocation,
-                state.opens,
+                state.open,
                 float(hours),
                 first[0] + 1,
                 PLACES[first[1]],
                 sure,
             )
         )
+
+
+def end_of(state, rates, enough, hours, left):
+    """Why a cascade ends in this state, or None."""
+    if len(state.gone) == len(state.rates):
+        return "no rivet is left"
+    if rates is None:
+        return "the halves part: the FMU stops every run"
+    if enough:
+        return "as many as asked for"
+    if not np.isfinite(hours):
+        return "nothing is damaged any more"
+    return f"the next break comes {hours_text(hours)} later, after the time asked for" if hours > left else None
 
 
 def next_break(damage, rates):
@@ -321,9 +376,7 @@ def circle(ax, state, low, high):
             )
         ax.text(0.72 * x, 0.72 * y, str(k + 1), ha="center", va="center", fontsize=8)
     text = (
-        "the cage opens"
-        if state.opens
-        else "end"
+        textwrap.fill(state.end or "end", 18)
         if state.rivet is None
         else f"{state.place} of {state.rivet}\nafter {hours_text(state.hours)}"
     )
