@@ -717,3 +717,40 @@ def test_race_control_at_vanishing_contact_is_refused():
     load = Load(F_z=1668.65, omega=-2375.0, k_tilt=0.0)
     with pytest.raises(ArithmeticError, match="race control 'inner' does not hold"):
         quasi_static(Bearing(Z=5, alpha_0=0.7786), load, control="inner")
+
+
+def test_an_outer_ring_that_turns():
+    """The outer ring of a 6205 at 3,000 r/min under 500 N: cage and fault frequencies of both rings' formulas; the same contact
+    loads as with the inner ring at the cage's speed; lives of rings that change their parts (ISO/TS 16281).
+    """
+    b = Bearing(D=7.938e-3, d_m=39.04e-3, Z=9, C=14e3)
+    outer = quasi_static(b, Load(F_y=500.0, omega_e=100.0 * np.pi))
+    f, gamma = outer.frequencies, b.D / b.d_m
+    assert f.FTF == pytest.approx(25.0 * (1.0 + gamma), rel=1e-3)
+    assert f.BPFO == pytest.approx(9.0 * 25.0 * (1.0 - gamma), rel=1e-3)
+    assert f.BPFI == pytest.approx(9.0 * 25.0 * (1.0 + gamma), rel=1e-3)
+    assert f.BSF == pytest.approx(25.0 * b.d_m / b.D * (1.0 - gamma**2), rel=1e-3)
+    against = quasi_static(b, Load(F_y=500.0, omega=50.0 * np.pi, omega_e=-50.0 * np.pi)).frequencies
+    assert against.BPFO == pytest.approx(9.0 * 25.0 * (1.0 - gamma), rel=1e-3)  # by the relative speed alone
+    inner = quasi_static(b, Load(F_y=500.0, omega=outer.omega_m / (0.5 * (1.0 - gamma))))
+    np.testing.assert_allclose(inner.Q_e, outer.Q_e, rtol=1e-9)
+    failed = [
+        (np.mean(s.Q_i**e_i) ** (1 / e_i), np.mean(s.Q_e**e_e) ** (1 / e_e))
+        for s, e_i, e_e in ((inner, 3.0, 10 / 3), (outer, 10 / 3, 3.0))
+    ]
+    assert (outer.L_10r < inner.L_10r) == (failed[1] > failed[0])
+
+
+def test_weight_of_the_balls():
+    """A field of acceleration presses every ball with its mass: without a load on the ring the lowest ball carries its own on
+    the outer race, and all balls' contact forces sum to their weight.
+    """
+    b = Bearing(P_d=-10e-6)
+    field = (3.0, -981.0, 40.0)
+    at = quasi_static(b, Load(field=field))
+    on_outer = -at.Q_e[:, None] * np.stack(
+        [np.sin(at.alpha_e), np.cos(at.alpha_e) * np.cos(at.psi), np.cos(at.alpha_e) * np.sin(at.psi)], axis=1
+    )
+    np.testing.assert_allclose(-on_outer.sum(axis=0)[:1], b.Z * b.ball_mass * np.array(field)[:1], rtol=1e-5)
+    with pytest.raises(ValueError, match="field"):
+        Load(field=(0.0, np.nan, 0.0))
