@@ -105,20 +105,6 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *
     take_rates(law, V, law->F);
 }
 
-// The bent film by the part that bends the rim, the round one by the rest: it has forces and rates of the land alone.
-static void add_round(const LandPressure *on, const double change[SQUEEZE], SqueezeLaw *law)
-{
-    const double part = on->part, rest = 1.0 - on->part, *rate = on->round_rate;
-    for (int i = 0; i < SQUEEZE; i++) {
-        law->F[i] *= part;
-        row_scale(part, law->rate[i]);
-    }
-    for (int i = 0; i < 2; i++) {
-        law->F[i] += rest * (on->round_film[i] - (rate[i] * change[0] + rate[i + 1] * change[1]));
-        for (int k = 0; k < 2; k++) law->rate[i][k] += rest * rate[i + k];
-    }
-}
-
 // x of (1 + gamma Y D) x = u, D: the rates.  D is symmetric and not negative, nor is the diagonal Y: Gauss's pivots are at least 1.
 static void squeeze_solve(const SqueezeLaw *law, const double by[SQUEEZE], const double u[SQUEEZE],
                           double x[SQUEEZE])
@@ -140,9 +126,8 @@ static void squeeze_solve(const SqueezeLaw *law, const double by[SQUEEZE], const
     for (int i = 0; i < SQUEEZE; i++) x[i] = A[i][SQUEEZE];
 }
 
-// V = free + by F(V): by = gamma Y; start: V at the evaluation, to which the round film belongs.
+// V = free + by F(V): by = gamma Y; start: V at the evaluation.
 typedef struct {
-    const LandPressure *on;
     const BentGrid *grid;
     const double *by;
     double start[SQUEEZE], free[SQUEEZE];
@@ -151,7 +136,7 @@ typedef struct {
 static Squeeze squeeze_of(const Work *w, int h)
 {
     const LandPressure *on = &w->pressure[h];
-    Squeeze of = {.on = on, .grid = &w->bent[h], .by = w->squeeze_by[h]};
+    Squeeze of = {.grid = &w->bent[h], .by = w->squeeze_by[h]};
     memcpy(of.start, on->V, sizeof on->V);
     memcpy(&of.start[2], on->rim_V, sizeof on->rim_V);
     return of;
@@ -166,8 +151,6 @@ typedef struct {
 static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const double x[SQUEEZE],
                          SqueezeLine *line)
 {
-    const LandPressure *on = of->on;
-    const double rest = 1.0 - on->part, *rate = on->round_rate;
     for (int n = 0; n < BENT_PACKETS; n++) {
         wide b[SQUEEZE];
         for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&of->grid->b[i][n * LANE_WIDTH]);
@@ -179,11 +162,6 @@ static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const doubl
         if (of->by[i] == 0.0) continue;  // of a shape that no mode has
         line->slope += x[i] * (V[i] - of->free[i]) / of->by[i];
         line->rise += x[i] * x[i] / of->by[i];
-    }
-    for (int i = 0; i < 2; i++) {
-        const double y = V[0] - of->start[0], z = V[1] - of->start[1];
-        line->slope -= rest * x[i] * (on->round_film[i] - (rate[i] * y + rate[i + 1] * z));
-        line->rise += rest * x[i] * (rate[i] * x[0] + rate[i + 1] * x[1]);
     }
 }
 
@@ -201,8 +179,8 @@ static void slope_at(const Squeeze *of, const SqueezeLine *line, double s, doubl
         }
     }
     wide_column_sums(2, 2, sum[0], slope);
-    slope[0] = line->slope + s * line->rise + of->on->part * slope[0];
-    slope[1] = line->rise + of->on->part * slope[1];
+    slope[0] += line->slope + s * line->rise;
+    slope[1] += line->rise;
 }
 
 static const int MOST_HALVINGS = 50;
@@ -257,10 +235,8 @@ static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
 {
     for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
         bits closed[BENT_PACKETS];
-        double change[SQUEEZE], rest[SQUEEZE], step[SQUEEZE], most = 0.0, all = 0.0;
-        for (int i = 0; i < SQUEEZE; i++) change[i] = V[i] - of->start[i];
+        double rest[SQUEEZE], step[SQUEEZE], most = 0.0, all = 0.0;
         bent_law(of->grid, V, law, closed);
-        add_round(of->on, change, law);
         for (int i = 0; i < SQUEEZE; i++) rest[i] = of->free[i] + of->by[i] * law->F[i] - V[i];
         squeeze_solve(law, of->by, rest, step);
         for (int i = 0; i < SQUEEZE; i++) all += fabs(step[i]);
@@ -274,7 +250,7 @@ static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
             most = scalar_max(most, fabs(law->F[i]));
         }
         if (!fine) break;
-        if (part == 1.0 && of->on->part * load_missed(of->grid, V, closed) <= MISSED * most) break;
+        if (part == 1.0 && load_missed(of->grid, V, closed) <= MISSED * most) break;
     }
 }
 
@@ -319,7 +295,6 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
 {
     double power = 0.0;
     for (int h = 0; h < 2; h++) {
-        if (!land_is_bent(w, h)) continue;
         const Rotor *half = &w->half[h];
         LandPressure *on = &w->pressure[h];
         LandFilm *film = &w->film[h];

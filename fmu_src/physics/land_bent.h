@@ -15,9 +15,8 @@
 // The sums are over points that Sommerfeld's substitution of a round land of the same e spreads, with eps <= 0.9: 48 of
 // them leave 0.05 % of the force in the median and 1 % in the worst twentieth of gaps down to -3 um.
 //
-// A film whose force is less than 1 % of the sum of the preloads leaves the rim round; from 2 % on it bends it, between
-// them a smooth part of the film is that of the bent rim.  Its other waves, which load the rivets statically (elastic_lands.c), begin
-// at 2 % and are whole from 4 % on.  Smoothness: that of land_film.c.
+// The second and the third wave of the load bend the rim.  All other waves load the rivets statically (elastic_lands.c): none of a film
+// whose force is less than 2 % of the sum of the preloads, all from 4 % on, between them a smooth part.  Smoothness: that of land_film.c.
 #pragma once
 
 #include "physics/hertz.h"
@@ -25,8 +24,8 @@
 
 static const double BENT_EPS = 0.9;  // largest eps of the points
 
-// Loads on a rim over the sum of the preloads that leave it round, and whose other waves are left out.
-static const double FAINT = 0.01, FAINT_STILL = 0.02;
+// Load on a rim over the sum of the preloads up to which its waves do not load the rivets.
+static const double FAINT = 0.02;
 
 // Whether the other waves of a film load the rivets.
 INLINE bool land_is_felt(const Work *w, int h)
@@ -34,10 +33,10 @@ INLINE bool land_is_felt(const Work *w, int h)
     return scalar_value(w->pressure[h].still) > 0.0;
 }
 
-// Whether the film of half h bends its rim.
-INLINE bool land_is_bent(const Work *w, int h)
+// Whether films bend the rims of the halves.
+INLINE bool lands_bend(const Model *model)
 {
-    return scalar_value(w->pressure[h].part) > 0.0;
+    return model->modes && model->d->guided;
 }
 
 // 0 up to x = 0, 1 from x = 1 on, smooth between them.
@@ -47,12 +46,12 @@ INLINE scalar smooth_part(scalar x)
     return x * x * (3.0 - 2.0 * x);
 }
 
-// Part of a film that is not faint: none up to `faint` times the sum of the preloads, all from twice that on.
-INLINE scalar film_part(const Derived *d, double faint, scalar load)
+// Part of a film that is not faint: none up to FAINT times the sum of the preloads, all from twice that on.
+INLINE scalar film_part(const Derived *d, scalar load)
 {
     double preload = 0.0;
     for (int k = 0; k < Z; k++) preload += d->P[k];
-    return smooth_part(load / (faint * preload + 1e-30) - 1.0);
+    return smooth_part(load / (FAINT * preload + 1e-30) - 1.0);
 }
 
 // Points of the sums: direction of e, eps, q.
