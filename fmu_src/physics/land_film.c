@@ -346,10 +346,14 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
         on->rim_V[i + 1] = on->rim_v[i + 1] + turn * on->rim[i];
     }
     bent_sums(model, on, &w->bent[h], sum);
+    memcpy(on->at, on->V, sizeof on->V);
+    memcpy(&on->at[2], on->rim_V, sizeof on->rim_V);
 #ifndef DUAL
     LandPressure seen;
-    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], &seen))
+    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], &seen)) {
         bent_sums(model, &seen, &w->bent[h], sum);
+        memcpy(on->at, seen.at, sizeof on->at);
+    }
 #endif
 
     // forces and friction
@@ -371,8 +375,10 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     for (int i = 0; i < RIM; i++) on->rim_force[i] = on->film[2 + i] - sum[BENT_DRY + 2 + i];
     on->dry = sum[BENT_N];
     on->still = film_part(d, scalar_sqrt(on->film[0] * on->film[0] + on->film[1] * on->film[1] + 1e-30) + on->dry);
+    memcpy(on->waves, &sum[BENT_RATES], sizeof on->waves);
+    const scalar *waves = on->waves, D[3] = {waves[0] + waves[3], waves[4], waves[0] - waves[3]};
     scalar rate[3];
-    turn_rates(T, &sum[BENT_RATES], rate);
+    turn_rates(T, D, rate);
     w->film[h] = (LandFilm){rate[0], rate[1], rate[2], force.spin};
     return force;
 }
