@@ -349,14 +349,19 @@ def cage_slide(model, before, y, w):
     return lost, step.rubbed
 
 
+SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
+
+
 def cage_remember(model, h, second, start, end, error):
     """Rates of the modes at the end of a step from `start` to `end` (VerletState), their history and their error; second:
     h^2 over the mean of the last two steps.
     """
     if not model.modes:
         return
+    difference = second * ((end.f - start.f)[RATES] / h - start.jerk[RATES])
+    error[RATES] = h / 12.0 * difference
+    end.f[MODE_D_DOT] -= SMOOTHING * difference[MODE_D_DOT.start - RATES.start :]
     end.jerk[RATES] = (end.f - start.f)[RATES] / h
-    error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 

@@ -236,6 +236,10 @@ void cage_slide(const Model *model, const double *before, double *y, Work *w)
     slide(model, y, &step, w);
 }
 
+// Part of the second difference of the slow accelerations of D that is taken away.  Joints that stick do not damp the vibrations in
+// the plane of the split; one that turns by pi in a step would grow by forces that are held.
+static const double SMOOTHING = 0.15;
+
 void cage_remember(const Model *model, double h, double h_0, const double *restrict f,
                    const double *restrict jerk, const double *restrict y, double *restrict f_end,
                    double *restrict jerk_end, double *restrict error)
@@ -243,9 +247,10 @@ void cage_remember(const Model *model, double h, double h_0, const double *restr
     if (!model->modes) return;
     const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
     for (int i = Y_MODE_S_DOT; i < N_ALL_STATES; i++) {
-        const double change = f_end[i] - f[i];
-        jerk_end[i] = change * inv_h;
-        error[i] = (h / 12.0) * (second * (jerk_end[i] - jerk[i]));
+        const double difference = second * ((f_end[i] - f[i]) * inv_h - jerk[i]);
+        error[i] = (h / 12.0) * difference;
+        if (i >= Y_MODE_D_DOT) f_end[i] -= SMOOTHING * difference;
+        jerk_end[i] = (f_end[i] - f[i]) * inv_h;
     }
     memcpy(&f_end[Y_MODE_S], &y[Y_MODE_S_DOT], 2 * N_MODES * sizeof *error);
     memset(&jerk_end[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);
