@@ -207,8 +207,8 @@ def cage_split(model, y, w, f):
     if not model.modes:
         return CageMemory()
     memory = CageMemory(fast=cage_substeps_split(model, y, w, f))
-    if bent_halves(w).any():
-        memory.films.force = np.where(bent_halves(w)[:, None], w.pressure.rim_force.T, 0.0)
+    if w.pressure:
+        memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
         add_rates(model, -rim_modes(model, memory.films.force), f)
     return memory
 
@@ -247,18 +247,13 @@ def cage_arrive(model, gamma, w, step, before, y, f):
         step.late = -y[CAGE_VELOCITIES]
         cage_substeps_finish(model, w, step.substep, memory.fast, before.fast, y)
         step.late = step.late + y[CAGE_VELOCITIES]
-        if bent_halves(w).any():
+        if w.pressure:
             n = model.modes.n
             lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
             lack = lack + 0.5 * step.substep / gamma * (memory.fast.modes - before.fast.modes)
             step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.films.force - step.rim_before)
             step.squeeze = before.squeeze.copy()
     return memory
-
-
-def bent_halves(w):
-    """Which rims their films bend [2]."""
-    return np.zeros(2, dtype=bool) if not w.pressure else np.ravel(np.real(w.pressure.part)) > 0.0
 
 
 def cage_squeeze(model, gamma):
@@ -275,7 +270,7 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
     on the halves' bodies.
     """
     p, d, less = model.p, model.d, 0.0
-    for h in np.flatnonzero(bent_halves(w)):
+    for h in range(2) if w.pressure else ():
         on, half, spin, x = w.pressure.of(h), w.half[h], float(w.film[h].spin[0]), land_lever(model, h)
         B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
         axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
@@ -354,14 +349,19 @@ def cage_slide(model, before, y, w):
     return lost, step.rubbed
 
 
+SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
+
+
 def cage_remember(model, h, second, start, end, error):
     """Rates of the modes at the end of a step from `start` to `end` (VerletState), their history and their error; second:
     h^2 over the mean of the last two steps.
     """
     if not model.modes:
         return
+    difference = second * ((end.f - start.f)[RATES] / h - start.jerk[RATES])
+    error[RATES] = h / 12.0 * difference
+    end.f[MODE_D_DOT] -= SMOOTHING * difference[MODE_D_DOT.start - RATES.start :]
     end.jerk[RATES] = (end.f - start.f)[RATES] / h
-    error[RATES] = h / 12.0 * second * (end.jerk - start.jerk)[RATES]
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 

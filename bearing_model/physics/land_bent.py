@@ -15,9 +15,8 @@ s = e - C - e theta^2/2, is F = K_land (e - C)^1.5.  Each point has Hunt and Cro
 The sums are over points that Sommerfeld's substitution of a round land of the same e spreads, with eps <= 0.9: 48 of them
 leave 0.05 % of the force in the median and 1 % in the worst twentieth of gaps down to -3 um.
 
-A film whose force is less than 1 % of the sum of the preloads leaves the rim round; from 2 % on it bends it, between them a
-smooth part of the film is that of the bent rim.  Its other waves, which load the rivets statically (elastic_lands.py), begin at 2 %
-and are whole from 4 % on.  Smoothness: that of land_film.py.
+The second and the third wave of the load bend the rim.  All other waves load the rivets statically (elastic_lands.py): none of a film
+whose force is less than 2 % of the sum of the preloads, all from 4 % on, between them a smooth part.  Smoothness: that of land_film.py.
 
 Arrays are [..., half], of land and rim [6, ..., half], of points [..., half, point].
 """
@@ -32,10 +31,7 @@ from bearing_model.physics.hertz import hertz_damped
 from bearing_model.physics.traction import traction_asperity_share
 
 BENT_EPS = 0.9  # largest eps of the points
-FAINT, FAINT_STILL = (
-    0.01,
-    0.02,
-)  # loads on a rim over the sum of the preloads: leave it round; their other waves are left out
+FAINT = 0.02  # load on a rim over the sum of the preloads up to which its waves do not load the rivets
 BENT_POINTS = 48
 PSI = 2.0 * np.pi * np.arange(BENT_POINTS) / BENT_POINTS
 
@@ -46,11 +42,9 @@ def smooth_part(x):
     return x * x * (3.0 - 2.0 * x)
 
 
-def film_part(d, faint, load):
-    """Part of films of these loads [N] that are not faint: none up to `faint` times the sum of the preloads, all from twice that
-    on.
-    """
-    return smooth_part(load / (faint * np.sum(d.P) + 1e-30) - 1.0)
+def film_part(d, load):
+    """Part of films of these loads [N] that are not faint: none up to FAINT times the sum of the preloads, all from twice that on."""
+    return smooth_part(load / (FAINT * np.sum(d.P) + 1e-30) - 1.0)
 
 
 def bent_shapes(e, C):
@@ -132,18 +126,17 @@ LEVEL = 0.1  # slope of the merit at the end of a step / at its start
 STIFF = 100.0  # change of the velocities by a film / velocities
 
 
-def squeeze_slope(on, grid, by, start, free, V, step):
+def squeeze_slope(on, grid, by, free, V, step):
     """Function of s: slope of the merit sum (V - free)^2/(2 by) + Psi(V), F = -dPsi/dV, at V + s step, and what it rises by with s."""
     b, weight, _, gap = grid
-    stiff, rest = weight * on.kappa_C3 / on.C**3 / gap**3, (1.0 - on.part) * on.round_rate
+    stiff = weight * on.kappa_C3 / on.C**3 / gap**3
     W, w, held = bent_dot(V, b), bent_dot(step, b), by > 0.0  # a shape that no mode has stays
     slope = np.sum((step * (V - free))[held] / by[held])
-    slope -= step[:2] @ ((1.0 - on.part) * on.round_film - rest @ (V - start)[:2])
-    rise = np.sum(step[held] ** 2 / by[held]) + step[:2] @ rest @ step[:2]
+    rise = np.sum(step[held] ** 2 / by[held])
 
     def slope_at(s):
         rate = np.where(W + s * w > 0.0, stiff * w, 0.0)
-        return slope + s * rise + on.part * np.sum(rate * (W + s * w)), rise + on.part * np.sum(rate * w)
+        return slope + s * rise + np.sum(rate * (W + s * w)), rise + np.sum(rate * w)
 
     return slope_at
 
@@ -162,27 +155,25 @@ def squeeze_part(slope_at):
     return s
 
 
-def squeeze_find(p, on, by, start, free, V):
-    """V = free + by F(V) from a guess V [6] by Newton's method, whose steps are as long as the merit falls; start: V of the evaluation, to
-    which the round film belongs.  Returns V, the force F and its rates D.
+def squeeze_step(on, grid, by, free, shorten, V, F, D):
+    """A step of Newton's method from V by the force F and the rates D there, `shorten`: as long as the merit falls.  Returns V, F behind it
+    by that law, and whether the law holds there or the step has left the model's range.
     """
-    grid, round_rate = bent_grid(p, on), np.zeros((6, 6))
-    stiff = grid[1] * on.kappa_C3 / on.C**3 / grid[3] ** 3
-    round_rate[:2, :2] = (1.0 - on.part) * on.round_rate
+    step = np.linalg.solve(np.eye(6) + by[:, None] * D, free + by * F - V)
+    fine = np.all(np.isfinite(step))
+    part = squeeze_part(squeeze_slope(on, grid, by, free, V, step)) if shorten and fine else 1.0
+    after, F = V + part * step, F - D @ (part * step)
+    W, stiff = bent_dot(after, grid[0]), grid[1] * on.kappa_C3 / on.C**3 / grid[3] ** 3
+    missed = np.sum(np.where((W > 0.0) != (bent_dot(V, grid[0]) > 0.0), stiff * np.abs(W), 0.0))
+    return after, F, not fine or (part == 1.0 and missed <= MISSED * np.max(np.abs(F)))
+
+
+def squeeze_find(p, on, by, free, V, grid):
+    """V = free + by F(V) from a guess V [6]; returns V, the force F and its rates D."""
     for iteration in range(MOST_ITERATIONS):
-        closing = bent_dot(V, grid[0]) > 0.0
         F, D, _ = bent_law(p, on, V, grid)
-        F, D = on.part * F - round_rate @ (V - start), on.part * D + round_rate
-        F[:2] += (1.0 - on.part) * on.round_film
-        step = np.linalg.solve(np.eye(6) + by[:, None] * D, free + by * F - V)
-        fine = np.all(np.isfinite(step))  # or the step has left the model's range
-        whole = iteration < WHOLE or not fine
-        part = 1.0 if whole else squeeze_part(squeeze_slope(on, grid, by, start, free, V, step))
-        step = part * step
-        V, F = V + step, F - D @ step
-        W = bent_dot(V, grid[0])
-        missed = np.sum(np.where((W > 0.0) != closing, stiff * np.abs(W), 0.0))
-        if not fine or (part == 1.0 and on.part * missed <= MISSED * np.max(np.abs(F))):
+        V, F, done = squeeze_step(on, grid, by, free, iteration >= WHOLE, V, F, D)
+        if done:
             break
     return V, F, D
 
@@ -194,7 +185,7 @@ def bent_foresee(p, on, by, film):
     start = np.concatenate([on.V, on.rim_V])
     if np.max(np.abs(by * film)) <= STIFF * np.max(np.abs(start)):
         return False
-    V, _, _ = squeeze_find(p, on, by, start, start, start)
+    V, _, _ = squeeze_find(p, on, by, start, start, bent_grid(p, on))
     on.V, on.rim_V = V[:2], V[2:]
     return True
 
@@ -206,6 +197,8 @@ def bent_solve(p, on, gamma, by, residual, V):
 
     Returns squeeze velocities, their change, impulse of the film and its force [6], its rates [6, 6].
     """
-    start = np.concatenate([on.V, on.rim_V])
-    V, film, D = squeeze_find(p, on, by, start, start + residual - by * on.film, V)
+    start, grid = np.concatenate([on.V, on.rim_V]), bent_grid(p, on)
+    free, known = start + residual - by * on.film, bent_law(p, on, on.at, grid)[1]
+    first, film, done = squeeze_step(on, grid, by, free, False, on.at, on.film, known)
+    V, film, D = (first, film, known) if done else squeeze_find(p, on, by, free, V, grid)
     return SimpleNamespace(V=V, change=V - start, impulse=gamma * (on.film - film), film=film, rates=D)

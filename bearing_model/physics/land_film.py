@@ -48,8 +48,6 @@ from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum, wide_p
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_damped, hertz_energy, hertz_load
 from bearing_model.physics.land_bent import (
-    FAINT,
-    FAINT_STILL,
     bent_dot,
     bent_foresee,
     bent_grid,
@@ -168,25 +166,21 @@ def land_load(e, V, q2, force, dry):
 
 @dataclass
 class LandPressure:
-    """What decides the pressure on the rims, [..., half]."""
+    """What decides the pressure on the rims of elastic halves, along their axes, [..., half]; vectors [i, ..., half]."""
 
-    e: np.ndarray  # eccentricity along the half's axes [2, ..., half] [m]
-    V: np.ndarray  # pure squeeze velocity likewise [m/s]
-    film: np.ndarray  # force of the film there [2, ..., half] [N]; of bent rims with that on the shapes [6, ..., half]
-    dry: np.ndarray  # load of the dry contact [N]
-    part: np.ndarray  # part of the film that bends the rim
-    still: np.ndarray  # part of its other waves
-    # of bent rims: clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], motion of the rim's shapes [m], its velocity and
-    # squeeze velocity [m/s], forces on them [N]; forces and rates of the round land
-    C: np.ndarray = None
-    kappa_C3: np.ndarray = None
-    v: np.ndarray = None
-    rim: np.ndarray = None
-    rim_v: np.ndarray = None
-    rim_V: np.ndarray = None
-    rim_force: np.ndarray = None
-    round_film: np.ndarray = None
-    round_rate: np.ndarray = None
+    e: np.ndarray  # eccentricity [m]
+    V: np.ndarray  # pure squeeze velocity [m/s]
+    v: np.ndarray  # velocity of the land [m/s]
+    C: np.ndarray  # clearance [m]
+    kappa_C3: np.ndarray  # kappa C^3 [N.s.m2]
+    rim: np.ndarray  # motion of the rim's shapes [m]
+    rim_v: np.ndarray  # its velocity [m/s]
+    rim_V: np.ndarray  # its squeeze velocity [m/s]
+    at: np.ndarray = None  # squeeze velocities to which film and rates belong [6, ..., half] [m/s]
+    film: np.ndarray = None  # force of the film on land and rim [6, ..., half] [N]
+    rim_force: np.ndarray = None  # all force on the rim's shapes [N]
+    dry: np.ndarray = None  # load of the dry contact [N]
+    still: np.ndarray = None  # part of the film's other waves
 
     def of(self, h):
         """That of one half, of one state."""
@@ -215,7 +209,7 @@ def turn_rates(T, D):
 def foreseen(p, w, on, film):
     """The pressure with the velocities that films leave of predicted ones, where they are too stiff for these; None where no film is."""
     seen = None
-    for h in np.flatnonzero(np.ravel(np.real(on.part)) > 0.0) if w.squeeze_by is not None else ():
+    for h in range(2) if w.squeeze_by is not None else ():
         half = on.of(h)
         if not bent_foresee(p, half, w.squeeze_by[h], np.squeeze(film[..., h])):
             continue
@@ -226,54 +220,96 @@ def foreseen(p, w, on, film):
     return seen
 
 
-def land_bend(model, w, on, T, motion, couette, force):
-    """The films become, by on.part, those of bent rims; on entry `force`, w.film and on are those of the round lands.
-
-    T: from the outer ring's axes to the halves' [2, 2, ..., half]; motion: velocities (y, z) and speed of the lands against the
-    outer ring; force: what the lands do to their halves.
+def bent_lands(model, w, on, back, motion, heated):
+    """What lands whose rims bend do to their halves.  back: from the halves' axes to the outer ring's [2, 2, ..., half]; motion: velocities
+    (y, z) and speed of the lands against the outer ring; heated: viscosity of the film / eta.
     """
-    p, part, (v_y, v_z, omega) = model.p, on.part, motion
-    v = np.array([v_y + 0.0 * part, v_z + 0.0 * part])
-    on.v = np.einsum("ik...,k...->i...", T, v)
-    on.rim, on.rim_v = (
-        np.moveaxis(np.concatenate([q @ model.modes.rim for q in both], axis=-2), -1, 0)
-        for both in (w.elastic.q, w.elastic.q_dot)
-    )
-    turn = 0.5 * omega * np.array([2.0, 3.0]).reshape(2, *[1] * part.ndim)
-    on.rim_V = on.rim_v + 0.0 * part
-    on.rim_V[0::2] -= turn * on.rim[1::2]
-    on.rim_V[1::2] += turn * on.rim[0::2]
-    on.round_film, on.round_rate = on.film, turn_rates(np.swapaxes(T, 0, 1), force.rates)
+    p, d, (v_y, v_z, omega) = model.p, model.d, motion
     sums = bent_sums(model, on)
-    seen = foreseen(p, w, on, sums.film)
-    if seen:
+    seen = foreseen(p, w, on, sums.film) or on
+    if seen is not on:
         sums = bent_sums(model, seen)
+    on.at = np.concatenate([seen.V, seen.rim_V])
 
     # friction of dry contact and asperities, in a direction as that of a round land
-    R, back = 0.5 * p.cage.D_o, np.swapaxes(T, 0, 1)
+    R = 0.5 * p.cage.D_o
     along = np.einsum("ki...,i...->k...", back, sums.along)
     size = np.sqrt(along[0] ** 2 + along[1] ** 2 + 1e-30)
     u_y, u_z = along / size
     slip = v_z * u_y - v_y * u_z + omega * R
     g = p.cage.mu_land / np.sqrt(slip * slip + p.cage.v_c**2)
-    torque = couette * model.d.C_land / on.C * (0.5 / np.pi) * sums.couette
+    torque = heated * d.couette * d.C_land / on.C * (0.5 / np.pi) * sums.couette
     F = np.einsum("ki...,i...->k...", back, sums.film[:2] + sums.dry[:2]) + g * slip * size * np.array([u_z, -u_y])
-    bent = {
-        "F_y": F[0],
-        "F_z": F[1],
-        "M_x": -R * g * slip * sums.rubbing - torque * omega,
-        "N_0": sums.N_0,
-        "spin": R * R * g * sums.rubbing + torque,
-        "stored": sums.stored,
-        "stored_rate": sums.stored_rate,
-        "rates": turn_rates(T, sums.rates[:2, :2]),
-    }
-    for name, value in bent.items():
-        before = getattr(force, name)
-        setattr(force, name, before + part * (value - before))
-    on.film = np.concatenate([on.film + part * (sums.film[:2] - on.film), part * sums.film[2:]])
-    on.rim_force = on.film[2:] + part * sums.dry[2:]
-    on.dry = on.dry + part * (sums.N - on.dry)
+    on.film, on.dry, on.rim_force = sums.film, sums.N, sums.film[2:] + sums.dry[2:]
+    on.still = film_part(d, np.sqrt(sums.film[0] ** 2 + sums.film[1] ** 2 + 1e-30) + sums.N)
+    return SimpleNamespace(
+        F_y=F[0],
+        F_z=F[1],
+        M_x=-R * g * slip * sums.rubbing - torque * omega,
+        N_0=sums.N_0,
+        spin=R * R * g * sums.rubbing + torque,
+        stored=sums.stored,
+        stored_rate=sums.stored_rate,
+        rates=turn_rates(np.swapaxes(back, 0, 1), sums.rates[:2, :2]),
+        on_rim=np.sum(on.rim_force * on.rim_v, axis=0),
+    )
+
+
+def rim_squeeze(model, w, omega):
+    """Motion of both rims' shapes, its velocity and their squeeze velocities [4, ..., half]."""
+    rim, rim_v = (
+        np.moveaxis(np.concatenate([q @ model.modes.rim for q in both], axis=-2), -1, 0)
+        for both in (w.elastic.q, w.elastic.q_dot)
+    )
+    turn = 0.5 * omega * np.array([2.0, 3.0]).reshape(2, *[1] * omega.ndim)
+    rim_V = rim_v + 0.0 * omega
+    rim_V[0::2] -= turn * rim[1::2]
+    rim_V[1::2] += turn * rim[0::2]
+    return rim, rim_v, rim_V
+
+
+def round_lands(model, e, V, motion, C, heated):
+    """What lands whose rims are round do to their halves; for the loads on the rims gap function and size of the film's force."""
+    p, d, (e_y, e_z), (V_y, V_z), (v_y, v_z, omega) = model.p, model.d, e, V, motion
+    e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
+    narrow = d.C_land / C
+    eps = e / C
+    cap = minimum(1.0, EPS_CAP / eps) / C
+    q2 = land_film_gap(eps, p.cage.g_0)
+    film = journal_film((e_y, e_z), (V_y, V_z), cap, q2, d.kappa * heated * narrow**3)
+    F_y, F_z = film.force(V_y, V_z)
+    couette = d.couette * heated / np.sqrt(q2) * narrow
+    size = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
+
+    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
+    # film force too
+    u_y, u_z = e_y / e, e_z / e
+    pen, pen_dot = e - C, v_y * u_y + v_z * u_z
+    N_0 = hertz_load(p.cage.K_land, pen)
+    N = hertz_damped(N_0, p.cage.lambda_, pen_dot)
+    N_mu = N
+    if p.scene.lubrication == Lubrication.MIXED:
+        ln_Lambda = d.ln_land + np.log(q2 / (narrow * (1.0 + eps)))
+        N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
+    R = 0.5 * p.cage.D_o
+    slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
+    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
+    F_t = -g * slip
+    yy, yz, zz = (rate + 0.0 * e for rate in film.rates().values())
+    return SimpleNamespace(
+        F_y=F_y - N * u_y - F_t * u_z,
+        F_z=F_z - N * u_z + F_t * u_y,
+        M_x=R * F_t - couette * omega,
+        N_0=N_0,
+        spin=couette + g * R * R,
+        stored=hertz_energy(p.cage.K_land, pen),
+        stored_rate=N_0 * pen_dot,
+        rates=np.array([[yy, yz], [yz, zz]]),
+        on_rim=0.0,
+        q2=q2 + 0.0 * e,
+        size=size,
+        dry=N,
+    )
 
 
 def no_land(w):
@@ -307,69 +343,26 @@ def land_film_force(model, w):
     e_y, e_z, v_y, v_z = (vec_dot(value, axis_of) for value in (arm, velocity) for axis_of in (outer.b_y, outer.b_z))
     omega = vec_dot(wide_pair(h0.Omega, h1.Omega) - outer.Omega, outer.a)
 
-    # film
     V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
-    e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
     spin = wide_pair(h0.s, h1.s) + w.frame_omega  # in space
-    C = land_clearance(d, spin)
-    narrow = d.C_land / C
-    eps = e / C
-    cap = minimum(1.0, EPS_CAP / eps) / C
-    q2 = land_film_gap(eps, p.cage.g_0)
+    C, none = land_clearance(d, spin), 0.0 * (e_y + V_y)
     heated = land_film_heating(d.nahme * omega * omega) if d.nahme > 0.0 else 1.0
-    kappa = d.kappa * heated * narrow**3
-    film = journal_film((e_y, e_z), (V_y, V_z), cap, q2, kappa)
-    F_y, F_z = film.force(V_y, V_z)
-    couette = d.couette * heated / np.sqrt(q2) * narrow
-    by_film, size = (F_y, F_z), np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
-
-    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
-    # film force too
-    u_y, u_z = e_y / e, e_z / e
-    pen, pen_dot = e - C, v_y * u_y + v_z * u_z
-    N_0 = hertz_load(p.cage.K_land, pen)
-    N = hertz_damped(N_0, p.cage.lambda_, pen_dot)
-    N_mu = N
-    if p.scene.lubrication == Lubrication.MIXED:
-        ln_Lambda = d.ln_land + np.log(q2 / (narrow * (1.0 + eps)))
-        N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
-    R = 0.5 * p.cage.D_o
-    slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
-    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
-    F_t = -g * slip
-    F_y = F_y - N * u_y - F_t * u_z
-    F_z = F_z - N * u_z + F_t * u_y
-    M_x = R * F_t - couette * omega
 
     axes = wide_pair(h0.b_y, h1.b_y), wide_pair(h0.b_z, h1.b_z)
     T = np.array([[vec_dot(outer_axis, axis_of) for outer_axis in (outer.b_y, outer.b_z)] for axis_of in axes])
-    e_h, V_h, film_h = (
-        np.einsum("ik...,k...->i...", T, np.array([y + 0.0 * e, z + 0.0 * e]))
-        for y, z in ((e_y, e_z), (V_y, V_z), by_film)
+    e_h, V_h, v_h = (
+        np.einsum("ik...,k...->i...", T, np.array([y + none, z + none])) for y, z in ((e_y, e_z), (V_y, V_z), (v_y, v_z))
     )
-    yy, yz, zz = (rate + 0.0 * e for rate in film.rates().values())
-    does = SimpleNamespace(
-        F_y=F_y,
-        F_z=F_z,
-        M_x=M_x,
-        N_0=N_0,
-        spin=couette + g * R * R,
-        stored=hertz_energy(p.cage.K_land, pen),
-        stored_rate=N_0 * pen_dot,
-        rates=np.array([[yy, yz], [yz, zz]]),
-    )
-    w.land, on_rim, part = None, 0.0, 0.0 * e
-    w.pressure = on = LandPressure(e_h, V_h, film_h, N, part, part)
+    motion, w.land, w.pressure = (v_y, v_z, omega), None, None
     if model.modes:
-        on.C, on.kappa_C3 = C + 0.0 * e, kappa * C**3 + 0.0 * e
-        on.part, on.still = film_part(d, FAINT, size + N), film_part(d, FAINT_STILL, size + N)
-        if np.any(np.real(on.part) > 0.0):
-            land_bend(model, w, on, T, (v_y, v_z, omega), heated * d.couette, does)
-            on_rim = np.sum(on.rim_force * on.rim_v, axis=0)
+        kappa_C3 = d.kappa * heated * d.C_land**3
+        w.pressure = on = LandPressure(e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, omega + none))
+        does = bent_lands(model, w, on, np.swapaxes(T, 0, 1), motion, heated)
     else:
-        w.land = land_load(e_h, V_h, q2 + 0.0 * e, size, N)
+        does = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)
+        w.land = land_load(e_h, V_h, does.q2, does.size, does.dry)
 
-    power = does.F_y * v_y + does.F_z * v_z + does.M_x * omega + on_rim
+    power = does.F_y * v_y + does.F_z * v_z + does.M_x * omega + does.on_rim
     w.land_elastic = ball_array_sum(does.stored)
     w.land_growth = does.N_0 * land_growth_rate(d, spin)
     w.land_dissipated = -ball_array_sum(power + does.stored_rate)

@@ -60,7 +60,7 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++)
-            memory->films.force[h][i] = land_is_bent(w, h) ? w->pressure[h].rim_force[i] : 0.0;
+            memory->films.force[h][i] = w->pressure[h].rim_force[i];
     rim_push(model, -1.0, memory->films.force, &f[Y_MODE_S_DOT]);
 }
 
@@ -120,7 +120,7 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] = -y[Y_CAGE_V_X + i];
     cage_substeps_finish(model, w, step->substep, &memory->fast, &before->fast, y);
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] += y[Y_CAGE_V_X + i];
-    if (!land_is_bent(w, 0) && !land_is_bent(w, 1)) return;
+    if (!lands_bend(model)) return;
     double lack[2 * N_MODES];
     const double last = 0.5 * step->substep / step->gamma;
     for (int i = 0; i < 2 * N_MODES; i++)
@@ -181,7 +181,7 @@ void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step,
     for (int h = 0; h < 2; h++) {
         half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
-        if (land_is_bent(w, h))
+        if (lands_bend(model))
             solve_bent_half(w, h, &f[h], step, &half[h]);
         else
             half_film_solve(&f[h], &half[h]);
@@ -236,6 +236,10 @@ void cage_slide(const Model *model, const double *before, double *y, Work *w)
     slide(model, y, &step, w);
 }
 
+// Part of the second difference of the slow accelerations of D that is taken away.  Joints that stick do not damp the vibrations in
+// the plane of the split; one that turns by pi in a step would grow by forces that are held.
+static const double SMOOTHING = 0.15;
+
 void cage_remember(const Model *model, double h, double h_0, const double *restrict f,
                    const double *restrict jerk, const double *restrict y, double *restrict f_end,
                    double *restrict jerk_end, double *restrict error)
@@ -243,9 +247,10 @@ void cage_remember(const Model *model, double h, double h_0, const double *restr
     if (!model->modes) return;
     const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
     for (int i = Y_MODE_S_DOT; i < N_ALL_STATES; i++) {
-        const double change = f_end[i] - f[i];
-        jerk_end[i] = change * inv_h;
-        error[i] = (h / 12.0) * (second * (jerk_end[i] - jerk[i]));
+        const double difference = second * ((f_end[i] - f[i]) * inv_h - jerk[i]);
+        error[i] = (h / 12.0) * difference;
+        if (i >= Y_MODE_D_DOT) f_end[i] -= SMOOTHING * difference;
+        jerk_end[i] = (f_end[i] - f[i]) * inv_h;
     }
     memcpy(&f_end[Y_MODE_S], &y[Y_MODE_S_DOT], 2 * N_MODES * sizeof *error);
     memset(&jerk_end[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);

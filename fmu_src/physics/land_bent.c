@@ -4,8 +4,8 @@
 //
 //     V = V^ + r + gamma Y (F(V) - F^)     V^, F^: at the evaluation, r: residual with F^, Y: mobilities of land and rim
 //
-// V minimizes the convex sum of (V - free)^2/(2 gamma Y) and Psi(V), free = V^ + r - gamma Y F^.  Newton's method, from the V of the last
-// step, takes one or two iterations.  It ends when the points of the sums that its step moves over the film's ends carry less than 1 % of
+// V minimizes the convex sum of (V - free)^2/(2 gamma Y) and Psi(V), free = V^ + r - gamma Y F^.  Newton's method takes one or two
+// iterations: from the evaluation, whose law is known, or, if the film's ends move, from the V of the last step.  It ends when the points of the sums that its step moves over the film's ends carry less than 1 % of
 // F.  Where a closed gap makes gamma Y D a million, steps would run to and fro over the ends: from the third on they are as long as
 // the sum falls.
 //
@@ -13,11 +13,7 @@
 // be left when V is solved.  The evaluation has therefore the film at the velocities that it leaves of V^, those with r = 0 and F^ = 0.
 #include "physics/land_bent.h"
 
-enum {
-    BENT_PACKETS = BENT_POINTS / LANE_WIDTH,
-    ROW = 8,
-    WAVE_SUMS = 16
-};  // 13 waves; both in packets of eight
+enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH, ROW = 8 };
 
 // A law of land and rim, linear about the squeeze velocities: forces along the half's axes, rates in rows of eight for packets.
 typedef struct {
@@ -43,25 +39,8 @@ static void take_rates(const SqueezeLaw *law, const double x[SQUEEZE], double F[
     for (int i = 0; i < SQUEEZE; i++) F[i] -= sum[i];
 }
 
-// Adds a packet's rates times half of 1, cos theta, sin theta ... cos 6 theta, sin 6 theta.
-INLINE void add_waves(wide rate, const wide b[SQUEEZE], wide to[WAVE_SUMS])
-{
-    const wide half = 0.5 * rate, by_c_3 = half * b[4], by_s_3 = half * b[5];
-    const wide by_c_2 = half * b[2], by_s_2 = half * b[3];
-    to[0] += half;
-    for (int i = 0; i < 2; i++) to[1 + i] = wide_fma(half, b[i], to[1 + i]);
-    to[3] += by_c_2, to[4] += by_s_2;
-    to[5] += by_c_3, to[6] += by_s_3;
-    to[7] += by_c_2 * b[2] - by_s_2 * b[3];
-    to[8] = wide_fma(2.0 * by_c_2, b[3], to[8]);
-    to[9] += by_c_3 * b[2] - by_s_3 * b[3];
-    to[10] += by_s_3 * b[2] + by_c_3 * b[3];
-    to[11] += by_c_3 * b[4] - by_s_3 * b[5];
-    to[12] = wide_fma(2.0 * by_c_3, b[5], to[12]);
-}
-
 // Rates of the shapes cos p theta and sin p theta by those cosines C and sines S: 2 cos p cos q = cos (p - q) + cos (p + q) ...
-static void rates_of_waves(const double sum[WAVE_SUMS], double rate[SQUEEZE][ROW])
+static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][ROW])
 {
     double C[7], S[7] = {0.0};
     C[0] = sum[0];
@@ -81,42 +60,27 @@ static void rates_of_waves(const double sum[WAVE_SUMS], double rate[SQUEEZE][ROW
         for (int k = SQUEEZE; k < ROW; k++) rate[i][k] = 0.0;
 }
 
-// That of the film at the squeeze velocities V, F = -D V, and the points at which the film closes.
-static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law,
-                     bits closes[BENT_PACKETS])
+// That of the film at the squeeze velocities V, F = -D V.
+static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law)
 {
-    wide sum[EIGHTHS][WAVE_SUMS];
-    double total[WAVE_SUMS];
+    wide sum[EIGHTHS][BENT_WAVES];
+    double total[BENT_WAVES];
     for (int part = 0; part < EIGHTHS; part++) {
-        wide to[WAVE_SUMS];
-        for (int i = 0; i < WAVE_SUMS; i++) to[i] = wide_set(0.0);
+        wide to[BENT_WAVES];
+        for (int i = 0; i < BENT_WAVES; i++) to[i] = wide_set(0.0);
         for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
             wide b[SQUEEZE];
             for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
-            const bits closing = closes[n] = wide_above(bent_dot(V, V + 2, b), 0.0);
+            const bits closing = wide_above(bent_dot(V, V + 2, b), 0.0);
             if (!wide_any(closing)) continue;
             add_waves(wide_select(closing, wide_load(&grid->stiff[n * LANE_WIDTH]), wide_set(0.0)), b, to);
         }
         memcpy(sum[part], to, sizeof to);
     }
-    wide_column_sums(WAVE_SUMS, WAVE_SUMS, sum[0], total);
+    wide_column_sums(BENT_WAVES, BENT_WAVES, sum[0], total);
     rates_of_waves(total, law->rate);
     memset(law->F, 0, sizeof law->F);
     take_rates(law, V, law->F);
-}
-
-// The bent film by the part that bends the rim, the round one by the rest: it has forces and rates of the land alone.
-static void add_round(const LandPressure *on, const double change[SQUEEZE], SqueezeLaw *law)
-{
-    const double part = on->part, rest = 1.0 - on->part, *rate = on->round_rate;
-    for (int i = 0; i < SQUEEZE; i++) {
-        law->F[i] *= part;
-        row_scale(part, law->rate[i]);
-    }
-    for (int i = 0; i < 2; i++) {
-        law->F[i] += rest * (on->round_film[i] - (rate[i] * change[0] + rate[i + 1] * change[1]));
-        for (int k = 0; k < 2; k++) law->rate[i][k] += rest * rate[i + k];
-    }
 }
 
 // x of (1 + gamma Y D) x = u, D: the rates.  D is symmetric and not negative, nor is the diagonal Y: Gauss's pivots are at least 1.
@@ -140,9 +104,8 @@ static void squeeze_solve(const SqueezeLaw *law, const double by[SQUEEZE], const
     for (int i = 0; i < SQUEEZE; i++) x[i] = A[i][SQUEEZE];
 }
 
-// V = free + by F(V): by = gamma Y; start: V at the evaluation, to which the round film belongs.
+// V = free + by F(V): by = gamma Y; start: V at the evaluation.
 typedef struct {
-    const LandPressure *on;
     const BentGrid *grid;
     const double *by;
     double start[SQUEEZE], free[SQUEEZE];
@@ -151,7 +114,7 @@ typedef struct {
 static Squeeze squeeze_of(const Work *w, int h)
 {
     const LandPressure *on = &w->pressure[h];
-    Squeeze of = {.on = on, .grid = &w->bent[h], .by = w->squeeze_by[h]};
+    Squeeze of = {.grid = &w->bent[h], .by = w->squeeze_by[h]};
     memcpy(of.start, on->V, sizeof on->V);
     memcpy(&of.start[2], on->rim_V, sizeof on->rim_V);
     return of;
@@ -166,8 +129,6 @@ typedef struct {
 static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const double x[SQUEEZE],
                          SqueezeLine *line)
 {
-    const LandPressure *on = of->on;
-    const double rest = 1.0 - on->part, *rate = on->round_rate;
     for (int n = 0; n < BENT_PACKETS; n++) {
         wide b[SQUEEZE];
         for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&of->grid->b[i][n * LANE_WIDTH]);
@@ -179,11 +140,6 @@ static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const doubl
         if (of->by[i] == 0.0) continue;  // of a shape that no mode has
         line->slope += x[i] * (V[i] - of->free[i]) / of->by[i];
         line->rise += x[i] * x[i] / of->by[i];
-    }
-    for (int i = 0; i < 2; i++) {
-        const double y = V[0] - of->start[0], z = V[1] - of->start[1];
-        line->slope -= rest * x[i] * (on->round_film[i] - (rate[i] * y + rate[i + 1] * z));
-        line->rise += rest * x[i] * (rate[i] * x[0] + rate[i + 1] * x[1]);
     }
 }
 
@@ -201,8 +157,8 @@ static void slope_at(const Squeeze *of, const SqueezeLine *line, double s, doubl
         }
     }
     wide_column_sums(2, 2, sum[0], slope);
-    slope[0] = line->slope + s * line->rise + of->on->part * slope[0];
-    slope[1] = line->rise + of->on->part * slope[1];
+    slope[0] += line->slope + s * line->rise;
+    slope[1] += line->rise;
 }
 
 static const int MOST_HALVINGS = 50;
@@ -233,8 +189,8 @@ static const int MOST_ITERATIONS = 100;  // of Newton's method on a film that is
 static const int WHOLE = 2;              // of them that are not shortened
 static const double MISSED = 1e-2;       // load that a linear law may miss / its largest force
 
-// Load of the points on whose side of the film's end the law `closed` has them wrong at V.
-static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const bits closed[BENT_PACKETS])
+// Load at the velocities V of the points that close there and did not before, or the other way round.
+static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const double before[SQUEEZE])
 {
     wide sum[EIGHTHS];
     for (int part = 0; part < EIGHTHS; part++) {
@@ -243,7 +199,7 @@ static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const b
             wide b[SQUEEZE];
             for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
             const wide W = bent_dot(V, V + 2, b);
-            const bits missed = wide_above(W, 0.0) ^ closed[n];
+            const bits missed = wide_above(W, 0.0) ^ wide_above(bent_dot(before, before + 2, b), 0.0);
             if (!wide_any(missed)) continue;
             const wide load = wide_load(&grid->stiff[n * LANE_WIDTH]) * wide_abs(W);
             sum[part] += wide_select(missed, load, wide_set(0.0));
@@ -252,29 +208,37 @@ static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const b
     return wide_eight_sum(sum);
 }
 
+// What a step of Newton's method has come to.
+typedef enum { GOES_ON, DONE, LOST } SqueezeEnd;  // LOST: the step has left the model's range
+
+// One step from V by the law there, whose force it takes along; `shorten`: as long as the sum falls.
+static SqueezeEnd squeeze_step(const Squeeze *of, bool shorten, double V[SQUEEZE], SqueezeLaw *law)
+{
+    double rest[SQUEEZE], step[SQUEEZE], before[SQUEEZE], most = 0.0, all = 0.0;
+    for (int i = 0; i < SQUEEZE; i++) rest[i] = of->free[i] + of->by[i] * law->F[i] - V[i];
+    squeeze_solve(law, of->by, rest, step);
+    for (int i = 0; i < SQUEEZE; i++) all += fabs(step[i]);
+    const bool fine = all < INFINITY;
+    const double part = shorten && fine ? squeeze_part(of, V, step) : 1.0;
+    if (part < 1.0)
+        for (int i = 0; i < SQUEEZE; i++) step[i] *= part;
+    take_rates(law, step, law->F);
+    for (int i = 0; i < SQUEEZE; i++) {
+        before[i] = V[i];
+        V[i] += step[i];
+        most = scalar_max(most, fabs(law->F[i]));
+    }
+    if (!fine) return LOST;
+    return part == 1.0 && load_missed(of->grid, V, before) <= MISSED * most ? DONE : GOES_ON;
+}
+
 // Solves for V, which it takes from a guess; law: film and rates there.
 static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
 {
-    for (int iteration = 0; iteration < MOST_ITERATIONS; iteration++) {
-        bits closed[BENT_PACKETS];
-        double change[SQUEEZE], rest[SQUEEZE], step[SQUEEZE], most = 0.0, all = 0.0;
-        for (int i = 0; i < SQUEEZE; i++) change[i] = V[i] - of->start[i];
-        bent_law(of->grid, V, law, closed);
-        add_round(of->on, change, law);
-        for (int i = 0; i < SQUEEZE; i++) rest[i] = of->free[i] + of->by[i] * law->F[i] - V[i];
-        squeeze_solve(law, of->by, rest, step);
-        for (int i = 0; i < SQUEEZE; i++) all += fabs(step[i]);
-        const bool fine = all < INFINITY;  // or the step has left the model's range
-        const double part = iteration < WHOLE || !fine ? 1.0 : squeeze_part(of, V, step);
-        if (part < 1.0)
-            for (int i = 0; i < SQUEEZE; i++) step[i] *= part;
-        take_rates(law, step, law->F);
-        for (int i = 0; i < SQUEEZE; i++) {
-            V[i] += step[i];
-            most = scalar_max(most, fabs(law->F[i]));
-        }
-        if (!fine) break;
-        if (part == 1.0 && of->on->part * load_missed(of->grid, V, closed) <= MISSED * most) break;
+    SqueezeEnd end = GOES_ON;
+    for (int iteration = 0; iteration < MOST_ITERATIONS && end == GOES_ON; iteration++) {
+        bent_law(of->grid, V, law);
+        end = squeeze_step(of, iteration >= WHOLE, V, law);
     }
 }
 
@@ -294,6 +258,7 @@ bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], LandPressure
     memcpy(V, of.start, sizeof V);
     squeeze_find(&of, V, &law);
     *seen = w->pressure[h];
+    memcpy(seen->at, V, sizeof seen->at);
     memcpy(seen->V, V, sizeof seen->V);
     memcpy(seen->rim_V, &V[2], sizeof seen->rim_V);
     return true;
@@ -306,7 +271,14 @@ void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZ
     Squeeze of = squeeze_of(w, h);
     SqueezeLaw law;
     for (int i = 0; i < SQUEEZE; i++) of.free[i] = of.start[i] + residual[i] - of.by[i] * on->film[i];
-    squeeze_find(&of, V, &law);
+    double known[SQUEEZE];
+    memcpy(known, on->at, sizeof known);
+    memcpy(law.F, on->film, sizeof law.F);
+    rates_of_waves(on->waves, law.rate);
+    if (squeeze_step(&of, false, known, &law) == DONE)
+        memcpy(V, known, sizeof known);
+    else
+        squeeze_find(&of, V, &law);
     for (int i = 0; i < SQUEEZE; i++) {
         to->change[i] = V[i] - of.start[i];
         to->film[i] = law.F[i];
@@ -319,7 +291,6 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
 {
     double power = 0.0;
     for (int h = 0; h < 2; h++) {
-        if (!land_is_bent(w, h)) continue;
         const Rotor *half = &w->half[h];
         LandPressure *on = &w->pressure[h];
         LandFilm *film = &w->film[h];

@@ -15,9 +15,8 @@
 // The sums are over points that Sommerfeld's substitution of a round land of the same e spreads, with eps <= 0.9: 48 of
 // them leave 0.05 % of the force in the median and 1 % in the worst twentieth of gaps down to -3 um.
 //
-// A film whose force is less than 1 % of the sum of the preloads leaves the rim round; from 2 % on it bends it, between
-// them a smooth part of the film is that of the bent rim.  Its other waves, which load the rivets statically (elastic_lands.c), begin
-// at 2 % and are whole from 4 % on.  Smoothness: that of land_film.c.
+// The second and the third wave of the load bend the rim.  All other waves load the rivets statically (elastic_lands.c): none of a film
+// whose force is less than 2 % of the sum of the preloads, all from 4 % on, between them a smooth part.  Smoothness: that of land_film.c.
 #pragma once
 
 #include "physics/hertz.h"
@@ -25,8 +24,8 @@
 
 static const double BENT_EPS = 0.9;  // largest eps of the points
 
-// Loads on a rim over the sum of the preloads that leave it round, and whose other waves are left out.
-static const double FAINT = 0.01, FAINT_STILL = 0.02;
+// Load on a rim over the sum of the preloads up to which its waves do not load the rivets.
+static const double FAINT = 0.02;
 
 // Whether the other waves of a film load the rivets.
 INLINE bool land_is_felt(const Work *w, int h)
@@ -34,10 +33,10 @@ INLINE bool land_is_felt(const Work *w, int h)
     return scalar_value(w->pressure[h].still) > 0.0;
 }
 
-// Whether the film of half h bends its rim.
-INLINE bool land_is_bent(const Work *w, int h)
+// Whether films bend the rims of the halves.
+INLINE bool lands_bend(const Model *model)
 {
-    return scalar_value(w->pressure[h].part) > 0.0;
+    return model->modes && model->d->guided;
 }
 
 // 0 up to x = 0, 1 from x = 1 on, smooth between them.
@@ -47,12 +46,12 @@ INLINE scalar smooth_part(scalar x)
     return x * x * (3.0 - 2.0 * x);
 }
 
-// Part of a film that is not faint: none up to `faint` times the sum of the preloads, all from twice that on.
-INLINE scalar film_part(const Derived *d, double faint, scalar load)
+// Part of a film that is not faint: none up to FAINT times the sum of the preloads, all from twice that on.
+INLINE scalar film_part(const Derived *d, scalar load)
 {
     double preload = 0.0;
     for (int k = 0; k < Z; k++) preload += d->P[k];
-    return smooth_part(load / (faint * preload + 1e-30) - 1.0);
+    return smooth_part(load / (FAINT * preload + 1e-30) - 1.0);
 }
 
 // Points of the sums: direction of e, eps, q.
@@ -96,9 +95,10 @@ INLINE wide bent_gap(wide x, double g_0)
     return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
 }
 
-// A packet of points: shapes b, weight dtheta, gap by the geometry and of the film over the clearance, kappa C^3 dtheta/h^3.
+// A packet of points: shapes b, weight dtheta, gap by the geometry and of the film over the clearance, dtheta over the latter,
+// kappa C^3 dtheta/h^3.
 typedef struct {
-    wide b[SQUEEZE], weight, gap, open, stiff;
+    wide b[SQUEEZE], weight, gap, open, narrow, stiff;
 } BentPoint;
 
 INLINE BentPoint bent_point(const Model *model, const LandPressure *on, const BentPoints *points, int m)
@@ -108,16 +108,17 @@ INLINE BentPoint bent_point(const Model *model, const LandPressure *on, const Be
     at.weight = (2.0 * PI / BENT_POINTS) * bent_shapes(model->d, points, m, at.b);
     at.gap = (wide_set(on->C) - bent_dot(on->e, on->rim, at.b)) * inv_C;
     at.open = bent_gap(at.gap, model->p->cage.g_0);
-    const wide inv_h = inv_C / at.open;
-    at.stiff = wide_set(on->kappa_C3) * (at.weight * inv_h) * (inv_h * inv_h);
+    const wide inv_open = 1.0 / at.open, inv_h = inv_C * inv_open;
+    at.narrow = at.weight * inv_open;
+    at.stiff = wide_set(on->kappa_C3) * at.narrow * inv_C * (inv_h * inv_h);
     return at;
 }
 
 // Sums over the points.  Forces are those that close, -F.
 enum {
     BENT_FILM,
-    BENT_RATES = BENT_FILM + SQUEEZE,  // yy, yz, zz
-    BENT_COUETTE = BENT_RATES + 3,     // int C dtheta/h
+    BENT_RATES = BENT_FILM + SQUEEZE,       // waves of the rates (add_waves)
+    BENT_COUETTE = BENT_RATES + BENT_WAVES,  // int C dtheta/h
     BENT_ROUGH,                        // int of the load of asperities, and times n
     BENT_DRY = BENT_ROUGH + 3,         // of the dry contact: forces, loads without and with damping,
     BENT_N_0 = BENT_DRY + SQUEEZE,
@@ -141,18 +142,33 @@ INLINE void bent_dry(const Parameters *p, const LandPressure *on, const BentPoin
     sum[BENT_STORED_RATE] += bed * rate;
 }
 
+// Adds a packet's rates times half of 1, cos theta, sin theta ... cos 6 theta, sin 6 theta.
+INLINE void add_waves(wide rate, const wide b[SQUEEZE], wide to[BENT_WAVES])
+{
+    const wide half = 0.5 * rate, by_c_3 = half * b[4], by_s_3 = half * b[5];
+    const wide by_c_2 = half * b[2], by_s_2 = half * b[3];
+    to[0] += half;
+    for (int i = 0; i < 2; i++) to[1 + i] = wide_fma(half, b[i], to[1 + i]);
+    to[3] += by_c_2, to[4] += by_s_2;
+    to[5] += by_c_3, to[6] += by_s_3;
+    to[7] += by_c_2 * b[2] - by_s_2 * b[3];
+    to[8] = wide_fma(2.0 * by_c_2, b[3], to[8]);
+    to[9] += by_c_3 * b[2] - by_s_3 * b[3];
+    to[10] += by_s_3 * b[2] + by_c_3 * b[3];
+    to[11] += by_c_3 * b[4] - by_s_3 * b[5];
+    to[12] = wide_fma(2.0 * by_c_3, b[5], to[12]);
+}
+
 // Adds those of the film.
 INLINE void bent_film(const Model *model, const LandPressure *on, const BentPoint *at, wide sum[BENT_SUMS])
 {
     const wide *b = at->b, W = bent_dot(on->V, on->rim_V, b);
     const bits closing = wide_above(W, 0.0);
-    sum[BENT_COUETTE] += at->weight / at->open;
+    sum[BENT_COUETTE] += at->narrow;
     if (!wide_any(closing)) return;
-    const wide rate = wide_select(closing, at->stiff, wide_set(0.0)), load = rate * W, by_y = rate * b[0];
+    const wide rate = wide_select(closing, at->stiff, wide_set(0.0)), load = rate * W;
     for (int i = 0; i < SQUEEZE; i++) sum[BENT_FILM + i] += load * b[i];
-    sum[BENT_RATES] += by_y * b[0];
-    sum[BENT_RATES + 1] += by_y * b[1];
-    sum[BENT_RATES + 2] += rate * b[1] * b[1];
+    add_waves(rate, b, &sum[BENT_RATES]);
     if (model->p->scene.lubrication != LUBRICATION_MIXED) return;
     const wide thin = wide_set(on->C / model->d->C_land) * at->open;
     const wide rough = load * traction_asperity_share(model->d->ln_land + wide_log(thin));

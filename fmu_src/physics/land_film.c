@@ -198,8 +198,14 @@ INLINE void sum_load(wide re[EIGHTHS][LAND_HARMONICS], wide im[EIGHTHS][LAND_HAR
     wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
 }
 
+// What decides the pressure on a round rim, along the half's axes: eccentricity [m], pure squeeze velocity [m/s], gap function q^2,
+// sizes of the film's force and of the dry contact's [N].
+typedef struct {
+    scalar e[2], V[2], q2, force, dry;
+} RoundPressure;
+
 // Harmonics of the load on a round rim.
-INLINE void land_load(const Derived *d, const LandPressure *on, LandLoad *load)
+INLINE void land_load(const Derived *d, const RoundPressure *on, LandLoad *load)
 {
     const scalar *e = on->e, *V = on->V, q2 = on->q2, force = on->force, dry = on->dry;
     const scalar inv_e = 1.0 / scalar_sqrt(e[0] * e[0] + e[1] * e[1] + 1e-30);
@@ -293,12 +299,6 @@ typedef struct {
     scalar F[2], M_x, N_0, spin, stored, stored_rate;
 } LandForce;
 
-// x becomes that of the bent rim by the part.
-INLINE void bend_one(scalar part, scalar bent, scalar *x)
-{
-    *x += part * (bent - *x);
-}
-
 // Motion of the land against the outer ring: velocity along its axes, speed.
 typedef struct {
     scalar v[2], omega;
@@ -320,21 +320,24 @@ INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar
     force->spin = R * R * g * all;
 }
 
-// The film of half h becomes, by on->part, that of its bent rim; on entry `force`, w->film and w->pressure are those of the round
-// land.
-INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at,
-                      scalar couette, LandForce *force)
+// The land of half h whose rim bends.  e, V: along the outer ring's axes; heated: viscosity of the film / eta.
+INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at,
+                           const scalar e[2], const scalar V[2], scalar C, scalar heated)
 {
+    const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     LandPressure *on = &w->pressure[h];
-    LandFilm *film = &w->film[h];
-    const scalar part = on->part;
     scalar T[2][2], column[2], sum[BENT_SUMS];  // T: from the outer ring's axes to the half's
     for (int k = 0; k < 2; k++) {
         land_turn(outer, half, k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0, column);
         T[0][k] = column[0], T[1][k] = column[1];
     }
-    for (int i = 0; i < 2; i++) on->v[i] = T[i][0] * at->v[0] + T[i][1] * at->v[1];
+    for (int i = 0; i < 2; i++) {
+        on->e[i] = T[i][0] * e[0] + T[i][1] * e[1];
+        on->V[i] = T[i][0] * V[0] + T[i][1] * V[1];
+        on->v[i] = T[i][0] * at->v[0] + T[i][1] * at->v[1];
+    }
+    on->C = C, on->kappa_C3 = d->kappa * heated * (d->C_land * d->C_land * d->C_land);
     memcpy(on->rim, w->rim[h], sizeof on->rim);
     memcpy(on->rim_v, w->rim_v[h], sizeof on->rim_v);
     for (int i = 0; i < RIM; i += 2) {
@@ -342,73 +345,60 @@ INLINE void land_bend(const Model *model, Work *w, int h, const Rotor *outer, co
         on->rim_V[i] = on->rim_v[i] - turn * on->rim[i + 1];
         on->rim_V[i + 1] = on->rim_v[i + 1] + turn * on->rim[i];
     }
-    const scalar round[3] = {film->yy, film->yz, film->zz};
-    scalar back[2][2] = {{T[0][0], T[1][0]}, {T[0][1], T[1][1]}};
-    turn_rates(back, round, on->round_rate);
-    for (int i = 0; i < 2; i++) on->round_film[i] = on->film[i];
     bent_sums(model, on, &w->bent[h], sum);
+    memcpy(on->at, on->V, sizeof on->V);
+    memcpy(&on->at[2], on->rim_V, sizeof on->rim_V);
 #ifndef DUAL
     LandPressure seen;
-    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], &seen))
+    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], &seen)) {
         bent_sums(model, &seen, &w->bent[h], sum);
+        memcpy(on->at, seen.at, sizeof on->at);
+    }
 #endif
 
     // forces and friction
-    LandForce bent = {.N_0 = sum[BENT_N_0], .stored = sum[BENT_STORED], .stored_rate = sum[BENT_STORED_RATE]};
+    LandForce force = {
+        .N_0 = sum[BENT_N_0], .stored = sum[BENT_STORED], .stored_rate = sum[BENT_STORED_RATE]};
     scalar along[2];
     for (int k = 0; k < 2; k++) {
-        bent.F[k] = along[k] = 0.0;
+        force.F[k] = along[k] = 0.0;
         for (int i = 0; i < 2; i++) {
-            bent.F[k] -= T[i][k] * (sum[BENT_FILM + i] + sum[BENT_DRY + i]);
+            force.F[k] -= T[i][k] * (sum[BENT_FILM + i] + sum[BENT_DRY + i]);
             along[k] += T[i][k] * (sum[BENT_DRY + i] + sum[BENT_ROUGH + 1 + i]);
         }
     }
-    bent_friction(model->p, at, along, sum[BENT_N] + sum[BENT_ROUGH], &bent);
-    const scalar torque = couette * (model->d->C_land / on->C) * (0.5 / PI) * sum[BENT_COUETTE];
-    bent.M_x -= torque * at->omega;
-    bent.spin += torque;
-    scalar *to = (scalar *)force;
-    const scalar *from = (const scalar *)&bent;
-    for (size_t i = 0; i < sizeof bent / sizeof *to; i++) bend_one(part, from[i], &to[i]);
-    for (int i = 0; i < 2; i++) bend_one(part, -sum[BENT_FILM + i], &on->film[i]);
-    for (int i = 0; i < RIM; i++) {
-        on->film[2 + i] = -part * sum[BENT_FILM + 2 + i];
-        on->rim_force[i] = on->film[2 + i] - part * sum[BENT_DRY + 2 + i];
-    }
-    bend_one(part, sum[BENT_N], &on->dry);
-
+    bent_friction(model->p, at, along, sum[BENT_N] + sum[BENT_ROUGH], &force);
+    const scalar torque = heated * d->couette * (d->C_land / C) * (0.5 / PI) * sum[BENT_COUETTE];
+    force.M_x -= torque * at->omega;
+    force.spin += torque;
+    for (int i = 0; i < SQUEEZE; i++) on->film[i] = -sum[BENT_FILM + i];
+    for (int i = 0; i < RIM; i++) on->rim_force[i] = on->film[2 + i] - sum[BENT_DRY + 2 + i];
+    on->dry = sum[BENT_N];
+    on->still = film_part(d, scalar_sqrt(on->film[0] * on->film[0] + on->film[1] * on->film[1] + 1e-30) + on->dry);
+    memcpy(on->waves, &sum[BENT_RATES], sizeof on->waves);
+    const scalar *waves = on->waves, D[3] = {waves[0] + waves[3], waves[4], waves[0] - waves[3]};
     scalar rate[3];
-    turn_rates(T, &sum[BENT_RATES], rate);
-    bend_one(part, rate[0], &film->yy);
-    bend_one(part, rate[1], &film->yz);
-    bend_one(part, rate[2], &film->zz);
+    turn_rates(T, D, rate);
+    w->film[h] = (LandFilm){rate[0], rate[1], rate[2], force.spin};
+    return force;
 }
 
-// The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
-// at rest in its place.
-INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor *outer)
+// The lands of HALVES rigid halves side by side, beginning with half `first`.  e, V: vectors (y, z).
+INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *outer, const LandMotion *land,
+                        const wide V[2], wide C, wide heated, LandForce force[HALVES])
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
-    const wide x_land = wide_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
-
-    const LandMotion land =
-        outer == NULL ? land_motion(h0, h1, x_land) : land_motion_against(outer, h0, h1, x_land);
-    const wide e_y = land.e_y, e_z = land.e_z, v_y = land.v_y, v_z = land.v_z, omega = land.omega;
+    const wide e_y = land->e_y, e_z = land->e_z, v_y = land->v_y, v_z = land->v_z, omega = land->omega;
 
     // film: direction n of V, eccentricity (a, b) along and across V, gap function q^2
-    const wide V_y = v_y + 0.5 * omega * e_z, V_z = v_z - 0.5 * omega * e_y;
     const wide e_2 = e_y * e_y + e_z * e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2), e = e_2 * inv_e;
-    const scalar spin[2] = {h0->s + w->frame_omega, h1->s + w->frame_omega};  // in space
-    const wide C = wide_pair(land_clearance(d, spin[0]), land_clearance(d, spin[1]));
     const wide inv_C = 1.0 / C, narrow = d->C_land * inv_C;
     const wide eps = e * inv_C, cap = wide_min(inv_C, EPS_CAP * inv_e);
     const wide q2 = land_film_gap(eps, p->cage.g_0);
-    const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
     const wide eta = d->kappa * heated * (narrow * narrow * narrow);
-    const JournalFilm film = journal_film(e_y, e_z, V_y, V_z, cap, q2, eta);
-    const JournalForce by_film = journal_force(&film, V_y, V_z);
+    const JournalFilm film = journal_film(e_y, e_z, V[0], V[1], cap, q2, eta);
+    const JournalForce by_film = journal_force(&film, V[0], V[1]);
     const JournalRates rates = journal_rates(&film);
     wide F_y = by_film.y, F_z = by_film.z;
     const wide couette = d->couette * heated * (1.0 / wide_sqrt(q2)) * narrow;
@@ -438,39 +428,59 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     // the dry contact stores a part of the power
     const wide stored = hertz_energy(wide_set(p->cage.K_land), pen), stored_rate = N_0 * pen_dot;
 
+    for (int i = 0; i < HALVES; i++) {
+        const int h = first + i;
+        const Rotor *half = &w->half[h];
+        const scalar R_h = wide_lane(R, i);
+        force[i] = (LandForce){{wide_lane(F_y, i), wide_lane(F_z, i)},
+                               wide_lane(M_x, i),
+                               wide_lane(N_0, i),
+                               wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
+                               wide_lane(stored, i),
+                               wide_lane(stored_rate, i)};
+        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i),
+                                force[i].spin};
+        RoundPressure on = {.q2 = wide_lane(q2, i), .force = wide_lane(size, i), .dry = wide_lane(N, i)};
+        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on.e);
+        land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), on.V);
+        land_load(d, &on, &w->land[h]);
+    }
+}
+
+// The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
+// at rest in its place.
+INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor *outer)
+{
+    const Parameters *p = model->p;
+    const Derived *d = model->d;
+    Rotor *h0 = &w->half[first], *h1 = &w->half[first + HALVES - 1];
+    const wide x_land = wide_pair(first == 0 ? -p->cage.land_x : p->cage.land_x, p->cage.land_x);
+    const LandMotion land =
+        outer == NULL ? land_motion(h0, h1, x_land) : land_motion_against(outer, h0, h1, x_land);
+    const wide omega = land.omega;
+    const wide V[2] = {land.v_y + 0.5 * omega * land.e_z, land.v_z - 0.5 * omega * land.e_y};
+    const scalar spin[2] = {h0->s + w->frame_omega, h1->s + w->frame_omega};  // in space
+    const wide C = wide_pair(land_clearance(d, spin[0]), land_clearance(d, spin[1]));
+    const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
+    LandForce round[HALVES];
+    if (!model->modes) round_lands(model, w, first, outer, &land, V, C, heated, round);
+
     // wrench on each half about its geometric centre
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         Rotor *half = &w->half[h];
-        const scalar x = wide_lane(x_land, i), R_h = wide_lane(R, i);
-        const LandRates at = {{wide_lane(v_y, i), wide_lane(v_z, i)}, wide_lane(omega, i)};
-        LandForce force = {{wide_lane(F_y, i), wide_lane(F_z, i)},
-                           wide_lane(M_x, i),
-                           wide_lane(N_0, i),
-                           wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
-                           wide_lane(stored, i),
-                           wide_lane(stored_rate, i)};
-        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), 0.0};
-        LandPressure *on = &w->pressure[h];
-        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on->e);
-        land_turn(outer, half, wide_lane(V_y, i), wide_lane(V_z, i), on->V);
-        land_turn(outer, half, wide_lane(by_film.y, i), wide_lane(by_film.z, i), on->film);
-        on->q2 = wide_lane(q2, i);
-        on->force = wide_lane(size, i), on->dry = wide_lane(N, i);
-        on->part = on->still = 0.0;
+        const scalar x = wide_lane(x_land, i);
+        const LandRates at = {{wide_lane(land.v_y, i), wide_lane(land.v_z, i)}, wide_lane(omega, i)};
+        LandForce force;
         scalar on_rim = 0.0;  // power
         if (model->modes) {
-            const scalar C_h = wide_lane(C, i);
-            on->C = C_h, on->kappa_C3 = wide_lane(eta, i) * (C_h * C_h * C_h);
-            on->part = film_part(d, FAINT, on->force + on->dry);
-            on->still = film_part(d, FAINT_STILL, on->force + on->dry);
-            if (scalar_value(on->part) > 0.0) {
-                land_bend(model, w, h, outer, &at, wide_lane(heated, i) * d->couette, &force);
-                for (int n = 0; n < RIM; n++) on_rim += on->rim_force[n] * on->rim_v[n];
-            }
+            const scalar e[2] = {wide_lane(land.e_y, i), wide_lane(land.e_z, i)};
+            const scalar squeeze[2] = {wide_lane(V[0], i), wide_lane(V[1], i)};
+            force = bent_land(model, w, h, outer, &at, e, squeeze, wide_lane(C, i), wide_lane(heated, i));
+            const LandPressure *on = &w->pressure[h];
+            for (int n = 0; n < RIM; n++) on_rim += on->rim_force[n] * on->rim_v[n];
         } else
-            land_load(d, on, &w->land[h]);
-        w->film[h].spin = force.spin;
+            force = round[i];
 
         const scalar F[3] = {0.0, force.F[0], force.F[1]};
         const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};

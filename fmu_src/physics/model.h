@@ -20,7 +20,7 @@ enum { LAND_POINTS = 24, BENT_POINTS = 48 };  // of the sums over a land's film,
 
 // What a land's film resists: motion of the land along y and z, and of its rim by cos 2, sin 2, cos 3 and sin 3 theta of the
 // modes that bend it (land_bent.h); place of row i, column k <= i of a symmetric matrix that is stored as its lower triangle.
-enum { RIM = 4, SQUEEZE = 2 + RIM, SQUEEZE_TERMS = SQUEEZE * (SQUEEZE + 1) / 2 };
+enum { RIM = 4, SQUEEZE = 2 + RIM, SQUEEZE_TERMS = SQUEEZE * (SQUEEZE + 1) / 2, BENT_WAVES = 13 };
 
 #define SQUEEZE_AT(i, k) ((i) * ((i) + 1) / 2 + (k))
 
@@ -265,15 +265,14 @@ typedef struct {
     scalar yy, yz, zz, spin;
 } LandFilm;
 
-// ---- what decides the pressure on one rim, along the half's axes; written by land_film.c, the velocities and forces of a bent
-// one again by land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], gap function q^2, sizes of the film's
-// force and of the dry contact's [N]; of elastic halves the parts of the film that bends the rim and of its other waves; where the first is not 0, the
-// clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its velocity and squeeze velocity [m/s], forces
-// on the rim's shapes and, by the film alone, on land and rim [N]; film and rates of the round land ----
+// ---- what decides the pressure on the rim of an elastic half, along the half's axes; written by land_film.c, velocities and forces again
+// by land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], load of the dry contact [N], part of the film's waves that
+// load the rivets, clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its velocity and squeeze velocity
+// [m/s], forces on the rim's shapes and, by the film alone, on land and rim [N]; waves of the film's rates [N.s/m], squeeze velocities to
+// which film and rates belong ----
 typedef struct {
-    scalar e[2], V[2], q2, force, dry;
-    scalar part, still, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM], film[SQUEEZE];
-    scalar round_film[2], round_rate[3];
+    scalar e[2], V[2], dry, still, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM], film[SQUEEZE];
+    scalar waves[BENT_WAVES], at[SQUEEZE];
 } LandPressure;
 
 // ---- the points of the film of one bent rim: shapes of land and rim, kappa C^3 dtheta/h^3 [N.s/m], depth behind the wall over the

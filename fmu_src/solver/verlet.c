@@ -248,7 +248,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
     implicit_solve(model, w, gamma, &cage, delta);
     to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
-    to->f[Y_WORK] += bent_arrive(gamma, cage.bent, w);
+    if (lands_bend(model)) to->f[Y_WORK] += bent_arrive(gamma, cage.bent, w);
     remember_films(w, to);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.

@@ -185,7 +185,7 @@ def cage_elastic_acceleration(model, y, w, y_dot):
     """
     half, m, e = model.modes, model.p.cage.m, w.elastic
     mirrored, opposed = cage_elastic_pull(model, e.joints.load, e.joints.F)
-    if w.pressure and w.pressure.rim_force is not None:
+    if w.pressure:
         e.wall_force = [
             e.wall_force[h] + np.einsum("c...,ic->...i", w.pressure.rim_force[..., h], half.rim) for h in range(2)
         ]

@@ -76,9 +76,18 @@ def relative_inertia(model):
     return np.array([m, 2.0 / d.J_t, 2.0 / d.J_t, across, across, 2.0 / d.J_p]), m / across, d.com_x[1] / d.J_t / across
 
 
+def about_masses(model, relative, sign):
+    """Relative motions [6] of the geometric centres as those of the centres of mass, which the unbalance puts e along b_y from them; sign
+    -1: the other way round.
+    """
+    e, (x, about_y, about_z, y, z, spin) = sign * model.d.com_e, relative
+    return np.array([x - e * about_z, about_y, about_z, y, z + e * spin, spin])
+
+
 def to_halves(model, h0, relative):
     """What relative motions at the joints [6] give to both halves: x, y, z, beta, gamma, s [6, 2]."""
     _, part, tilt = relative_inertia(model)
+    relative = about_masses(model, relative, 1.0)
     axes = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]])  # rows: b_y, b_z
     change = np.concatenate([relative[:1], part * relative[3:5] @ axes, relative[1:3] @ axes, relative[5:]])
     rows = change[:, None] * np.array([-0.5, 0.5])
@@ -90,7 +99,8 @@ def between_halves(model, h0, rows):
     """The relative motions at the joints [6] by such rows [6, 2]."""
     axes, c_x = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]]), model.d.com_x[1]
     d, common = rows[:, 1] - rows[:, 0], axes @ rows[3:5].sum(axis=1)
-    return np.concatenate([d[:1], axes @ d[3:5], axes @ d[1:3] + c_x * np.array([-common[1], common[0]]), d[5:]])
+    found = np.concatenate([d[:1], axes @ d[3:5], axes @ d[1:3] + c_x * np.array([-common[1], common[0]]), d[5:]])
+    return about_masses(model, found, -1.0)
 
 
 def halves(y, blocks):
@@ -112,7 +122,10 @@ def fast_accelerations(model, q, load, shear):
         d.rivet_y * shear[1] - d.rivet_z * shear[0],
     ]
     modes = np.array(cage_elastic_pull(model, load, shear)) / p.cage.m - half.omega**2 * q
-    return modes, relative_inertia(model)[0] * np.sum(force, axis=1)
+    total = np.sum(force, axis=1)
+    total[2] += d.com_e * total[0]  # about the centres of mass
+    total[5] -= d.com_e * total[4]
+    return modes, about_masses(model, relative_inertia(model)[0] * total, -1.0)
 
 
 def cage_substeps_split(model, y, w, f):

@@ -10,9 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearing_model.generated.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_V_Y, CAGE_V_Z
-
-BORNE = 2.0  # substeps that any film bears at both ends of a step
+from bearing_model.generated.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S, CAGE_V_Y, CAGE_V_Z
 
 
 @dataclass
@@ -57,7 +55,7 @@ class RimFilmsStep:
     def __init__(self, model, h, films):
         self.model, self.rates, self.force = model, films.rates, films.force
         stiff = h * (films.rates[:, 0, 0] + films.rates[:, 1, 1]) > model.p.cage.m
-        self.follows = stiff & (h > BORNE * model.modes.substep)
+        self.follows = stiff & (h > model.modes.substep)
         self.held = np.where(self.follows[:, None], 0.0, films.force)
         self.now, self.impulse = films.force - self.held, np.zeros((2, 4))
 
@@ -80,7 +78,9 @@ class RimFilmsStep:
         self.begun = rim_motions(self.model, v)
         none = np.zeros(2)
         slow = np.array([none, f[CAGE_V_Y], f[CAGE_V_Z], f[CAGE_BETA_DOT], f[CAGE_GAMMA_DOT], none])
-        self.acceleration = self.land_velocities(slow)
+        self.acceleration = self.land_velocities(slow)  # of the centres of mass
+        e, spin = self.model.d.com_e, np.ravel([half.s for half in w.half])
+        self.acceleration += e * np.array([spin**2, -f[CAGE_S]]).T
         dD = d * self.rates
         self.answer = np.linalg.solve(np.eye(6) + dD * self.mobility[:, None, :], dD)
         return 0.5 * d * rim_modes(self.model, self.now)

@@ -284,7 +284,7 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         spin[h] = s * s;
     }
     for (int h = 0; h < 2; h++)
-        if (land_is_bent(w, h)) add_rim_force(half, w->pressure[h].rim_force, w->elastic.wall_force[h]);
+        if (model->d->guided) add_rim_force(half, w->pressure[h].rim_force, w->elastic.wall_force[h]);
     for (int i = 0; i < MODES; i++) {
         const scalar f_0 = w->elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
         const scalar f_1 = w->elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];

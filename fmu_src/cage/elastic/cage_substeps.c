@@ -15,7 +15,8 @@
 // last substep.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
 // motion.  Forces in the plane of the split act at the distance c_x from the centres of mass and tilt both halves by
 // the same angle;
-// a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  Whatever these motions leave out, gyroscopic
+// a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  With the unbalance e the centres of mass lie c = e b_y from the
+// geometric centres, to which the relative motions belong: v_com = v + Omega x c, and the moment about them is M - c x F.  Whatever these motions leave out, gyroscopic
 // terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
 // Stiff films on bent rims follow in the substeps (rim_films.c).
@@ -51,12 +52,12 @@ static void to_halves(const Model *model, const Rotor *h0, double h, const doubl
                       int first, double *y)
 {
     const RelativeInertia *inertia = &model->d->relative;
-    const double *b_y = h0->b_y, *b_z = h0->b_z;
-    const double across_y = inertia->part * relative[MOTION_ACROSS_Y],
-                 across_z = inertia->part * relative[MOTION_ACROSS_Z];
-    const double about_y = inertia->tilt * relative[MOTION_ACROSS_Z],
-                 about_z = -inertia->tilt * relative[MOTION_ACROSS_Y];
-    const double change[6] = {relative[MOTION_X],  // x, y, z, beta, gamma, s
+    const double *b_y = h0->b_y, *b_z = h0->b_z, e = model->d->com_e;
+    const double along = relative[MOTION_X] - e * relative[MOTION_ABOUT_Z],
+                 across = relative[MOTION_ACROSS_Z] + e * relative[MOTION_SPIN];
+    const double across_y = inertia->part * relative[MOTION_ACROSS_Y], across_z = inertia->part * across;
+    const double about_y = inertia->tilt * across, about_z = -inertia->tilt * relative[MOTION_ACROSS_Y];
+    const double change[6] = {along,  // x, y, z, beta, gamma, s
                               b_y[1] * across_y + b_z[1] * across_z,
                               b_y[2] * across_y + b_z[2] * across_z,
                               b_y[1] * relative[MOTION_ABOUT_Y] + b_z[1] * relative[MOTION_ABOUT_Z],
@@ -77,17 +78,18 @@ static void to_halves(const Model *model, const Rotor *h0, double h, const doubl
 static void between_halves(const Model *model, const Rotor *h0, const double *f,
                            double relative[RELATIVE_MOTIONS])
 {
-    const double *b_y = h0->b_y, *b_z = h0->b_z, c_x = model->d->com_x[1];
+    const double *b_y = h0->b_y, *b_z = h0->b_z, c_x = model->d->com_x[1], e = model->d->com_e;
     double d[6];
     for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];
     const double beta = f[Y_CAGE_BETA_DOT] + f[Y_CAGE_BETA_DOT + 1],
                  gamma = f[Y_CAGE_GAMMA_DOT] + f[Y_CAGE_GAMMA_DOT + 1];
-    relative[MOTION_X] = d[0];
     relative[MOTION_ABOUT_Y] = b_y[1] * d[3] + b_y[2] * d[4];
     relative[MOTION_ABOUT_Z] = b_z[1] * d[3] + b_z[2] * d[4];
+    relative[MOTION_X] = d[0] + e * relative[MOTION_ABOUT_Z];
     relative[MOTION_ACROSS_Y] = b_y[1] * d[1] + b_y[2] * d[2] - c_x * (b_z[1] * beta + b_z[2] * gamma);
-    relative[MOTION_ACROSS_Z] = b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma);
     relative[MOTION_SPIN] = d[5];
+    relative[MOTION_ACROSS_Z] =
+        b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma) - e * relative[MOTION_SPIN];
 }
 
 // Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in
@@ -117,7 +119,13 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
         wide_store(&force[MOTION_ACROSS_Z][k], F_z);
         wide_store(&force[MOTION_SPIN][k], r_y * F_z - r_z * F_y);
     }
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * ball_array_sum(force[i]);
+    double sum[RELATIVE_MOTIONS];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) sum[i] = ball_array_sum(force[i]);
+    sum[MOTION_ABOUT_Z] += d->com_e * sum[MOTION_X];
+    sum[MOTION_SPIN] -= d->com_e * sum[MOTION_ACROSS_Z];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * sum[i];
+    rigid[MOTION_X] += d->com_e * rigid[MOTION_ABOUT_Z];
+    rigid[MOTION_ACROSS_Z] -= d->com_e * rigid[MOTION_SPIN];
 }
 
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
