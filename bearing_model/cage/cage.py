@@ -279,11 +279,12 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
         solved = bent_solve(p, on, gamma, w.squeeze_by[h], start, step.squeeze[h])
         inertia = np.array([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p])
         change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia
+        change[5] -= solved.impulse @ on.by_spin / d.J_p
         change[5] /= 1.0 + gamma * spin / d.J_p
         delta[HALF[:, h]] = change
         step.squeeze[h], step.impulse[h], step.rates[h] = solved.V, solved.impulse, solved.rates
-        v = np.concatenate([on.v, on.rim_v])
-        less += solved.film @ (v + solved.change) - on.film @ v
+        V = np.concatenate([on.V, on.rim_V])
+        less += solved.film @ (V + solved.change) - on.film @ V
         less -= (solved.change[:2] - late) @ solved.impulse[:2] / gamma
         rates = axes.T @ solved.rates[:2, :2] @ axes
         w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))

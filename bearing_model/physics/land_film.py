@@ -176,6 +176,7 @@ class LandPressure:
     rim: np.ndarray  # motion of the rim's shapes [m]
     rim_v: np.ndarray  # its velocity [m/s]
     rim_V: np.ndarray  # its squeeze velocity [m/s]
+    by_spin: np.ndarray  # what the squeeze velocities of land and rim gain by the spin [6, ..., half] [m]
     at: np.ndarray = None  # squeeze velocities to which film and rates belong [6, ..., half] [m/s]
     film: np.ndarray = None  # force of the film on land and rim [6, ..., half] [N]
     rim_force: np.ndarray = None  # all force on the rim's shapes [N]
@@ -245,7 +246,7 @@ def bent_lands(model, w, on, back, motion, heated):
     return SimpleNamespace(
         F_y=F[0],
         F_z=F[1],
-        M_x=-R * g * slip * sums.rubbing - torque * omega,
+        M_x=-R * g * slip * sums.rubbing - torque * omega + np.sum(sums.film * on.by_spin, axis=0),
         N_0=sums.N_0,
         spin=R * R * g * sums.rubbing + torque,
         stored=sums.stored,
@@ -255,17 +256,16 @@ def bent_lands(model, w, on, back, motion, heated):
     )
 
 
-def rim_squeeze(model, w, omega):
-    """Motion of both rims' shapes, its velocity and their squeeze velocities [4, ..., half]."""
+def rim_squeeze(model, w, e, omega):
+    """Motion of both rims' shapes, its velocity and their squeeze velocities [4, ..., half]; what those of land and rim gain by the spin."""
     rim, rim_v = (
         np.moveaxis(np.concatenate([q @ model.modes.rim for q in both], axis=-2), -1, 0)
         for both in (w.elastic.q, w.elastic.q_dot)
     )
-    turn = 0.5 * omega * np.array([2.0, 3.0]).reshape(2, *[1] * omega.ndim)
-    rim_V = rim_v + 0.0 * omega
-    rim_V[0::2] -= turn * rim[1::2]
-    rim_V[1::2] += turn * rim[0::2]
-    return rim, rim_v, rim_V
+    by_spin = np.concatenate([0.5 * np.array([e[1], -e[0]]), np.empty((4, *omega.shape), dtype=rim.dtype)])
+    waves = 0.5 * np.array([2.0, 3.0]).reshape(2, *[1] * omega.ndim)
+    by_spin[2::2], by_spin[3::2] = -waves * rim[1::2], waves * rim[0::2]
+    return rim, rim_v, rim_v + omega * by_spin[2:], by_spin
 
 
 def round_lands(model, e, V, motion, C, heated):
@@ -299,7 +299,7 @@ def round_lands(model, e, V, motion, C, heated):
     return SimpleNamespace(
         F_y=F_y - N * u_y - F_t * u_z,
         F_z=F_z - N * u_z + F_t * u_y,
-        M_x=R * F_t - couette * omega,
+        M_x=R * F_t - couette * omega + 0.5 * (F_y * e_z - F_z * e_y),
         N_0=N_0,
         spin=couette + g * R * R,
         stored=hertz_energy(p.cage.K_land, pen),
@@ -356,7 +356,7 @@ def land_film_force(model, w):
     motion, w.land, w.pressure = (v_y, v_z, omega), None, None
     if model.modes:
         kappa_C3 = d.kappa * heated * d.C_land**3
-        w.pressure = on = LandPressure(e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, omega + none))
+        w.pressure = on = LandPressure(e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, e_h, omega + none))
         does = bent_lands(model, w, on, np.swapaxes(T, 0, 1), motion, heated)
     else:
         does = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)

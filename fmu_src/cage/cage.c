@@ -171,6 +171,7 @@ static void solve_bent_half(const Work *w, int h, const HalfFilm *f, CageStep *s
     const double *impulse = bent->impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
                    half);
+    for (int i = 0; i < SQUEEZE; i++) half->s -= impulse[i] * w->pressure[h].by_spin[i] / f->J_p;
     half->s /= 1.0 + f->spin;
 }
 

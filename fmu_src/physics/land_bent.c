@@ -297,8 +297,8 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
         const double *change = solved[h].change;
         double T[2][2] = {{half->b_y[1], half->b_y[2]}, {half->b_z[1], half->b_z[2]}};
         for (int i = 0; i < SQUEEZE; i++) {
-            const double v = i < 2 ? on->v[i] : on->rim_v[i - 2];
-            power += solved[h].film[i] * (v + change[i]) - on->film[i] * v;
+            const double V = i < 2 ? on->V[i] : on->rim_V[i - 2];
+            power += solved[h].film[i] * (V + change[i]) - on->film[i] * V;
             on->film[i] = solved[h].film[i];
         }
         for (int i = 0; i < 2; i++) {

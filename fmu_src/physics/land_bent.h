@@ -6,7 +6,7 @@
 //
 // With b = (n_y, n_z, cos 2 theta, sin 2 theta, cos 3 theta, sin 3 theta) the film has the forces F_i = int P b_i and the
 // rates -dF_i/dV_k = kappa C^3 int b_i b_k/h^3 over the closing part: the matrix is symmetric and not negative, and F is
-// the gradient of an integral of W^2/h^3.  Couette's torque is that of the gap, int C dtheta/(2 pi h).
+// the gradient of an integral of W^2/h^3.  Couette's torque is that of the gap, int C dtheta/(2 pi h); the pressure's is F.dV/domega.
 //
 // Where the gap closes, h stays finite like q^2 of a round land: h = C g_0/2 at the wall and C g_0/4 far behind it.  The
 // dry contact is a linear bedding: pressure k s, s = -h, with k = (3/4) K_land sqrt(C/2), which for a round land,

@@ -19,7 +19,8 @@
 //
 // Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  F is the gradient of an
 // integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
-// are the stiff rates.
+// are the stiff rates.  V contains omega, so that the pressure turns the land by M_x = F.dV/domega = (F_y e_z - F_z e_y)/2, half of
+// what it does about the outer ring's axis, beside Couette's torque; the film's loss is Couette's omega^2 - F.V.
 //
 // Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette
 // flow the shear stress then is asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta
@@ -340,11 +341,12 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     on->C = C, on->kappa_C3 = d->kappa * heated * (d->C_land * d->C_land * d->C_land);
     memcpy(on->rim, w->rim[h], sizeof on->rim);
     memcpy(on->rim_v, w->rim_v[h], sizeof on->rim_v);
+    on->by_spin[0] = 0.5 * on->e[1], on->by_spin[1] = -0.5 * on->e[0];
     for (int i = 0; i < RIM; i += 2) {
-        const scalar turn = 0.5 * (2 + i / 2) * at->omega;
-        on->rim_V[i] = on->rim_v[i] - turn * on->rim[i + 1];
-        on->rim_V[i + 1] = on->rim_v[i + 1] + turn * on->rim[i];
+        const double waves = 0.5 * (2 + i / 2);
+        on->by_spin[2 + i] = -waves * on->rim[i + 1], on->by_spin[3 + i] = waves * on->rim[i];
     }
+    for (int i = 0; i < RIM; i++) on->rim_V[i] = on->rim_v[i] + at->omega * on->by_spin[2 + i];
     bent_sums(model, on, &w->bent[h], sum);
     memcpy(on->at, on->V, sizeof on->V);
     memcpy(&on->at[2], on->rim_V, sizeof on->rim_V);
@@ -371,7 +373,10 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     const scalar torque = heated * d->couette * (d->C_land / C) * (0.5 / PI) * sum[BENT_COUETTE];
     force.M_x -= torque * at->omega;
     force.spin += torque;
-    for (int i = 0; i < SQUEEZE; i++) on->film[i] = -sum[BENT_FILM + i];
+    for (int i = 0; i < SQUEEZE; i++) {
+        on->film[i] = -sum[BENT_FILM + i];
+        force.M_x += on->film[i] * on->by_spin[i];
+    }
     for (int i = 0; i < RIM; i++) on->rim_force[i] = on->film[2 + i] - sum[BENT_DRY + 2 + i];
     on->dry = sum[BENT_N];
     on->still = film_part(d, scalar_sqrt(on->film[0] * on->film[0] + on->film[1] * on->film[1] + 1e-30) + on->dry);
@@ -423,7 +428,7 @@ INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *out
     const wide F_t = -g * slip;
     F_y += -N * u_y - F_t * u_z;
     F_z += -N * u_z + F_t * u_y;
-    const wide M_x = R * F_t - couette * omega;
+    const wide M_x = R * F_t - couette * omega + 0.5 * (by_film.y * e_z - by_film.z * e_y);
 
     // the dry contact stores a part of the power
     const wide stored = hertz_energy(wide_set(p->cage.K_land), pen), stored_rate = N_0 * pen_dot;
