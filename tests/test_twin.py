@@ -334,7 +334,9 @@ def test_derivatives_see_a_small_error(core):
     """The comparison is not blind: a millionth of a coefficient shows, of the friction between the halves, whose forces are
     small beside the others, a ten-thousandth.
     """
-    names = dict.fromkeys(("bearing.E", "oil.B", "cage.lambda", "cage.land_width", "oil.C_d"), 1e-6) | {"joint.mu": 1e-4}
+    names = dict.fromkeys(("bearing.E", "oil.B", "cage.lambda", "cage.land_width", "oil.C_d"), 1e-6) | {
+        "joint.mu": 1e-4
+    }
     for name, part in names.items():
         # balls in a row hardly feel their own drag
         scene = TWO_HALF | ({"scene.drag": variables.Drag.ISOLATED} if name == "oil.C_d" else {})

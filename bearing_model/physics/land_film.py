@@ -351,12 +351,15 @@ def land_film_force(model, w):
     axes = wide_pair(h0.b_y, h1.b_y), wide_pair(h0.b_z, h1.b_z)
     T = np.array([[vec_dot(outer_axis, axis_of) for outer_axis in (outer.b_y, outer.b_z)] for axis_of in axes])
     e_h, V_h, v_h = (
-        np.einsum("ik...,k...->i...", T, np.array([y + none, z + none])) for y, z in ((e_y, e_z), (V_y, V_z), (v_y, v_z))
+        np.einsum("ik...,k...->i...", T, np.array([y + none, z + none]))
+        for y, z in ((e_y, e_z), (V_y, V_z), (v_y, v_z))
     )
     motion, w.land, w.pressure = (v_y, v_z, omega), None, None
     if model.modes:
         kappa_C3 = d.kappa * heated * d.C_land**3
-        w.pressure = on = LandPressure(e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, e_h, omega + none))
+        w.pressure = on = LandPressure(
+            e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, e_h, omega + none)
+        )
         does = bent_lands(model, w, on, np.swapaxes(T, 0, 1), motion, heated)
     else:
         does = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)

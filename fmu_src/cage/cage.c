@@ -59,8 +59,7 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
     cage_substeps_split(model, y, w, f, &memory->fast);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
-        for (int i = 0; i < RIM; i++)
-            memory->films.force[h][i] = w->pressure[h].rim_force[i];
+        for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];
     rim_push(model, -1.0, memory->films.force, &f[Y_MODE_S_DOT]);
 }
 

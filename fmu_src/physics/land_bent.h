@@ -117,10 +117,10 @@ INLINE BentPoint bent_point(const Model *model, const LandPressure *on, const Be
 // Sums over the points.  Forces are those that close, -F.
 enum {
     BENT_FILM,
-    BENT_RATES = BENT_FILM + SQUEEZE,       // waves of the rates (add_waves)
+    BENT_RATES = BENT_FILM + SQUEEZE,        // waves of the rates (add_waves)
     BENT_COUETTE = BENT_RATES + BENT_WAVES,  // int C dtheta/h
-    BENT_ROUGH,                        // int of the load of asperities, and times n
-    BENT_DRY = BENT_ROUGH + 3,         // of the dry contact: forces, loads without and with damping,
+    BENT_ROUGH,                              // int of the load of asperities, and times n
+    BENT_DRY = BENT_ROUGH + 3,               // of the dry contact: forces, loads without and with damping,
     BENT_N_0 = BENT_DRY + SQUEEZE,
     BENT_N,
     BENT_STORED,  // energy and its rate

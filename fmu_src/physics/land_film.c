@@ -379,7 +379,8 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     }
     for (int i = 0; i < RIM; i++) on->rim_force[i] = on->film[2 + i] - sum[BENT_DRY + 2 + i];
     on->dry = sum[BENT_N];
-    on->still = film_part(d, scalar_sqrt(on->film[0] * on->film[0] + on->film[1] * on->film[1] + 1e-30) + on->dry);
+    on->still =
+        film_part(d, scalar_sqrt(on->film[0] * on->film[0] + on->film[1] * on->film[1] + 1e-30) + on->dry);
     memcpy(on->waves, &sum[BENT_RATES], sizeof on->waves);
     const scalar *waves = on->waves, D[3] = {waves[0] + waves[3], waves[4], waves[0] - waves[3]};
     scalar rate[3];
@@ -443,8 +444,8 @@ INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *out
                                wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
                                wide_lane(stored, i),
                                wide_lane(stored_rate, i)};
-        w->film[h] = (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i),
-                                force[i].spin};
+        w->film[h] =
+            (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), force[i].spin};
         RoundPressure on = {.q2 = wide_lane(q2, i), .force = wide_lane(size, i), .dry = wide_lane(N, i)};
         land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on.e);
         land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), on.V);

@@ -66,13 +66,14 @@ INLINE void relative_approach(const Model *model, const Work *w, int h, wide cos
     const vec turn = vec_cross(from_mass, n);
     const wide part = wide_set(h == 0 ? -0.5 : 0.5), across = inertia->part * part,
                tilt = wide_set(inertia->tilt);
-    const wide about_y = vec_dot(turn, b_y), about_z = vec_dot(turn, b_z);
+    const wide about_y = vec_dot(turn, b_y), about_z = vec_dot(turn, b_z), e = wide_set(model->d->com_e);
+    const wide by_z = across * vec_dot(n, b_z) + tilt * about_y;
     wide_store(to->relative[MOTION_X], part * n.x);
     wide_store(to->relative[MOTION_ABOUT_Y], part * about_y);
-    wide_store(to->relative[MOTION_ABOUT_Z], part * about_z);
+    wide_store(to->relative[MOTION_ABOUT_Z], part * (about_z - e * n.x));
     wide_store(to->relative[MOTION_ACROSS_Y], across * vec_dot(n, b_y) - tilt * about_z);
-    wide_store(to->relative[MOTION_ACROSS_Z], across * vec_dot(n, b_z) + tilt * about_y);
-    wide_store(to->relative[MOTION_SPIN], part * turn.x);
+    wide_store(to->relative[MOTION_ACROSS_Z], by_z);
+    wide_store(to->relative[MOTION_SPIN], part * turn.x + e * by_z);
 }
 
 static void rigid_approach(const Model *model, double gamma, const FastState *fast, const double *f,
