@@ -424,9 +424,7 @@ def test_info_takes_both_rings_and_says_what_does_not_act(tmp_path):
     for name, frequency in (("FTF", 30.2), ("BPFO", 178.6), ("BPFI", 271.4), ("BSF", 116.1)):
         assert re.search(rf"\({name}\) +{frequency} ", out), name
     assert "outer ring 3,000 rev/min" in out and re.search(r"cage speed +1,809", out)
-    assert re.search(
-        r"equilibrium, F_x 30 N, F_y 49[0-9.]+ N", out
-    )  # the impact; 500 N less the ring's mass times 30 m/s2
+    assert re.search(r"equilibrium, F_x 30 N, F_y 49[0-9.]+ N", out)  # the impact; 500 N less the ring's mass times 30 m/s2
     assert "without effect here: joint.mu\n" in out
     for interference, angle in ((0, 12.27), (20, 8.99), (40, 3.36), (60, 0.0)):
         fits.write_text(
@@ -435,6 +433,7 @@ def test_info_takes_both_rings_and_says_what_does_not_act(tmp_path):
         )
         out = command("info", fits.name, folder=tmp_path).stdout
         assert re.search(rf"free contact angle, mounted +{angle:.2f}", out)
+
 
 
 def test_info_gives_the_known_frequencies(tmp_path):

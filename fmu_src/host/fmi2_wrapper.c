@@ -640,8 +640,7 @@ static void warn_of_clock(Instance *m, double point, double time)
 {
     char message[256];
     snprintf(message, sizeof message,
-             "currentCommunicationPoint = %.17g s where the last step ended at %.17g s: the FMU goes on from "
-             "its own time to the "
+             "currentCommunicationPoint = %.17g s where the last step ended at %.17g s: the FMU goes on from its own time to the "
              "end of each step as the host means it",
              point, time);
     if (!m->clock_warned) instance_log(m, LOG_WARNING, message);
@@ -730,7 +729,8 @@ static void keep_reason(void *environment, LogCategory category, const char *mes
 static const char *session_problem(const Session *s, const Part *part)
 {
     const Variable *tolerance = variable_named("solver.tol");
-    const double time = part_time(part), slack = clock_rounding(s, time, 0.0) + 1e-6 * (1.0 + fabs(time));
+    const double time = part_time(part),
+                 slack = clock_rounding(s, time, 0.0) + 1e-6 * (1.0 + fabs(time));
     if (!(s->phase == INSTANTIATED || s->phase == INITIALIZING || s->phase == STEPPING ||
           s->phase == FAILED || s->phase == TERMINATED || s->phase == ERRONEOUS))
         return "there is no such phase";
