@@ -153,9 +153,7 @@ class Load:
     F_x, F_y, F_z [N], M_y, M_z [N.m], omega [rad/s].  k_tilt [N.m/rad] ties the ring's tilt to the shaft's tilt_y,
     tilt_z [rad]: inf (default) prescribes it, 0 leaves the ring to the moments alone, else M = k_tilt (shaft tilt -
     ring tilt) + (M_y, M_z).  A tilt is a direction cosine of the axis (its angle to 2e-4 at 2 deg), and M_y, M_z do
-    work on it.  omega_e: speed of the outer ring, to which position and tilt of the inner one are relative; omega_frame: of
-    the frame in which both speeds are (a planet's carrier) [rad/s]; field: acceleration of gravity and frame that the balls
-    feel (x, y, z) [m/s2].  Raises ValueError for a value that is not admissible.
+    work on it.  Raises ValueError for a value that is not admissible.
     """
 
     F_x: float = 0.0
@@ -167,15 +165,10 @@ class Load:
     tilt_y: float = 0.0
     tilt_z: float = 0.0
     k_tilt: float = math.inf
-    omega_e: float = 0.0
-    omega_frame: float = 0.0
-    field: tuple = (0.0, 0.0, 0.0)
 
     def __post_init__(self):
-        for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "omega", "omega_e", "omega_frame"):
+        for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "omega"):
             admit("load", self, name, math.isfinite, "must be finite")
-        if len(self.field) != 3 or not all(map(math.isfinite, self.field)):
-            raise ValueError(f"load.field = {self.field}: must be three finite numbers")
         for name in ("tilt_y", "tilt_z"):
             admit("load", self, name, lambda v: abs(v) <= 0.5, "must be within +-0.5 rad")
         if not self.k_tilt >= 0.0:
@@ -235,16 +228,15 @@ class QuasiStatic:
         Z = self.bearing.Z
         return FaultFrequencies(
             abs(self.omega_m) / turn,
-            Z * abs(self.omega_m - self.load.omega_e) / turn,
+            Z * abs(self.omega_m) / turn,
             Z * abs(self.load.omega - self.omega_m) / turn,
             abs(omega_R) / turn,
         )
 
     @property
     def L_10r(self):
-        """Basic reference rating life [10^6 revolutions of one ring against the other], inf without load; the load stands still.
-        ISO/TS 16281:2008, point contact, one row.  A ring that turns counts with the cubic mean of its contact loads, one that
-        stands in the load with that of the power 10/3.
+        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008,
+        point contact, one row.
 
         The standard's own number asks for kinematics = "linear" and omega = 0, for it knows no centrifugal force.
         Q_ci, Q_ce: ball loads that give the rings the rating C.  Raises ValueError without bearing.C.
@@ -260,11 +252,8 @@ class QuasiStatic:
         )
         Q_ci = b.C / (0.407 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (10 / 3)) ** 0.3
         Q_ce = b.C / (0.389 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (-10 / 3)) ** 0.3
-        inner_stands, outer_stands = self.load.omega == 0.0 != self.load.omega_e, self.load.omega_e == 0.0
-        Q_ei, Q_ee = (
-            np.mean(Q ** (10 / 3)) ** 0.3 if stands else np.mean(Q**3) ** (1 / 3)
-            for Q, stands in ((self.Q_i, inner_stands), (self.Q_e, outer_stands))
-        )
+        Q_ei = np.mean(self.Q_i**3) ** (1 / 3)  # the inner ring turns through the load ...
+        Q_ee = np.mean(self.Q_e ** (10 / 3)) ** 0.3  # ... the outer ring stands in it
         failed = (Q_ei / Q_ci) ** (10 / 3) + (Q_ee / Q_ce) ** (10 / 3)
         return float(failed**-0.9) if failed > 0.0 else math.inf
 
@@ -342,10 +331,7 @@ class Potential:
         self.bearing, self.load, self.psi = bearing, load, psi
         D, d_m, f_i, f_e, P_d = bearing.D, bearing.d_m, bearing.f_i, bearing.f_e, bearing.clearance
         self.R_i = (
-            0.5 * (d_m - D)
-            - 0.25 * P_d
-            + f_i * D
-            + (ring_fit_growth(bearing.fit, load.omega + load.omega_frame) if bearing.fit else 0.0)
+            0.5 * (d_m - D) - 0.25 * P_d + f_i * D + (ring_fit_growth(bearing.fit, load.omega) if bearing.fit else 0.0)
         )
         self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
         self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D
@@ -640,9 +626,8 @@ def orbit(bearing, load, Q_i, alpha_i, alpha_e, control):
     A ball loose from the inner race rolls on the outer one.  Each ball also counts with 1 N at its speed when loose, so
     that the mean is continuous where contacts open.
     """
-    D, d_m, inner = bearing.D, bearing.d_m, np.where(Q_i > 0.0, alpha_i, alpha_e)
-    loose = ball_motion(load.omega, D, d_m, alpha_e, alpha_e, control, load.omega_e)
-    motion = ball_motion(load.omega, D, d_m, inner, alpha_e, control, load.omega_e)
+    loose = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_e, alpha_e, control)
+    motion = ball_motion(load.omega, bearing.D, bearing.d_m, np.where(Q_i > 0.0, alpha_i, alpha_e), alpha_e, control)
     omega_m = (Q_i @ motion.omega_m + loose.omega_m.sum()) / (Q_i.sum() + bearing.Z)
     return motion, float(omega_m)
 
@@ -659,8 +644,7 @@ def inertia_loads(potential, v, control):
     motion, omega_m = orbit(bearing, load, Q_i, alpha_i, alpha_e, control)
     J = 0.1 * bearing.ball_mass * bearing.D**2
     turning = (Q_i > 0.0) & (Q_e > 0.0) & (control != "none")
-    space = omega_m + load.omega_frame
-    M_g = np.where(turning, J * space * motion.omega_R * np.sin(motion.beta), 0.0)
+    M_g = np.where(turning, J * omega_m * motion.omega_R * np.sin(motion.beta), 0.0)
     lambda_i, lambda_e = (1.0, 1.0) if control == "inner" else (0.0, 2.0)
     # a force T along e_t x n at the contact -D/2 n has the moment -D/2 T about e_t; n_i = (sin, cos) alpha_i, n_e =
     # -(sin, cos) alpha_e in (x, r)
@@ -671,8 +655,7 @@ def inertia_loads(potential, v, control):
     ball, _ = potential.inner_centres(v)
     arm = ball - 0.5 * bearing.D * n_i - v[:3] - [potential.x_touch, 0.0, 0.0]
     ring = np.concatenate([on_ring.sum(axis=0), np.cross(arm, on_ring).sum(axis=0)[1:]])
-    weight = bearing.ball_mass * np.array([[load.field[0], float(np.dot(load.field, e))] for e in potential.e_r])
-    return InertiaLoads(bearing.ball_mass * space**2, friction_i + friction_e + weight, ring), motion, omega_m, M_g
+    return InertiaLoads(bearing.ball_mass * omega_m**2, friction_i + friction_e, ring), motion, omega_m, M_g
 
 
 def azimuths(psi, Z):

@@ -30,7 +30,6 @@ from bearing_model.load_ratings import dynamic_rating, static_rating
 from bearing_model.physics.derived import ball_elasticity, default_table
 from bearing_model.physics.parameters import Values
 from bearing_model.physics.ring_fit import ring_fit_of
-from bearing_model.physics.ring_load import ring_load_update
 from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
@@ -104,19 +103,15 @@ class Case:
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
 
-    def core_values(self):
-        """Parameters and inputs as the physics has them; those of single balls and rivets at their start values."""
-        return (
-            Values(
-                table, {name: self.values[name] for name, v in table.items() if v.count == 1 and name in self.values}
-            )
-            for table in (variables.PARAMETERS, variables.INPUTS)
-        )
-
     @property
     def bearing(self):
         """Geometry and material for the quasi-static model, at the present temperatures and fits."""
-        p, u = self.core_values()
+        tables = variables.PARAMETERS, variables.INPUTS
+        parameters, inputs = ({name: v for name, v in table.items() if v.count == 1} for table in tables)
+        p, u = (
+            Values(table, {name: self.values[name] for name in table if name in self.values})
+            for table in (parameters, inputs)
+        )
         hot = temperature_apply(p, u, default_table())
         at_work = {f.name: getattr(hot.bearing, f.name) for f in fields(Bearing) if hasattr(hot.bearing, f.name)}
         return Bearing(
@@ -130,20 +125,12 @@ class Case:
 
     @property
     def load(self):
-        """Loads, speeds and support of the inner ring for the quasi-static model, relative to the outer ring: impacts, weight
-        and the frame's acceleration are among the loads.
-        """
-        at = ring_load_update(*self.core_values(), 0.0)
-        weight = [self.values["ring.m"] * float(a) for a in at.field]
-        F_x, F_y, F_z = (float(F) + more for F, more in zip(at.F, weight, strict=True))
+        """Loads, speed and support of the inner ring for the quasi-static model."""
+        given = {f.name: self.values[f"shaft.{f.name}"] for f in fields(Load) if f"shaft.{f.name}" in self.values}
         mode = self.values.get("ring.tilt_mode", "prescribed")
-        M_y, M_z = (0.0, 0.0) if mode == "prescribed" else map(float, at.M)
-        return Load(
-            F_x, F_y, F_z, M_y, M_z,
-            float(at.omega), float(at.beta - at.outer_beta), float(at.gamma - at.outer_gamma),
-            {"prescribed": math.inf, "supported": self.values["ring.k_tilt"]}.get(mode, 0.0),
-            float(at.outer_omega), float(at.frame_omega), tuple(map(float, at.field)),
-        )  # fmt: skip
+        if mode == "prescribed":
+            return Load(**given | {"M_y": 0.0, "M_z": 0.0})
+        return Load(**given, k_tilt=self.values["ring.k_tilt"] if mode == "supported" else 0.0)
 
     @property
     def joint(self):
@@ -171,8 +158,7 @@ class Case:
         """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if
         there is none.
         """
-        still = replace(self.load, omega=0.0, omega_e=0.0, omega_frame=0.0, field=(0.0, 0.0, 0.0))
-        return replace(self.solved(still, "linear"), load=self.load)  # whose speeds say which ring stands in the load
+        return self.solved(replace(self.load, omega=0.0), "linear")
 
     def solved(self, load, kinematics):
         """The QuasiStatic under a load; UserError if there is none."""

@@ -411,31 +411,6 @@ def test_info_tells_what_speed_temperatures_and_fits_leave_of_the_clearance(tmp_
     assert re.search(r"diametral clearance +15  um", out) and re.search(r"balls +9 x 11.1125  mm", out)
 
 
-def test_info_takes_both_rings_and_says_what_does_not_act(tmp_path):
-    """An outer ring that turns (6205 at 3,000 r/min: FTF 30.2, BPFO 178.6, BPFI 271.4, BSF 116.1 Hz by the formulas of both
-    rings); the contact angle of the clearance that fits leave; what has no part in these tables.
-    """
-    outer, fits = tmp_path / "outer.toml", tmp_path / "fits.toml"
-    outer.write_text(
-        'designation = "6205"\n[parameters]\njoint.mu = 0.2\n[inputs]\nshaft.F_x = 0.0\nshaft.F_y = "500 N"\n'
-        'shaft.omega = 0.0\nhousing.omega = "3000 rev/min"\nimpact.F_a = "30 N"\nframe.a_y = 30.0\n'
-    )
-    out = command("info", outer.name, folder=tmp_path).stdout
-    for name, frequency in (("FTF", 30.2), ("BPFO", 178.6), ("BPFI", 271.4), ("BSF", 116.1)):
-        assert re.search(rf"\({name}\) +{frequency} ", out), name
-    assert "outer ring 3,000 rev/min" in out and re.search(r"cage speed +1,809", out)
-    assert re.search(r"equilibrium, F_x 30 N, F_y 49[0-9.]+ N", out)  # the impact; 500 N less the ring's mass times 30 m/s2
-    assert "without effect here: joint.mu\n" in out
-    for interference, angle in ((0, 12.27), (20, 8.99), (40, 3.36), (60, 0.0)):
-        fits.write_text(
-            f'designation = "6311"\n[catalogue]\nclearance = "C3"\n[parameters]\nshaft.interference = "{interference} um"\n'
-            '[inputs]\nshaft.F_x = "100 N"\nshaft.F_y = 0.0\nshaft.omega = "10 rev/min"\n'
-        )
-        out = command("info", fits.name, folder=tmp_path).stdout
-        assert re.search(rf"free contact angle, mounted +{angle:.2f}", out)
-
-
-
 def test_info_gives_the_known_frequencies(tmp_path):
     done = command("info", "6207", folder=tmp_path)
     # Hz at 18,238 r/min: cage, BPFO, BPFI, ball, by hand from D, d_m, Z

@@ -1,7 +1,6 @@
 """riveted-bearing info: a bearing without a simulation."""
 
 import math
-from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -14,7 +13,6 @@ from bearing_model.kinematics import fault_frequencies
 from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
 
-from ..errors import UserError
 from ..ribbon import is_ribbon
 from ..summary import DEG, RPM
 from .terminal import FMU, command, console, print_basis
@@ -78,43 +76,6 @@ def info(
     for title, table in info_tables(case):
         console.print(f"\n[bold]{title}[/]", soft_wrap=True)
         console.print(table)
-    idle = without_effect(case, given_names(case, target, fmu))
-    if idle:
-        console.print(f"\n[yellow]note:[/] without effect here: {escape(', '.join(idle))}", soft_wrap=True)
-
-
-def given_names(case, target, fmu):
-    """Names of the parameters and inputs that the user's file sets, in its order."""
-    from ..bearings import is_bearing
-    from ..fmu import Model
-    from ..scene import load_scene
-
-    if target is None or is_bearing(target):
-        return [name for name, origin in case.origin.items() if origin == "yours" and name in case.values]
-    scene = load_scene(target, Model(fmu))
-    return [*scene.parameters, *scene.inputs]
-
-
-def without_effect(case, names):
-    """Those of the names whose values, put back to the variable table's, leave every number of these tables as it is."""
-
-    def shown(values):
-        with console.capture() as page:
-            for title, table in info_tables(replace(case, values=values)):
-                console.print(title, table)
-        return page.get()
-
-    here, known = shown(case.values), {**variables.PARAMETERS, **variables.INPUTS}
-    idle = []
-    for name in names:
-        start = known[name].start if name in known else None
-        if start is None or case.values[name] == start:
-            continue
-        try:
-            idle += [name] if shown(case.values | {name: start}) == here else []
-        except (UserError, ValueError, ArithmeticError):
-            continue  # the start value fits no longer: this one acts
-    return idle
 
 
 def read_as_scene(names):
@@ -134,7 +95,7 @@ def info_tables(case):
         ("Geometry and masses", pairs(geometry(case))),
         *([("Oil and temperatures", pairs(oil(case)))] if case.rivet is not None else []),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
-        (f"Frequencies at {speeds(case.load)}", frequencies(case, state)),
+        (f"Frequencies at {RPM * case.load.omega:,.0f} rev/min", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
         ("Balls", balls(state)),
     ]
@@ -166,10 +127,9 @@ def geometry(case):
         origins(case, "bearing.f_i", "bearing.f_e"),
     )
     yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", origins(case, "bearing.P_d")
-    left = bearing.clearance - 2.0 * float(ring_fit_growth(bearing.fit, case.load.omega + case.load.omega_frame))
-    mounted = replace(bearing, P_d=max(left, 0.0), fit=None)
+    left = bearing.clearance - 2.0 * ring_fit_growth(bearing.fit, case.load.omega)
     yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
-    yield "free contact angle, mounted", f"{DEG * mounted.free_contact_angle:.2f}", "deg", ""
+    yield "free contact angle at these temperatures and fits", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
     for label, names in RIBBON if is_ribbon(values) else MACHINED:
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
     if case.rivet is not None:
@@ -233,10 +193,9 @@ def oil(case):
         "mm2/s",
         origins(case, *points),
     )
-    if case.load.omega != case.load.omega_e:
-        relative = abs(case.load.omega - case.load.omega_e)
-        kappa = eta / own["oil.rho"] / reference_viscosity(relative, case.bearing.d_m)
-        speed = f"{RPM * relative:,.0f} rev/min"
+    if case.load.omega:
+        kappa = eta / own["oil.rho"] / reference_viscosity(case.load.omega, case.bearing.d_m)
+        speed = f"{RPM * abs(case.load.omega):,.0f} rev/min"
         yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{kappa:.3g}", "", ""
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
     yield (
@@ -266,8 +225,7 @@ def frequencies(case, state):
     table = Table(
         "", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False
     )
-    load, b = case.load, case.bearing
-    nominal, loaded = fault_frequencies(load.omega, b.D, b.d_m, case.Z, omega_e=load.omega_e), state.frequencies
+    nominal, loaded = fault_frequencies(case.load.omega, case.bearing.D, case.bearing.d_m, case.Z), state.frequencies
     rows = (
         ("cage (FTF)", "FTF"),
         ("balls over the outer race (BPFO)", "BPFO"),
@@ -279,17 +237,9 @@ def frequencies(case, state):
     return table
 
 
-def speeds(load):
-    """Speeds of both rings in words, in the frame in which both are."""
-    inner, outer = (f"{RPM * omega:,.0f} rev/min" for omega in (load.omega, load.omega_e))
-    carrier = f", in a frame that turns at {RPM * load.omega_frame:,.0f} rev/min" if load.omega_frame else ""
-    return (f"{inner}, outer ring {outer}" if load.omega_e else inner) + carrier
-
-
 def load_text(load):
-    """The loads in words, with those of impacts, weight and acceleration."""
-    parts = [f"{name} {getattr(load, name):.6g} N" for name in ("F_x", "F_y", "F_z") if getattr(load, name)]
-    parts += [f"{name} {getattr(load, name):g} N.m" for name in ("M_y", "M_z") if getattr(load, name)]
+    """The loads in words."""
+    parts = [f"{name} {getattr(load, name):g} N" for name in ("F_x", "F_y", "F_z") if getattr(load, name)]
     parts += [f"{name} {DEG * getattr(load, name):g} deg" for name in ("tilt_y", "tilt_z") if getattr(load, name)]
     if not math.isinf(load.k_tilt):
         parts.append(f"k_tilt {load.k_tilt:g} N.m/rad")
@@ -311,21 +261,17 @@ def equilibrium(case, state):
         yield "P_0, static safety S_0 = C_0/P_0 (ISO 76)", f"{state.P_0:.0f} N, {state.S_0:.3g}", ""
     if math.isfinite(state.pressure_safety):
         yield "safety by pressure, (4200 MPa/p_max)^3", f"{state.pressure_safety:.3g}", ""
-    if case.bearing.C:
-        least = 0.01 * case.bearing.C
-        slides = not math.isfinite(state.L_10r) or state.P_ref < least
-        yield "least load for rolling, 0.01 C", f"{least:.0f} N{': not reached, balls may skid' if slides else ''}", ""
     if case.bearing.C and math.isfinite(state.L_10r):
         yield "reference life L_10r (ISO/TS 16281)", *life(case.standard_equilibrium().L_10r, case.load)
         yield "L_10r, exact kinematics, at speed", *life(state.L_10r, case.load)
 
 
 def life(L_10r, load):
-    """A life in 10^6 revolutions as text and unit, with its hours if one ring turns against the other."""
-    turns, speed = f"{L_10r:.4g}", abs(load.omega - load.omega_e)
+    """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
+    turns = f"{L_10r:.4g}"
     return (
-        (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / speed / 3600.0:.4g}", "1e6 turns, h")
-        if speed
+        (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h")
+        if load.omega
         else (turns, "1e6 turns")
     )
 
