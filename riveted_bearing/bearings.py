@@ -123,10 +123,26 @@ class Case:
             fit=ring_fit_of(hot),
         )
 
+    def value(self, name):
+        """A value, the variable table's start where the case has none."""
+        return self.values.get(name, (variables.PARAMETERS | variables.INPUTS)[name].start)
+
+    @property
+    def field(self):
+        """Gravity and the frame's inertia at the bearing's centre [m/s2] (bearing_model/physics/frame.py)."""
+        w, R, w_dot = (self.value(f"frame.{name}") for name in ("omega", "radius", "omega_dot"))
+        inertia = 0.0, w * w * R - self.value("frame.a_y"), -w_dot * R - self.value("frame.a_z")
+        return (-self.value("frame.a_x"), self.value("gravity.y") + inertia[1], self.value("gravity.z") + inertia[2])
+
     @property
     def load(self):
-        """Loads, speed and support of the inner ring for the quasi-static model."""
+        """Loads, speeds and support of the inner ring relative to the outer one for the quasi-static model: gravity and
+        the frame's inertia act on ring.m and the balls.
+        """
         given = {f.name: self.values[f"shaft.{f.name}"] for f in fields(Load) if f"shaft.{f.name}" in self.values}
+        given |= {f"F_{a}": given.get(f"F_{a}", 0.0) + self.value("ring.m") * self.field[k] for k, a in enumerate("xyz")}
+        given |= {name: given.get(name, 0.0) - self.value(f"housing.{name}") for name in ("tilt_y", "tilt_z")}
+        given |= {"omega_e": self.value("housing.omega"), "frame_omega": self.value("frame.omega"), "field": self.field}
         mode = self.values.get("ring.tilt_mode", "prescribed")
         if mode == "prescribed":
             return Load(**given | {"M_y": 0.0, "M_z": 0.0})
@@ -158,7 +174,7 @@ class Case:
         """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if
         there is none.
         """
-        return self.solved(replace(self.load, omega=0.0), "linear")
+        return self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
 
     def solved(self, load, kinematics):
         """The QuasiStatic under a load; UserError if there is none."""
