@@ -344,7 +344,10 @@ class Potential:
         self.bearing, self.load, self.psi = bearing, load, psi
         D, d_m, f_i, f_e, P_d = bearing.D, bearing.d_m, bearing.f_i, bearing.f_e, bearing.clearance
         self.R_i = (
-            0.5 * (d_m - D) - 0.25 * P_d + f_i * D + (ring_fit_growth(bearing.fit, load.omega + load.frame_omega) if bearing.fit else 0.0)
+            0.5 * (d_m - D)
+            - 0.25 * P_d
+            + f_i * D
+            + (ring_fit_growth(bearing.fit, load.omega + load.frame_omega) if bearing.fit else 0.0)
         )
         self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
         self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D

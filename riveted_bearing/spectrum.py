@@ -186,6 +186,7 @@ def kinematic_frequencies(result, speeds, orders):
     ball = (cage - outer) * (d_m / D) * (1.0 + D / d_m * math.cos(contact_angle(result, Z)))
     values = {
         "shaft": inner,
+        "housing": outer,
         "FTF": cage,
         "BSF": ball,
         "BPFO": Z * (cage - outer),
@@ -205,12 +206,13 @@ def contact_angle(result, Z):
 
 def find_lines(frequency, amplitude, kinematic):
     """A Line for each kinematic frequency, its harmonics, and the side bands at the speed that modulates it."""
-    modulators = {"BPFI": "shaft", "BSF": "FTF"}  # a fault that turns passes through the load
+    # a fault that turns passes through the load
+    modulators = {"BPFI": "shaft", "BPFO": "housing", "BSF": "FTF"}
     for name in ("FTF", "BSF", "BPFO", "BPFI"):
         for k in range(1, HARMONICS + 1):
             label = name if k == 1 else f"{k} {name}"
             yield line_at(frequency, amplitude, label, k * kinematic[name])
-            if name in modulators and k == 1:
+            if name in modulators and k == 1 and kinematic[modulators[name]] > frequency[1]:
                 for sign in (-1, 1):
                     side = f"{label} {'+' if sign > 0 else '-'} {modulators[name]}"
                     yield line_at(frequency, amplitude, side, kinematic[name] + sign * kinematic[modulators[name]])

@@ -90,7 +90,7 @@ def test_files(case, tmp_path):
     (name, element), *rest = tomllib.loads(
         write_ross(found, tmp_path / "b.toml", node=3, tag="front").read_text()
     ).items()
-    assert (name, element["n"], element["frequency"]) == ("BearingElement_front", 3, [100.0, 200.0])
+    assert (name, element["n"], element["speed"]) == ("BearingElement_front", 3, [100.0, 200.0])
     assert element["kyx"] == table["kyx"]
     assert not rest
 
@@ -117,6 +117,8 @@ def test_the_command(fmu, tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {
         "demo_matrices.csv",
         "demo_matrices.png",
+        "demo_ross2_0.5.toml",
+        "demo_ross2_1.toml",
         "demo_ross_0.5.toml",
         "demo_ross_1.toml",
     }
