@@ -103,6 +103,7 @@ def given_values(case, scene, model):
     if scene is not None:
         names = {**scene.parameters, **scene.inputs}
         others = {name: model.default((model.parameters | model.inputs)[name]) for name in names}
+        others["scene.statistics"] = "on"  # as scene.load_scene has it without the user
     else:
         others = {
             name: table[name].start for name, source in case.origin.items() if source == "yours" and name in table

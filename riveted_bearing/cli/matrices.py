@@ -11,6 +11,11 @@ from rich.table import Column, Table
 from ..results import make_folder
 from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
+UNUSED = (  # what the shake itself sets
+    *(f"shaft.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")),
+    "ring.motion",
+    "scene.stress",
+)
 SPEEDS = 6  # up to that of the scene, if none is given
 
 
@@ -73,6 +78,8 @@ def matrices(
             found = found + dynamic_matrices(model, case, plan, balanced, w, progress=progress)
     if static and frequencies:
         console.print("without effect here: --frequency, the quasi-static stiffness has none")
+    if ignored := [name for name in (*plan.parameters, *plan.inputs) if name in UNUSED]:
+        console.print(f"without effect here: {', '.join(ignored)}: the shake moves the inner ring, without stress")
     rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
     print_basis(rows)
     console.print(table(found))
