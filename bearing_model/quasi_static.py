@@ -115,12 +115,15 @@ class Bearing:
             return 2.0 * self.A * (1.0 - math.cos(self.alpha_0))
         return 15e-6 if self.P_d is None else self.P_d
 
-    @property
-    def free_contact_angle(self):
-        """Contact angle under a vanishing axial load, cos(alpha) = 1 - P_d/(2 A) [rad]; 0 with preload.  Harris &
-        Kotzalas (2006), ch. 2.
+    def clearance_at(self, omega):
+        """Diametral clearance [m] that growth and fit of the inner ring leave at its speed in the fixed frame [rad/s]."""
+        return self.clearance - (2.0 * float(ring_fit_growth(self.fit, omega)) if self.fit else 0.0)
+
+    def free_contact_angle(self, omega=0.0):
+        """Contact angle under a vanishing axial load at the speed omega [rad/s], cos(alpha) = 1 - P_d/(2 A) [rad] with
+        the clearance that is left; 0 with preload.  Harris & Kotzalas (2006), ch. 2.
         """
-        return math.acos(min(1.0, 1.0 - self.clearance / (2.0 * self.A)))
+        return math.acos(min(1.0, 1.0 - self.clearance_at(omega) / (2.0 * self.A)))
 
     @property
     def nominal_angle(self):
@@ -153,7 +156,9 @@ class Load:
     F_x, F_y, F_z [N], M_y, M_z [N.m], omega [rad/s].  k_tilt [N.m/rad] ties the ring's tilt to the shaft's tilt_y,
     tilt_z [rad]: inf (default) prescribes it, 0 leaves the ring to the moments alone, else M = k_tilt (shaft tilt -
     ring tilt) + (M_y, M_z).  A tilt is a direction cosine of the axis (its angle to 2e-4 at 2 deg), and M_y, M_z do
-    work on it.  Raises ValueError for a value that is not admissible.
+    work on it.  omega_e [rad/s]: speed of the outer ring; frame_omega [rad/s] turns the frame, relative to which both
+    speeds are; field [m/s2]: gravity and the frame's inertia on the balls, that on the ring belongs to F_x, F_y, F_z.
+    Raises ValueError for a value that is not admissible.
     """
 
     F_x: float = 0.0
@@ -165,9 +170,12 @@ class Load:
     tilt_y: float = 0.0
     tilt_z: float = 0.0
     k_tilt: float = math.inf
+    omega_e: float = 0.0
+    frame_omega: float = 0.0
+    field: tuple = (0.0, 0.0, 0.0)
 
     def __post_init__(self):
-        for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "omega"):
+        for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "omega", "omega_e", "frame_omega"):
             admit("load", self, name, math.isfinite, "must be finite")
         for name in ("tilt_y", "tilt_z"):
             admit("load", self, name, lambda v: abs(v) <= 0.5, "must be within +-0.5 rad")
@@ -220,6 +228,11 @@ class QuasiStatic:
     kinematics: str  # "exact" or "linear"
 
     @property
+    def omega(self):
+        """Speed of the inner ring relative to the outer one [rad/s]."""
+        return self.load.omega - self.load.omega_e
+
+    @property
     def frequencies(self):
         """Cage, ball pass and ball spin frequencies at the speeds found (kinematics.FaultFrequencies) [Hz]."""
         turn = 2.0 * np.pi
@@ -228,7 +241,7 @@ class QuasiStatic:
         Z = self.bearing.Z
         return FaultFrequencies(
             abs(self.omega_m) / turn,
-            Z * abs(self.omega_m) / turn,
+            Z * abs(self.omega_m - self.load.omega_e) / turn,
             Z * abs(self.load.omega - self.omega_m) / turn,
             abs(omega_R) / turn,
         )
@@ -331,7 +344,10 @@ class Potential:
         self.bearing, self.load, self.psi = bearing, load, psi
         D, d_m, f_i, f_e, P_d = bearing.D, bearing.d_m, bearing.f_i, bearing.f_e, bearing.clearance
         self.R_i = (
-            0.5 * (d_m - D) - 0.25 * P_d + f_i * D + (ring_fit_growth(bearing.fit, load.omega) if bearing.fit else 0.0)
+            0.5 * (d_m - D)
+            - 0.25 * P_d
+            + f_i * D
+            + (ring_fit_growth(bearing.fit, load.omega + load.frame_omega) if bearing.fit else 0.0)
         )
         self.R_e = 0.5 * (d_m + D) + 0.25 * P_d - f_e * D
         self.l_i, self.l_e = (f_i - 0.5) * D, (f_e - 0.5) * D
@@ -626,8 +642,9 @@ def orbit(bearing, load, Q_i, alpha_i, alpha_e, control):
     A ball loose from the inner race rolls on the outer one.  Each ball also counts with 1 N at its speed when loose, so
     that the mean is continuous where contacts open.
     """
-    loose = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_e, alpha_e, control)
-    motion = ball_motion(load.omega, bearing.D, bearing.d_m, np.where(Q_i > 0.0, alpha_i, alpha_e), alpha_e, control)
+    loose = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_e, alpha_e, control, load.omega_e)
+    alpha_i = np.where(Q_i > 0.0, alpha_i, alpha_e)
+    motion = ball_motion(load.omega, bearing.D, bearing.d_m, alpha_i, alpha_e, control, load.omega_e)
     omega_m = (Q_i @ motion.omega_m + loose.omega_m.sum()) / (Q_i.sum() + bearing.Z)
     return motion, float(omega_m)
 
@@ -655,7 +672,9 @@ def inertia_loads(potential, v, control):
     ball, _ = potential.inner_centres(v)
     arm = ball - 0.5 * bearing.D * n_i - v[:3] - [potential.x_touch, 0.0, 0.0]
     ring = np.concatenate([on_ring.sum(axis=0), np.cross(arm, on_ring).sum(axis=0)[1:]])
-    return InertiaLoads(bearing.ball_mass * omega_m**2, friction_i + friction_e, ring), motion, omega_m, M_g
+    field = np.column_stack([np.full(bearing.Z, load.field[0]), potential.e_r @ load.field])
+    on_balls = friction_i + friction_e + bearing.ball_mass * field
+    return InertiaLoads(bearing.ball_mass * (omega_m + load.frame_omega) ** 2, on_balls, ring), motion, omega_m, M_g
 
 
 def azimuths(psi, Z):

@@ -25,6 +25,8 @@ from dataclasses import dataclass, field, fields, replace
 from importlib.resources import files
 from pathlib import Path
 
+import numpy as np
+
 from bearing_model.generated import variables
 from bearing_model.load_ratings import dynamic_rating, static_rating
 from bearing_model.physics.derived import ball_elasticity, default_table
@@ -123,10 +125,31 @@ class Case:
             fit=ring_fit_of(hot),
         )
 
+    def value(self, name):
+        """A value, the variable table's start where the case has none."""
+        return self.values.get(name, (variables.PARAMETERS | variables.INPUTS)[name].start)
+
+    @property
+    def field(self):
+        """Gravity and the frame's inertia at the bearing's centre [m/s2] (bearing_model/physics/frame.py)."""
+        w, R, w_dot = (self.value(f"frame.{name}") for name in ("omega", "radius", "omega_dot"))
+        inertia = 0.0, w * w * R - self.value("frame.a_y"), -w_dot * R - self.value("frame.a_z")
+        return (-self.value("frame.a_x"), self.value("gravity.y") + inertia[1], self.value("gravity.z") + inertia[2])
+
     @property
     def load(self):
-        """Loads, speed and support of the inner ring for the quasi-static model."""
-        given = {f.name: self.values[f"shaft.{f.name}"] for f in fields(Load) if f"shaft.{f.name}" in self.values}
+        """Loads, speeds and support of the inner ring relative to the outer one for the quasi-static model: gravity and
+        the frame's inertia act on ring.m and the balls.
+        """
+        given = {f.name: self.value(f"shaft.{f.name}") for f in fields(Load) if f"shaft.{f.name}" in variables.INPUTS}
+        given |= {name: given.get(name, 0.0) - self.value(f"housing.{name}") for name in ("tilt_y", "tilt_z")}
+        given["F_x"] += self.value("impact.F_a")
+        F_r, impact = math.hypot(given["F_y"], given["F_z"]), self.value("impact.F_r")
+        cos, sin = (given["F_y"] / F_r, given["F_z"] / F_r) if F_r else (1.0, 0.0)
+        given |= {"F_y": given["F_y"] + impact * cos, "F_z": given["F_z"] + impact * sin}
+        weight = self.value("ring.m") * np.array(self.field)
+        given |= {f"F_{a}": given[f"F_{a}"] + float(weight[k]) for k, a in enumerate("xyz")}
+        given |= {"omega_e": self.value("housing.omega"), "frame_omega": self.value("frame.omega"), "field": self.field}
         mode = self.values.get("ring.tilt_mode", "prescribed")
         if mode == "prescribed":
             return Load(**given | {"M_y": 0.0, "M_z": 0.0})
@@ -158,7 +181,7 @@ class Case:
         """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if
         there is none.
         """
-        return self.solved(replace(self.load, omega=0.0), "linear")
+        return self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
 
     def solved(self, load, kinematics):
         """The QuasiStatic under a load; UserError if there is none."""
@@ -289,9 +312,23 @@ def check_designation(path, document):
     missing = [
         name for name, given in (("Z", document), *((name, parameters) for name in SHAPE[:2])) if name not in given
     ]
-    if missing:
+    if missing and not set(section_of(path, document, "catalogue")) >= set(CATALOGUE):
         problem = unknown_designation(path, "designation", document["designation"], catalogue.entries())
         raise UserError(f"{problem}; one that the catalogue does not have needs {', '.join(missing)} too")
+
+
+def entry_of(path, designation, data, given):
+    """The catalogue's Entry that a file's own [catalogue] stands for, whose balls follow by the rule of designations;
+    None where the file gives the balls itself or no catalogue value but the 6207's; UserError where values are missing.
+    """
+    shape = [name for name in ("Z", *SHAPE[:2]) if given.get(name) is None]
+    example = catalogue.entries()[EXAMPLE].data
+    if not shape or len(shape) < 3 or all(example[key] == value for key, value in data.items()):
+        return None
+    if missing := [key for key in CATALOGUE if key not in data]:
+        allowed = f"the balls need catalogue.{', catalogue.'.join(missing)} too, or give {', '.join(shape)}"
+        raise UserError(f"{path}: catalogue.{next(iter(data))}: {allowed}")
+    return catalogue.Entry(designation, **data)
 
 
 def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
@@ -313,6 +350,8 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     )
     if play is not None:
         given |= clearance_class(path, play, given, data, entry)
+    if entry is None and own != "shipped":
+        entry = entry_of(path, designation, data, {"Z": Z} | given)
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
     oil.check_pair(path, given, written)

@@ -99,8 +99,9 @@ def equilibrium(case, load, omega):
         states = [quasi_static(case.bearing, replace(given, omega=omega, **scaled), psi) for psi in azimuths]
     except (ValueError, ArithmeticError) as problem:
         raise UserError(f"{case.designation} at {omega:g} rad/s, load factor {load:g}: {problem}") from None
+    housing = np.array([case.value(f"housing.{name}") for name in DIRECTIONS])  # the equilibrium is relative to it
     places = [[state.x, state.y, state.z, state.tilt_y, state.tilt_z] for state in states]
-    return np.mean(places, axis=0), np.mean([state.K for state in states], axis=0)
+    return np.mean(places, axis=0) + housing, np.mean([state.K for state in states], axis=0)
 
 
 def response(model, scene, omega, q, direction, amplitude, w):
@@ -136,7 +137,9 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
         try:
             for name, value in parameters.items():
                 instance.set_parameter(model.parameters[name], value)
-            fmu.setReal([model.inputs["shaft.omega"].valueReference], [omega])
+            others = {name: float(history(0.0)) for name, history in scene.inputs.items() if name not in names}
+            for name, value in (others | {"shaft.omega": omega}).items():
+                fmu.setReal([model.inputs[name].valueReference], [value])
             fmu.setReal(references, motion(0.0))
             fmu.setupExperiment(startTime=0.0)
             fmu.enterInitializationMode()
@@ -190,19 +193,26 @@ def comments(basis):
 
 
 def ross_coefficients(found):
-    """Coefficients of ROSS' BearingElement over speed: {kxx, kxy ... czz, frequency}, its axes (x, y lateral, z axial)
+    """Coefficients of ROSS 3's BearingElement: {kxx, kxy ... czz, speed [, frequency]}, its axes (x, y lateral, z axial)
     for our (Y, Z, X).
 
-    K and C of the FMU where they are known, else the quasi-static K and no damping.
+    speed: of the rotor, frequency: of the whirl, both [rad/s].  With more than one whirl at a speed, each coefficient
+    is a table [speed][frequency]; else one over speed. K and C of the FMU where they are known, else the quasi-static K
+    and no damping.
     """
-    table = {"frequency": [p.omega for p in found]}
+    speeds, whirls = sorted({p.omega for p in found}), sorted({p.frequency for p in found})
+    places = {(p.omega, p.frequency): p for p in found}
+    grid = len(whirls) > 1 and len(places) == len(speeds) * len(whirls)
+    rows = [[places[w, f] for f in whirls] for w in speeds] if grid else [[p] for p in found]
+    table = {"speed": speeds, "frequency": whirls} if grid else {"speed": [p.omega for p in found]}
     for kind in "KC":
         for a, ours_a in ROSS.items():
             for b, ours_b in ROSS.items():
                 if "z" in (a, b) and a != b:
                     continue  # ROSS couples no axial motion
                 i, k = DIRECTIONS.index(ours_a), DIRECTIONS.index(ours_b)
-                table[f"{kind.lower()}{a}{b}"] = [float(entry(p, kind)[i, k]) for p in found]
+                values = [[float(entry(p, kind)[i, k]) for p in row] for row in rows]
+                table[f"{kind.lower()}{a}{b}"] = values if grid else [row[0] for row in values]
     return table
 
 
@@ -212,13 +222,18 @@ def entry(point, kind):
     return np.zeros((5, 5)) if point.C is None else point.C
 
 
-def write_ross(found, path, node=0, tag="bearing", basis=()):
-    """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising."""
+def write_ross(found, path, node=0, tag="bearing", basis=(), version=3):
+    """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising.
+
+    version: of ROSS.  In 2 the one axis is called frequency and is the rotor's speed; it has no tables over both.
+    """
+    coefficients = ross_coefficients(found)
+    if version < 3:
+        if "frequency" in coefficients:
+            raise UserError("ROSS 2 has no tables over speed and whirl: name one --frequency")
+        coefficients = {"frequency": coefficients.pop("speed")} | coefficients
     lines = [*comments(basis), f"[BearingElement_{tag}]", f"n = {node}", f'tag = "{tag}"']
-    lines += [
-        f"{name} = [{', '.join(repr(float(value)) for value in values)}]"
-        for name, values in ross_coefficients(found).items()
-    ]
+    lines += [f"{name} = {np.asarray(values, float).tolist()}" for name, values in coefficients.items()]
     write_atomically(path, lambda file: file.write_text("\n".join(lines) + "\n", encoding="utf-8"))
     return path
 

@@ -279,6 +279,8 @@ def read_section(where, kind, section, variables, others, value_of):
             raise UserError(
                 f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]"
             )
+        if name == "gravity.x" and name not in variables:
+            raise refusal(where, f"{kind}.{name}", value, "gravity along X is -frame.a_x of [inputs]: write it there")
         if name not in variables:
             raise unknown(where, kind.removesuffix("s"), whole_name(name, value), variables)
         try:

@@ -100,7 +100,7 @@ def spectra(result, channel=None, band=None):
     frequency, amplitude = amplitude_spectrum(x, rate)
     envelope_frequency, of_envelope = amplitude_spectrum(envelope, rate)
     kinematic = kinematic_frequencies(result, speeds, orders)
-    lines = tuple(find_lines(envelope_frequency, of_envelope, kinematic))
+    lines = tuple(line_at(envelope_frequency, of_envelope, *line) for line in expected_lines(kinematic))
     unit = result.units.get(channel, "1")
     return Spectra(channel, unit, orders, frequency, amplitude, envelope_frequency, of_envelope, band, kinematic, lines)
 
@@ -186,6 +186,7 @@ def kinematic_frequencies(result, speeds, orders):
     ball = (cage - outer) * (d_m / D) * (1.0 + D / d_m * math.cos(contact_angle(result, Z)))
     values = {
         "shaft": inner,
+        "housing": outer,
         "FTF": cage,
         "BSF": ball,
         "BPFO": Z * (cage - outer),
@@ -203,17 +204,25 @@ def contact_angle(result, Z):
     return float(np.sum(np.abs(alpha) * load) / max(np.sum(load), 1e-300))
 
 
-def find_lines(frequency, amplitude, kinematic):
-    """A Line for each kinematic frequency, its harmonics, and the side bands at the speed that modulates it."""
-    modulators = {"BPFI": "shaft", "BSF": "FTF"}  # a fault that turns passes through the load
+def expected_lines(kinematic):
+    """Name and frequency of each kinematic line, its harmonics, and the side bands at the speed that modulates it; names
+    of one frequency share a line, and what stands still has none.
+    """
+    # a fault that turns passes through the load
+    modulators = {"BPFI": "shaft", "BPFO": "housing", "BSF": "FTF"}
+    found = []
     for name in ("FTF", "BSF", "BPFO", "BPFI"):
-        for k in range(1, HARMONICS + 1):
-            label = name if k == 1 else f"{k} {name}"
-            yield line_at(frequency, amplitude, label, k * kinematic[name])
-            if name in modulators and k == 1:
-                for sign in (-1, 1):
-                    side = f"{label} {'+' if sign > 0 else '-'} {modulators[name]}"
-                    yield line_at(frequency, amplitude, side, kinematic[name] + sign * kinematic[modulators[name]])
+        found += [(name if k == 1 else f"{k} {name}", k * kinematic[name]) for k in range(1, HARMONICS + 1)]
+        if modulator := modulators.get(name):
+            sides = (("-", -1.0), ("+", 1.0)) if kinematic[modulator] > 0.0 else ()
+            bands = [(f"{name} {s} {modulator}", abs(kinematic[name] + k * kinematic[modulator])) for s, k in sides]
+            found[1 - HARMONICS : 1 - HARMONICS] = bands
+    names = {}
+    for name, expected in found:
+        same = next((other for other in names if math.isclose(other, expected, rel_tol=1e-9)), expected)
+        if expected > 1e-9 * max(kinematic.values()):
+            names.setdefault(same, []).append(name)
+    return [(" = ".join(called), expected) for expected, called in names.items()]
 
 
 def line_at(frequency, amplitude, name, expected):

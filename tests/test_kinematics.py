@@ -88,6 +88,14 @@ def test_passes_add_up():
     assert f.BPFO + f.BPFI == pytest.approx(Z * (OMEGA + 300.0) / (2.0 * np.pi), rel=1e-13)
 
 
+def test_outer_ring_that_turns():
+    """6205 with its shaft at rest and its housing at 3,000 rev/min: the multiples 0.6031, 3.572, 5.428 and 2.322 of the
+    speed that makers print.
+    """
+    f = fault_frequencies(0.0, 7.9375e-3, 38.5e-3, 9, omega_e=100.0 * np.pi)
+    assert (f.FTF, f.BPFO, f.BPFI, f.BSF) == pytest.approx((30.2, 178.6, 271.4, 116.1), abs=0.06)
+
+
 def test_bad_values_are_named():
     with pytest.raises(ValueError, match=r"D = 0.*positive"):
         cage_speed(1.0, 0, d_m)

@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from riveted_bearing import UserError
 from riveted_bearing.bearings import scene_case
 from riveted_bearing.cli import program
 from riveted_bearing.fmu import Model
@@ -90,9 +91,26 @@ def test_files(case, tmp_path):
     (name, element), *rest = tomllib.loads(
         write_ross(found, tmp_path / "b.toml", node=3, tag="front").read_text()
     ).items()
-    assert (name, element["n"], element["frequency"]) == ("BearingElement_front", 3, [100.0, 200.0])
+    assert (name, element["n"], element["speed"]) == ("BearingElement_front", 3, [100.0, 200.0])
     assert element["kyx"] == table["kyx"]
     assert not rest
+    text = write_ross(found, tmp_path / "b2.toml", version=2).read_text()
+    assert tomllib.loads(text)["BearingElement_bearing"]["frequency"] == [100.0, 200.0]
+    assert "speed" not in text
+
+
+def test_ross_table_over_speed_and_whirl(tmp_path):
+    """ROSS 3's tables are [speed][frequency]; ROSS 2 has none."""
+    found = [
+        Matrices(w, 1.0, f, np.zeros(5), np.eye(5), (w + 10.0 * f) * np.eye(5), np.eye(5))
+        for f in (7.0, 8.0)
+        for w in (1.0, 2.0, 3.0)
+    ]
+    element = tomllib.loads(write_ross(found, tmp_path / "g.toml").read_text())["BearingElement_bearing"]
+    assert (element["speed"], element["frequency"]) == ([1.0, 2.0, 3.0], [7.0, 8.0])
+    assert element["kxx"] == [[71.0, 81.0], [72.0, 82.0], [73.0, 83.0]]
+    with pytest.raises(UserError, match="ROSS 2 has no tables"):
+        write_ross(found, tmp_path / "g2.toml", version=2)
 
 
 def test_the_command(fmu, tmp_path):
@@ -117,6 +135,8 @@ def test_the_command(fmu, tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == {
         "demo_matrices.csv",
         "demo_matrices.png",
+        "demo_ross2_0.5.toml",
+        "demo_ross2_1.toml",
         "demo_ross_0.5.toml",
         "demo_ross_1.toml",
     }

@@ -1,6 +1,7 @@
 """riveted-bearing info: a bearing without a simulation."""
 
 import math
+from dataclasses import replace
 from typing import Annotated
 
 import numpy as np
@@ -10,14 +11,15 @@ from rich.table import Column, Table
 
 from bearing_model.generated import variables
 from bearing_model.kinematics import fault_frequencies
-from bearing_model.physics.ring_fit import ring_fit_growth
 from rivet_model.geometry import Geometry
 
+from ..errors import UserError
 from ..ribbon import is_ribbon
 from ..summary import DEG, RPM
 from .terminal import FMU, command, console, print_basis
 
 BOUNDARY = ("bore", "outside_diameter", "width")
+MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ZERO = 273.15  # K of 0 degC
 RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
 
@@ -57,7 +59,7 @@ def info(
     from ..plausible import doubts
     from ..scene import load_scene
 
-    case = case_of(target, fmu, cage)
+    case, scene, model = case_of(target, fmu, cage), None, None
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
     if target is None and fmu is None:
         console.print(
@@ -66,16 +68,61 @@ def info(
         )
     elif target is None or not is_bearing(target):
         model = Model(fmu)
-        print_basis(basis(model, [load_scene(target, model)]))
+        scene = load_scene(target, model)
+        print_basis(basis(model, [scene]))
     if case.bare:
         console.print(escape(CAGE_MEANT), soft_wrap=True)
     for text in doubts(case):
         console.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
     if case.alone:
         console.print(f"[yellow]note:[/] {escape(read_as_scene(case.alone))}", soft_wrap=True)
-    for title, table in info_tables(case):
+    for text in too_little_load(case):
+        console.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+    tables = info_tables(case)
+    for title, table in tables:
         console.print(f"\n[bold]{title}[/]", soft_wrap=True)
         console.print(table)
+    if idle := without_effect(case, given_values(case, scene, model)):
+        console.print(f"\nwithout effect here: {escape(', '.join(idle))}", soft_wrap=True)
+
+
+def too_little_load(case):
+    """A sentence if the bearing turns under less than the usual minimum load, 0.01 C: balls then skid."""
+    C, load = case.bearing.C, case.load
+    P = max(math.hypot(load.F_y, load.F_z), abs(load.F_x))
+    if C and P < MINIMUM_LOAD * C and load.omega != load.omega_e:
+        yield (
+            f"the load of {P:.3g} N is less than the minimum load 0.01 C = {MINIMUM_LOAD * C:.3g} N: "
+            "balls may skid, so that frequencies and life are not those of rolling"
+        )
+
+
+def given_values(case, scene, model):
+    """What the user set, as name and the value that would stand there otherwise, where the two differ."""
+    table = variables.PARAMETERS | variables.INPUTS
+    if scene is not None:
+        names = {**scene.parameters, **scene.inputs}
+        others = {name: model.default((model.parameters | model.inputs)[name]) for name in names}
+        others["scene.statistics"] = "on"  # as scene.load_scene has it without the user
+    else:
+        others = {
+            name: table[name].start for name, source in case.origin.items() if source == "yours" and name in table
+        }
+    return {name: value for name, value in others.items() if case.values.get(name) != value}
+
+
+def without_effect(case, others):
+    """Names of `others` (name: another value) that change no figure of the tables."""
+    shown = cells(case)
+    return [name for name, value in others.items() if cells(replace(case, values=case.values | {name: value})) == shown]
+
+
+def cells(case):
+    """All figures of the tables as texts, None where there is no equilibrium."""
+    try:
+        return [(title, *(list(column.cells) for column in table.columns)) for title, table in info_tables(case)]
+    except UserError:
+        return None
 
 
 def read_as_scene(names):
@@ -95,7 +142,7 @@ def info_tables(case):
         ("Geometry and masses", pairs(geometry(case))),
         *([("Oil and temperatures", pairs(oil(case)))] if case.rivet is not None else []),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
-        (f"Frequencies at {RPM * case.load.omega:,.0f} rev/min", frequencies(case, state)),
+        (f"Frequencies at {speeds_text(case.load)}", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
         ("Balls", balls(state)),
     ]
@@ -127,9 +174,10 @@ def geometry(case):
         origins(case, "bearing.f_i", "bearing.f_e"),
     )
     yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", origins(case, "bearing.P_d")
-    left = bearing.clearance - 2.0 * ring_fit_growth(bearing.fit, case.load.omega)
+    omega = case.load.omega + case.load.frame_omega
+    left, angle = bearing.clearance_at(omega), bearing.free_contact_angle(omega)
     yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
-    yield "free contact angle at these temperatures and fits", f"{DEG * bearing.free_contact_angle:.2f}", "deg", ""
+    yield "free contact angle at speed, temperatures and fits", f"{DEG * angle:.2f}", "deg", ""
     for label, names in RIBBON if is_ribbon(values) else MACHINED:
         yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
     if case.rivet is not None:
@@ -193,9 +241,9 @@ def oil(case):
         "mm2/s",
         origins(case, *points),
     )
-    if case.load.omega:
-        kappa = eta / own["oil.rho"] / reference_viscosity(case.load.omega, case.bearing.d_m)
-        speed = f"{RPM * abs(case.load.omega):,.0f} rev/min"
+    if omega := case.load.omega - case.load.omega_e:
+        kappa = eta / own["oil.rho"] / reference_viscosity(omega, case.bearing.d_m)
+        speed = f"{RPM * abs(omega):,.0f} rev/min"
         yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{kappa:.3g}", "", ""
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
     yield (
@@ -225,7 +273,9 @@ def frequencies(case, state):
     table = Table(
         "", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False
     )
-    nominal, loaded = fault_frequencies(case.load.omega, case.bearing.D, case.bearing.d_m, case.Z), state.frequencies
+    load, bearing = case.load, case.bearing
+    nominal = fault_frequencies(load.omega, bearing.D, bearing.d_m, case.Z, omega_e=load.omega_e)
+    loaded = state.frequencies
     rows = (
         ("cage (FTF)", "FTF"),
         ("balls over the outer race (BPFO)", "BPFO"),
@@ -235,6 +285,12 @@ def frequencies(case, state):
     for label, name in rows:
         table.add_row(label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz")
     return table
+
+
+def speeds_text(load):
+    """The speeds of the shaft and, where it turns, of the housing."""
+    shaft = f"{RPM * load.omega:,.0f} rev/min"
+    return f"{shaft}, housing {RPM * load.omega_e:,.0f} rev/min" if load.omega_e else shaft
 
 
 def load_text(load):
@@ -249,8 +305,9 @@ def load_text(load):
 def equilibrium(case, state):
     """Name, value and unit of displacements, loads and life in the equilibrium."""
     loaded = state.Q_i > 0.0
-    yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in (state.x, state.y, state.z)), "um"
-    yield "ring tilt y, z", f"{fixed(DEG * state.tilt_y, 4)}, {fixed(DEG * state.tilt_z, 4)}", "deg"
+    place = [getattr(state, name) + case.value(f"housing.{name}") for name in ("x", "y", "z", "tilt_y", "tilt_z")]
+    yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in place[:3]), "um"
+    yield "ring tilt y, z", ", ".join(fixed(DEG * value, 4) for value in place[3:]), "deg"
     yield "stiffness x, y, z (tilt held)", ", ".join(f"{1e-6 * value:.3g}" for value in np.diag(state.K)[:3]), "N/um"
     yield "balls carrying on the inner race", f"{loaded.sum()} of {case.Z}", ""
     yield "largest contact load inner, outer", f"{state.Q_i.max():.0f}, {state.Q_e.max():.0f}", "N"
@@ -268,10 +325,10 @@ def equilibrium(case, state):
 
 def life(L_10r, load):
     """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
-    turns = f"{L_10r:.4g}"
+    turns, omega = f"{L_10r:.4g}", load.omega - load.omega_e
     return (
-        (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(load.omega) / 3600.0:.4g}", "1e6 turns, h")
-        if load.omega
+        (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(omega) / 3600.0:.4g}", "1e6 turns, h")
+        if omega
         else (turns, "1e6 turns")
     )
 

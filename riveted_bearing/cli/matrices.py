@@ -11,6 +11,11 @@ from rich.table import Column, Table
 from ..results import make_folder
 from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
+UNUSED = (  # what the shake itself sets
+    *(f"shaft.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")),
+    "ring.motion",
+    "scene.stress",
+)
 SPEEDS = 6  # up to that of the scene, if none is given
 
 
@@ -29,8 +34,11 @@ def matrices(
     loads: Annotated[
         list[float] | None, typer.Option("--load", help="factor of the scene's loads; repeatable; default: 1")
     ] = None,
-    frequency: Annotated[
-        float | None, typer.Option(min=1.0, help="frequency of the shakes in Hz; default: the speed's own")
+    frequencies: Annotated[
+        list[float] | None,
+        typer.Option(
+            "--frequency", min=1.0, help="frequency of the shakes (whirl) in Hz; repeatable; default: the speed's own"
+        ),
     ] = None,
     static: Annotated[
         bool, typer.Option("--static", help="the quasi-static stiffness alone, without the FMU's response")
@@ -60,21 +68,28 @@ def matrices(
     with Progress(
         TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal
     ) as bar:
-        task, w = bar.add_task("matrices", total=1.0), frequency and 2.0 * math.pi * frequency
-        found = (
-            balanced
-            if static
-            else dynamic_matrices(
-                model, case, plan, balanced, w, progress=lambda share: bar.update(task, completed=share)
-            )
-        )
+        task, found = bar.add_task("matrices", total=1.0), balanced if static else []
+        whirls = [] if static else [2.0 * math.pi * f for f in sorted(set(frequencies or ()))] or [None]
+        for i, w in enumerate(whirls):
+
+            def progress(share, done=i):
+                bar.update(task, completed=(done + share) / len(whirls))
+
+            found = found + dynamic_matrices(model, case, plan, balanced, w, progress=progress)
+    if static and frequencies:
+        console.print("without effect here: --frequency, the quasi-static stiffness has none")
+    if ignored := [name for name in (*plan.parameters, *plan.inputs) if name in UNUSED]:
+        console.print(f"without effect here: {', '.join(ignored)}: the shake moves the inner ring, without stress")
     rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
     print_basis(rows)
     console.print(table(found))
     paths = [write_table(found, out / f"{stem}_matrices.csv", rows), plot_matrices(found, out / f"{stem}_matrices.png")]
     for load in dict.fromkeys(point.load for point in found):
         name = f"{stem}_ross.toml" if len(loads or [1.0]) == 1 else f"{stem}_ross_{load:g}.toml"
-        paths.append(write_ross([point for point in found if point.load == load], out / name, tag=stem, basis=rows))
+        of_load = [point for point in found if point.load == load]
+        paths.append(write_ross(of_load, out / name, tag=stem, basis=rows))
+        if len(whirls) < 2:
+            paths.append(write_ross(of_load, out / name.replace("_ross", "_ross2"), tag=stem, basis=rows, version=2))
     for path in paths:
         console.print(f"written  [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
