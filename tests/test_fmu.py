@@ -450,50 +450,22 @@ def test_hosts_clocks_from_any_start(folder, start):
     assert abs(multiplied.get("time")[0] - added.get("time")[0]) <= 40 * math.ulp(abs(start) + 1e-3)
 
 
-CLOCKS = {
-    "single precision": lambda k, h: float(np.float32(k * h)),
-    "sum in single precision": lambda k, h: float(np.cumsum(np.full(k + 1, np.float32(h)))[k] - np.float32(h)),
-    "nanoseconds, rounded": lambda k, h: round(k * h, 9),
-    "nanoseconds, cut": lambda k, h: int(k * h * 1e9) / 1e9,
-    "late by 1e-4 of a step": lambda k, h: (k + 1e-4) * h,
-    "early by 1e-4 of a step": lambda k, h: (k - 1e-4 * (k > 0)) * h,
-}
-
-
-@pytest.mark.parametrize("clock", CLOCKS)
-@pytest.mark.parametrize("start", [0.0, -0.5, 10.0])
-def test_hosts_clocks_that_round(folder, start, clock):
-    """Each clock goes on for 60 steps of 1/30,000 s; the FMU ends each where the host means it, and warns once of those that are
-    farther off than doubles round.
-    """
-    h, point = 1.0 / 30_000.0, CLOCKS[clock]
-    slave = Slave(folder, logging=True).initialize(start=start)
-    for k in range(60):
-        place = float(np.float32(start + k * h)) if clock == "single precision" else start + point(k, h)
-        slave.check("DoStep", place, h, 1)
-    assert slave.get("time")[0] == place + h
-    warnings = [text for *_, text in slave.messages if "the FMU goes on from its own time" in text]
-    assert len(warnings) <= 1 and (warnings or "early" not in clock)
-
-
 @pytest.mark.parametrize("start", [0.0, 1e3, 1.7e9])
-@pytest.mark.parametrize("by", [-1.0, -0.6, 0.6, 1.0])
+@pytest.mark.parametrize("by", [-1.0, -0.01, 0.01, 1.0])
 def test_another_point_than_the_last_one_reached_is_refused(folder, start, by):
-    """By more than half a step, earlier or later, so that none is lost or taken twice."""
+    """By a hundredth of a step, earlier or later; doubles at 1.7e9 s are 2.4e-7 s apart, which is less."""
     h = 1e-4
     slave = Slave(folder).initialize(start=start).step(h, 2)
     assert slave.call("DoStep", slave.time + by * h, h, 1) == ERROR
     assert "the last step ended at" in slave.messages[-1][2]
 
 
-@pytest.mark.parametrize("side", [-1.0, 1.0])
-def test_the_slack_of_the_clock_is_the_same_on_both_sides(folder, side):
-    """1e-3 of a step near the start, 1e-6 of the time later: 0.9 of it is taken, 1.1 of it refused."""
-    for start, slack in ((0.0, 1e-3 * H), (1.0, 1e-6 * (1.0 + 2.0 * H))):
-        slave = Slave(folder).initialize(start=start).step(H, 2)
-        slave.check("DoStep", slave.time + 0.9 * side * slack, H, 1)
-        slave = Slave(folder).initialize(start=start).step(H, 2)
-        assert slave.call("DoStep", slave.time + 1.1 * side * slack, H, 1) == ERROR
+def test_a_point_before_the_last_one_is_refused_however_near(folder):
+    """Rounding may lie a few spacings of doubles below; 1e-6 of a step is none."""
+    slave = Slave(folder).initialize(start=1.0).step(H, 2)
+    assert slave.call("DoStep", slave.time - 1e-6 * H, H, 1) == ERROR
+    slave = Slave(folder).initialize(start=1.0).step(H, 2)
+    slave.check("DoStep", math.nextafter(slave.time, 0.0), H, 1)
 
 
 def test_a_step_that_is_lost_in_the_rounding_of_time_is_refused(folder):

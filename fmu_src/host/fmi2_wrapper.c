@@ -65,7 +65,6 @@ typedef struct {
     fmi2CallbackFunctions callbacks;
     char *name;
     unsigned categories;  // that are sent: bits 1 << LogCategory
-    bool clock_warned;    // of a clock that is not the FMU's
     char message[512];    // the last error or warning, sent or not
 } Instance;
 
@@ -622,29 +621,9 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
 
 // Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of
 // doubles at the largest of these times.
-static double clock_rounding(const Session *s, double time, double step)
-{
-    return 2.0 * DBL_EPSILON * (fmax(fabs(s->start_time), fabs(time)) + step);
-}
-
-// How far a host's point may lie on either side of the FMU's own time: as far as the clocks of single precision, of
-// milliseconds and of hosts that round their steps do, but less than half a step, so that no step is lost or taken twice.
 static double clock_slack(const Session *s, double time, double step)
 {
-    const double wide = fmin(fmax(1e-6 * fabs(time), 1e-3 * step), 0.49 * step);
-    return fmax(wide, clock_rounding(s, time, step));
-}
-
-// Says once that the host's clock is not the FMU's.
-static void warn_of_clock(Instance *m, double point, double time)
-{
-    char message[256];
-    snprintf(message, sizeof message,
-             "currentCommunicationPoint = %.17g s where the last step ended at %.17g s: the FMU goes on from its own time to the "
-             "end of each step as the host means it",
-             point, time);
-    if (!m->clock_warned) instance_log(m, LOG_WARNING, message);
-    m->clock_warned = true;
+    return 2.0 * DBL_EPSILON * (fmax(fabs(s->start_time), fabs(time)) + step);
 }
 
 // ---- saved states: one block of bytes, in memory as in a file -------------------------------------------------------------------------------
@@ -730,7 +709,7 @@ static const char *session_problem(const Session *s, const Part *part)
 {
     const Variable *tolerance = variable_named("solver.tol");
     const double time = part_time(part),
-                 slack = clock_rounding(s, time, 0.0) + 1e-6 * (1.0 + fabs(time));
+                 slack = clock_slack(s, time, 0.0) + 1e-6 * (1.0 + time - s->start_time);
     if (!(s->phase == INSTANTIATED || s->phase == INITIALIZING || s->phase == STEPPING ||
           s->phase == FAILED || s->phase == TERMINATED || s->phase == ERRONEOUS))
         return "there is no such phase";
@@ -849,20 +828,18 @@ static fmi2Status do_step(Instance *m, double point, double step)
         return refuse(m, CALL_DoStep,
                       "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
     }
-    if (!(fabs(point - time) <= slack)) {
+    if (!(point >= time - slack && point <= time + slack + 1e-6 * step)) {
         return refuse(m, CALL_DoStep,
-                      "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s, "
-                      "from which a point may lie %.3g s",
-                      point, time, slack);
+                      "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s",
+                      point, time);
     }
-    if (fabs(point - time) > clock_rounding(s, time, step) + 1e-6 * step) warn_of_clock(m, point, time);
     if (!(end > time)) {
         return refuse(
             m, CALL_DoStep,
             "communicationStepSize = %g s is not allowed: at %.17g s it is lost in the rounding of time",
             step, time);
     }
-    if (end > s->stop_time + slack) {
+    if (end > s->stop_time + slack + 1e-6 * step) {
         return refuse(m, CALL_DoStep,
                       "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s",
                       step, s->stop_time);
