@@ -346,6 +346,34 @@ def test_wrong_communication_point_is_refused(running, point):
     assert "currentCommunicationPoint" in running.messages[-1][2]
 
 
+CLOCKS = {  # the times that hosts call, of the start, the step and its number
+    "multiples": lambda start, h, i: start + i * h,
+    "nanoseconds": lambda start, h, i: round((start + i * h) * 1e9) / 1e9,
+    "single precision": lambda start, h, i: start + float(np.float32(i * h)),
+    "ahead": lambda start, h, i: start + i * h + 0.9e-3 * h,
+    "behind": lambda start, h, i: start + i * h - 0.9e-3 * h,
+}
+
+
+@pytest.mark.parametrize("start", [0.0, 1.7e9])
+@pytest.mark.parametrize("clock", CLOCKS)
+def test_clocks_of_hosts_are_followed(folder, clock, start):
+    """The step ends where the host means it to, and the log says once that the clocks differ."""
+    slave, h = Slave(folder, logging=True).initialize(start=start), 1.0 / 30000.0
+    for i in range(6):
+        slave.check("DoStep", CLOCKS[clock](start, h, i), h, 1)
+    assert slave.get("time")[0] == CLOCKS[clock](start, h, 5) + h
+    said = [message for _, _, message in slave.messages if "currentCommunicationPoint" in message]
+    assert len(said) == (start == 0.0 and clock != "multiples")  # at 1.7e9 s a double cannot tell them from rounding
+
+
+@pytest.mark.parametrize("off", [-1.1e-3, 1.1e-3])
+def test_clock_beyond_the_slack_is_named_and_can_be_mended(running, off):
+    assert running.call("DoStep", off * H, H, 1) == ERROR
+    assert "ended at 0 s" in running.messages[-1][2]
+    running.check("DoStep", 0.0, H, 1)
+
+
 def test_stop_time_is_respected(slave):
     slave.initialize(stop=3 * H).step(H, 3)  # 3 H > H + H + H: rounding is allowed
     assert slave.call("DoStep", slave.time, H, 1) == ERROR
