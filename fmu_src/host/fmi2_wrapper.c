@@ -637,10 +637,11 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
 }
 
 // Distance that a host's clock may have from the FMU's: single precision (6e-8 of the time, a few of them) and
-// times that a host rounds for itself, but never less than a thousandth of the step.
+// times that a host rounds for itself, never less than a thousandth of the step, nor more than half of it: a point
+// a whole step away is another one.
 static double clock_slack(double time, double step)
 {
-    return fmax(1e-6 * fabs(time), 1e-3 * step);
+    return fmax(fmin(1e-6 * fabs(time), 0.5 * step), 1e-3 * step);
 }
 
 // Distance that double precision alone explains: t += h, start + k h, whole nanoseconds.
