@@ -370,6 +370,7 @@ def test_damping(core):
         ({"cage.pocket_radius": RADIUS + 1e-6}, "cage.pocket_radius = .*: 0 or"),
         ({"cage.width": 0.014}, "cage.width = 0.014 m: 2 .cage.pocket_depth . cage.sheet. = "),
         ({"cage.guidance": 1}, "cage.guidance = outer: .*; balls .2. is allowed"),
+        ({"cage.D_o": RIBBON["cage.D_o"] * 0.977}, "puts the pockets beside the balls"),
         ({"cage.pocket_edge": 1.3e-3}, "no sphere between the pocket's edges"),
         ({"cage.pocket_fillet": 0.08}, "leave no sphere"),
         ({"cage.shape": 1}, "0 is allowed, a machined cage"),

@@ -176,6 +176,8 @@ def check_ribbon(p):
             none = "0 is allowed, a machined cage (cage.shape) has no such size"
             require(value == 0.0, f"cage.{name} = {value} m: {none}")
     if not ribbon:
+        loose = "pockets with radial axes, of a machined cage (cage.shape), do not carry it radially; outer (1) is allowed"
+        require(p.cage.guidance != variables.CageGuidance.BALLS, f"cage.guidance = balls: {loose}")
         return
     guided = "a ribbon cage has no land on the outer ring; balls (2) is allowed"
     require(p.cage.guidance == variables.CageGuidance.BALLS, f"cage.guidance = outer: {guided}")
@@ -192,6 +194,12 @@ def check_ribbon(p):
     require(
         abs(p.cage.width - width) <= 0.01 * width,
         f"cage.width = {p.cage.width} m: 2 (cage.pocket_depth + cage.sheet) = {width:g} m is allowed, +- 1 %",
+    )
+    pitch = 0.5 * (p.cage.D_o + p.cage.D_i)
+    require(
+        abs(pitch - p.bearing.d_m) <= p.cage.pocket_clearance,
+        f"cage.D_o, cage.D_i: (cage.D_o + cage.D_i)/2 = {pitch:g} m puts the pockets beside the balls; "
+        f"bearing.d_m = {p.bearing.d_m:g} m is allowed, +- cage.pocket_clearance (change both diameters)",
     )
     ring, edge = p.cage.D_o - p.cage.D_i, spheres_edge(p)
     require(
@@ -292,6 +300,12 @@ def check_geometry(p):
     require(
         p.cage.guidance == variables.CageGuidance.OUTER or pocket > 0.0,
         f"cage.pocket_clearance = {pocket} m: more than 0 m is allowed of a cage that balls guide",
+    )
+    most = 2.0 * p.cage.m * 2e-4  # cages are true to 0.2 mm at worst
+    require(
+        p.cage.unbalance <= most,
+        f"cage.unbalance = {p.cage.unbalance} kg.m: the cage's centre of mass is more than 0.2 mm off; at most "
+        f"2 cage.m 0.2 mm = {most:g} kg.m is allowed",
     )
     check_ribbon(p)
     require(p.oil.T_1 < p.oil.T_2, f"oil.T_1 = {p.oil.T_1} K: less than oil.T_2 = {p.oil.T_2} K is allowed")

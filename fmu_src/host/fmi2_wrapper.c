@@ -66,6 +66,7 @@ typedef struct {
     char *name;
     unsigned categories;  // that are sent: bits 1 << LogCategory
     char message[512];    // the last error or warning, sent or not
+    bool warned_of_clock;
 } Instance;
 
 static const Session NEW_SESSION = {.phase = INSTANTIATED, .stop_time = INFINITY};
@@ -105,16 +106,31 @@ static void instance_log(void *environment, LogCategory category, const char *me
     if (m->categories & 1u << category) send(&m->callbacks, m->host_floats, m->name, category, message);
 }
 
-static fmi2Status refuse(Instance *m, Call call, const char *format, ...)
+static void log_refusal(Instance *m, Call call, const char *format, va_list arguments)
 {
     char reason[400], message[512];
-    va_list arguments;
-    va_start(arguments, format);
     vsnprintf(reason, sizeof reason, format, arguments);
-    va_end(arguments);
     snprintf(message, sizeof message, "%s at t = %.9g s: %s", CALLS[call].name, part_time(m->part), reason);
     instance_log(m, LOG_ERROR, message);
+}
+
+static fmi2Status refuse(Instance *m, Call call, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_refusal(m, call, format, arguments);
+    va_end(arguments);
     m->session.phase = ERRONEOUS;
+    return fmi2Error;
+}
+
+// As refuse, for a step that has not begun: the state is untouched, and the host may go on with a right clock.
+static fmi2Status refuse_step(Instance *m, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    log_refusal(m, CALL_DoStep, format, arguments);
+    va_end(arguments);
     return fmi2Error;
 }
 
@@ -329,6 +345,7 @@ static fmi2Status Reset(fmi2Component c)
     part_reset(m->part);
     m->session = NEW_SESSION;
     m->message[0] = '\0';
+    m->warned_of_clock = false;
     return fmi2OK;
 }
 
@@ -619,9 +636,16 @@ static fmi2Status GetDirectionalDerivative(fmi2Component c, const fmi2ValueRefer
     return output_derivatives(m, call, &derivatives, unknown, n_unknown, d_unknown);
 }
 
-// Rounding that a host's clock may have: t += h, start + k h or whole nanoseconds agree to a few spacings of
-// doubles at the largest of these times.
-static double clock_slack(const Session *s, double time, double step)
+// Distance that a host's clock may have from the FMU's: single precision (6e-8 of the time, a few of them) and
+// times that a host rounds for itself, never less than a thousandth of the step, nor more than half of it: a point
+// a whole step away is another one.
+static double clock_slack(double time, double step)
+{
+    return fmax(fmin(1e-6 * fabs(time), 0.5 * step), 1e-3 * step);
+}
+
+// Distance that double precision alone explains: t += h, start + k h, whole nanoseconds.
+static double clock_rounding(const Session *s, double time, double step)
 {
     return 2.0 * DBL_EPSILON * (fmax(fabs(s->start_time), fabs(time)) + step);
 }
@@ -709,7 +733,7 @@ static const char *session_problem(const Session *s, const Part *part)
 {
     const Variable *tolerance = variable_named("solver.tol");
     const double time = part_time(part),
-                 slack = clock_slack(s, time, 0.0) + 1e-6 * (1.0 + time - s->start_time);
+                 slack = clock_rounding(s, time, 0.0) + 1e-6 * (1.0 + time - s->start_time);
     if (!(s->phase == INSTANTIATED || s->phase == INITIALIZING || s->phase == STEPPING ||
           s->phase == FAILED || s->phase == TERMINATED || s->phase == ERRONEOUS))
         return "there is no such phase";
@@ -820,30 +844,49 @@ static fmi2Status DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], s
 }
 
 // ---- steps ----------------------------------------------------------------------------------------------------------------------------------
+static void warn_of_clock(Instance *m, double point, double time)
+{
+    if (m->warned_of_clock) return;
+    m->warned_of_clock = true;
+    char message[256];
+    snprintf(message, sizeof message,
+             "currentCommunicationPoint = %.17g s, but the last step ended at %.17g s: the FMU goes on from "
+             "its own time "
+             "to the end of each step (said once)",
+             point, time);
+    instance_log(m, LOG_WARNING, message);
+}
+
+// The step from the FMU's own time to the end that the host means.
 static fmi2Status do_step(Instance *m, double point, double step)
 {
     const Session *s = &m->session;
-    const double time = part_time(m->part), end = point + step, slack = clock_slack(s, time, step);
+    const double time = part_time(m->part), end = point + step;
     if (!(isfinite(step) && step > 0.0)) {
         return refuse(m, CALL_DoStep,
                       "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
     }
-    if (!(point >= time - slack && point <= time + slack + 1e-6 * step)) {
-        return refuse(m, CALL_DoStep,
-                      "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s",
-                      point, time);
+    const double slack = clock_slack(time, step), rounding = clock_rounding(s, time, step);
+    if (!(fabs(point - time) <= slack + rounding)) {
+        return refuse_step(
+            m,
+            "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s; "
+            "at most %.3g s off is allowed",
+            point, time, slack);
     }
     if (!(end > time)) {
-        return refuse(
-            m, CALL_DoStep,
-            "communicationStepSize = %g s is not allowed: at %.17g s it is lost in the rounding of time",
-            step, time);
+        return refuse_step(
+            m,
+            "communicationStepSize = %g s is not allowed: currentCommunicationPoint = %.17g s and the "
+            "step end at or before %.17g s, where the last step ended",
+            step, point, time);
     }
-    if (end > s->stop_time + slack + 1e-6 * step) {
+    if (end > s->stop_time + fmin(slack, 0.5 * step) + rounding) {
         return refuse(m, CALL_DoStep,
                       "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s",
                       step, s->stop_time);
     }
+    if (fabs(point - time) > rounding) warn_of_clock(m, point, time);
     return conclude(m, part_step(m->part, end));
 }
 

@@ -238,6 +238,12 @@ static bool check_ribbon(Bearing *b)
                            : "0 is allowed, a machined cage (cage.shape) has no such size");
         fine = false;
     }
+    if (!ribbon && p->cage.guidance == CAGE_GUIDANCE_BALLS) {
+        bearing_log(b, LOG_ERROR,
+                    "cage.guidance = balls: pockets with radial axes, of a machined cage (cage.shape), do not "
+                    "carry it radially; outer (1) is allowed");
+        return false;
+    }
     if (!ribbon || !fine) return fine;
 
     const double radius = 0.5 * (p->bearing.D + p->cage.pocket_clearance), depth = p->cage.pocket_depth;
@@ -263,6 +269,11 @@ static bool check_ribbon(Bearing *b)
     fine &= require(b, fabs(p->cage.width - width) <= 0.01 * width,
                     "cage.width = %g m: 2 (cage.pocket_depth + cage.sheet) = %g m is allowed, +- 1 %%",
                     p->cage.width, width);
+    const double pitch = 0.5 * (p->cage.D_o + p->cage.D_i), off = fabs(pitch - p->bearing.d_m);
+    fine &= require(b, off <= p->cage.pocket_clearance,
+                    "cage.D_o, cage.D_i: (cage.D_o + cage.D_i)/2 = %g m puts the pockets beside the balls; "
+                    "bearing.d_m = %g m is allowed, +- cage.pocket_clearance (change both diameters)",
+                    pitch, p->bearing.d_m);
     fine &= require(b, 0.25 * (p->cage.D_o - p->cage.D_i) > 2.0 * edge,
                     "cage.D_o - cage.D_i = %g m: no sphere between the pocket's edges; more than %g m, "
                     "8 radii of the edges, is allowed",
@@ -399,6 +410,12 @@ static bool check_geometry(Bearing *b)
     fine &= require(b, p->cage.guidance == CAGE_GUIDANCE_OUTER || p->cage.pocket_clearance > 0.0,
                     "cage.pocket_clearance = %g m: more than %g m is allowed of a cage that balls guide",
                     p->cage.pocket_clearance, 0.0);
+    const double farthest = 2e-4,
+                 unbalance = 2.0 * p->cage.m * farthest;  // cages are true to 0.2 mm at worst
+    fine &= require(b, p->cage.unbalance <= unbalance,
+                    "cage.unbalance = %g kg.m: the cage's centre of mass is more than 0.2 mm off; at most "
+                    "2 cage.m 0.2 mm = %g kg.m is allowed",
+                    p->cage.unbalance, unbalance);
     fine &= check_ribbon(b);
     fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
                     p->oil.T_1, p->oil.T_2);
