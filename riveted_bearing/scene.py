@@ -10,7 +10,7 @@
     [parameters]                      # at the start; dotted keys, nested tables or quoted full names
     joint.preload = "30 N"
     ring.tilt_mode = "supported"
-    [inputs]                          # constant, points or a column of a CSV file; held before the first and after the last point
+    [inputs]                          # constant, points or a column of a table (tables.py); held before the first and after the last point
     shaft.F_y = "2994 N"
     shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
     shaft.F_x = { file = "loads.csv", column = "thrust", time = "t", unit = "kN", interpolation = "hold" }
@@ -23,7 +23,6 @@
 A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
 """
 
-import io
 import re
 import reprlib
 import tomllib
@@ -33,16 +32,18 @@ from pathlib import Path
 
 import numpy as np
 
+from . import tables
 from .errors import UserError, refusal, shortlist, unknown
 from .file_kinds import check_keys
 from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
+from .variable_list import is_like
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
-COLUMN = ("file", "column", "time", "unit", "interpolation")
+COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
@@ -170,14 +171,20 @@ def find_scene(source):
 
 
 def read_toml(path):
-    """The document of a TOML file; UserError if it cannot be read."""
+    """The document of a TOML file, UTF-8 with or without a mark; UserError if it cannot be read."""
     try:
-        text = path.read_text(encoding="utf-8")
+        data = path.read_bytes()
+        text = data.decode("utf-8-sig").replace("\r\n", "\n")
         return tomllib.loads(text)
     except UnicodeDecodeError as problem:
-        raise UserError(f"{path}: not valid TOML: {problem}") from None
+        row = data[: problem.start].count(b"\n") + 1
+        raise UserError(f"{path}: not valid TOML: line {row} is not UTF-8: save the file as UTF-8") from None
     except tomllib.TOMLDecodeError as problem:
         raise UserError(f"{path}: not valid TOML: {problem}{quotes_hint(text, problem)}") from None
+    except ValueError:  # of int()
+        raise UserError(f"{path}: not valid TOML: an integer of thousands of digits") from None
+    except RecursionError:
+        raise UserError(f"{path}: not valid TOML: tables or lists are nested too deeply") from None
     except OSError as problem:
         raise UserError(f"{path}: {problem.strerror}") from None
 
@@ -343,13 +350,15 @@ def profile_waves(race, value, model, folder):
     if not isinstance(value, dict):
         raise UserError('not a table such as { file = "race.csv", angle = "phi", height = "h" }')
     check_entries(value, SURFACE, ("file", "angle", "height"))
-    column = read_columns(folder / value["file"])
-    units = model.units["rad"], model.units["m"]
-    factors = [scale(value[key], of)[0] if key in value else 1.0 for key, of in zip(SURFACE[2::2], units, strict=True)]
+    angle, height = tables.read(
+        folder / value["file"],
+        tables.Wanted(value["angle"], model.units["rad"], value.get("angle_unit", "")),
+        tables.Wanted(value["height"], model.units["m"], value.get("unit", "")),
+    )
     variables = {kind: model.parameters.get(f"{race}.{kind}[1]") for kind in ("waviness", "waviness_phase")}
     if None in variables.values():
         raise UserError(f"this FMU has no {race}.waviness")
-    amplitude, phase = waves_of(column(value["angle"]) / factors[0], column(value["height"]) / factors[1])
+    amplitude, phase = waves_of(angle, height)
     found = {}
     for n, (a, b) in enumerate(zip(amplitude, phase, strict=True), 1):
         model.check_range(a, model.parameters[f"{race}.waviness[{n}]"])
@@ -400,7 +409,7 @@ def select(patterns, model):
     names = [*model.inputs, *model.outputs]
     chosen = set()
     for pattern in patterns:
-        matches = [name for name in names if re.fullmatch(re.escape(pattern).replace(r"\*", ".*"), name)]
+        matches = [name for name in names if is_like(name, pattern)]
         if not matches:
             raise unknown("outputs", "name", pattern, names)
         chosen.update(matches)
@@ -446,39 +455,15 @@ def from_points(value, scales):
 
 
 def from_column(value, scales, folder):
-    """A History from { file = "...", column = "..." }: CSV with a header line, lines with # in front are skipped, times
-    in s.
-    """
+    """A History from { file = "...", column = "..." }: a table with times in s or in the unit of their head."""
     check_entries(value, COLUMN, ("file", "column"))
-    column = read_columns(folder / value["file"])
-    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
-    return History(column(value.get("time", "time")), (column(value["column"]) - offset) / factor, is_hold(value))
-
-
-def read_columns(path):
-    """A function name -> numbers of a CSV file with a header line; UserError names what is missing."""
-    if not path.is_file():
-        raise UserError(f"{path}: no such file")
-    from pyarrow import ArrowInvalid, csv
-
-    try:
-        text = "\n".join(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
-        table = csv.read_csv(io.BytesIO(text.encode()))
-    except OSError as problem:
-        raise UserError(f"{path}: {problem.strerror}") from None
-    except (ArrowInvalid, UnicodeDecodeError) as problem:
-        raise UserError(f"{path}: not a CSV table: {problem}") from None
-    names = [name.strip() for name in table.column_names]
-
-    def column(name):
-        if name not in names:
-            raise unknown(path, "column", name, names)
-        values = table.column(names.index(name)).to_numpy()
-        if not np.issubdtype(values.dtype, np.number):
-            raise UserError(f'{path}: column "{name}" has entries that are no numbers')
-        return values.astype(float)
-
-    return column
+    gap = seconds("longest_gap", value["longest_gap"]) if "longest_gap" in value else None
+    t, values = tables.Table(folder / value["file"]).series(
+        tables.Wanted(value.get("time", "time"), SECONDS),
+        tables.Wanted(value["column"], scales, value.get("unit", "")),
+        gap=gap,
+    )
+    return History(t, values, is_hold(value))
 
 
 def check_entries(value, allowed, needed):
