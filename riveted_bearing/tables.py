@@ -196,8 +196,11 @@ def split_head(head):
         if (is_unit(unit) or last) and not unit.isdigit():
             name = f"{head[: bracket.start()].rstrip()}{head[bracket.end() :]}".strip(" /,:")
             return name, "" if unit == "1" else unit
-    named = re.fullmatch(r"([^/]*\S)\s*/\s*(\S+)", head) or re.fullmatch(r"(.*\S)(?:\s+in\s+|\s*,\s+)(\S+)", head)
-    return (named[1], named[2]) if named and is_unit(named[2]) else (head, "")
+    for between in (r"\s+in\s+", r"\s*,\s*", r"\s*/\s*"):
+        name, *unit = re.split(between, head, maxsplit=1)
+        if name and unit and is_unit(unit[0]):
+            return name, unit[0]
+    return head, ""
 
 
 def unit_of(head, scales):
@@ -273,7 +276,7 @@ class TextRows:
                     best = best or (len(sample), separator, row, names)
                     continue
                 faults = sum(not fits(names, below) for _, below in sample[k + 1 :])
-                if not faults:
+                if 2 * faults < len(sample) - k - 1:
                     return separator, row, names
                 if best is None or faults < best[0]:
                     best = faults, separator, row, names
