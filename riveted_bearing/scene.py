@@ -33,7 +33,7 @@ from pathlib import Path
 import numpy as np
 
 from . import tables
-from .errors import UserError, refusal, shortlist, unknown
+from .errors import UserError, is_file, refusal, shortlist, unknown
 from .file_kinds import check_keys
 from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
@@ -163,7 +163,7 @@ def find_scene(source):
     if str(source) in shipped_scenes():
         return SHIPPED / f"{source}.toml"
     path = Path(source)
-    if path.is_file():
+    if is_file(path):
         return path
     if path.suffix:
         raise UserError(f"{source}: no such scene file")
@@ -175,18 +175,32 @@ def read_toml(path):
     try:
         data = path.read_bytes()
         text = data.decode("utf-8-sig").replace("\r\n", "\n")
-        return tomllib.loads(text)
+        document = tomllib.loads(text)
+        check_integers(path, document)
+        return document
     except UnicodeDecodeError as problem:
         row = data[: problem.start].count(b"\n") + 1
         raise UserError(f"{path}: not valid TOML: line {row} is not UTF-8: save the file as UTF-8") from None
     except tomllib.TOMLDecodeError as problem:
         raise UserError(f"{path}: not valid TOML: {problem}{quotes_hint(text, problem)}") from None
+    except UserError:
+        raise
     except ValueError:  # of int()
         raise UserError(f"{path}: not valid TOML: an integer of thousands of digits") from None
     except RecursionError:
         raise UserError(f"{path}: not valid TOML: tables or lists are nested too deeply") from None
     except OSError as problem:
         raise UserError(f"{path}: {problem.strerror}") from None
+
+
+def check_integers(path, document, key=""):
+    """UserError for an integer beyond the 64 bits that TOML has."""
+    for name, value in document.items() if isinstance(document, dict) else enumerate(document, 1):
+        place = f"{key}.{name}".lstrip(".")
+        if isinstance(value, dict | list):
+            check_integers(path, value, place)
+        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+            raise refusal(path, place, value, "an integer of at most 64 bits is allowed")
 
 
 def quotes_hint(text, problem):
@@ -471,7 +485,7 @@ def check_entries(value, allowed, needed):
     for key, entry in value.items():
         if key not in allowed:
             raise UserError(f'unknown key "{key}"; allowed: {shortlist(allowed)}')
-        if key not in ("t", "value") and not isinstance(entry, str):
+        if key not in ("t", "value", "longest_gap") and not isinstance(entry, str):
             raise UserError(f"{key} = {reprlib.repr(entry)}: not a text")
     for key in needed:
         if key not in value:

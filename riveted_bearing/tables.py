@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import UserError, extra, unknown
+from .errors import UserError, extra, is_file, unknown
 from .units import SECONDS, is_unit, scale
 
 BLOCK = 65536  # rows that are read together
@@ -67,7 +67,7 @@ class Table:
 
     def __init__(self, path):
         self.path = Path(path)
-        if not self.path.is_file():
+        if not is_file(path):
             raise UserError(f"{path}: no such file")
         try:
             with self.path.open("rb") as file:

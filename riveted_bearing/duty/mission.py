@@ -104,6 +104,7 @@ HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
 ROUNDED = 0.011  # by how much shares may miss 1, as three of 0.33 do
 RIVETS = ("each", "alike")
+MOST_CLASSES = 100_000  # of a record
 PRELOAD = "joint.preload"
 FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
 
@@ -526,6 +527,8 @@ def history_points(path, document, model):
     file = file_of(path, "history", section, HISTORY, ("file", "time"))
     columns = columns_of(path, "history", section, model, ("bins",))
     bins = [count_of(path, f"history.{name}.bins", entry.get("bins", 5)) for name, (*_, entry) in columns.items()]
+    if np.prod(bins, dtype=float) > MOST_CLASSES:
+        raise UserError(f"{path}: history: {np.prod(bins, dtype=float):.3g} classes; at most {MOST_CLASSES} are allowed")
     gap = section.get("longest_gap")
     gap = None if gap is None else 3600.0 * amount(path, "history.longest_gap", gap, HOURS)
     wanted = [column for _, column, _ in columns.values()]
