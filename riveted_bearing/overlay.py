@@ -63,6 +63,7 @@ def read_measured(path, result, columns=None):
     table, columns = tables.Table(path), dict(columns or {})
     recorded = [name for name in result.data if name != TIME]
     time = tables.Wanted(columns.pop(TIME, TIME), SECONDS)
+    table.place(time.name)
     if not columns:
         columns = {own: head for head in table.heads if (own := tables.split_head(head)[0]) in recorded}
         if not columns:
@@ -145,7 +146,9 @@ def spectrum_note(series):
         if spectrum(t, values) is None
     ]
     gap = f" ({series.gap})" if series.gap else ""
-    return f"No spectrum of the {' and of the '.join(lacking)}: its times are not equally spaced{gap}." if lacking else ""
+    return (
+        f"No spectrum of the {' and of the '.join(lacking)}: its times are not equally spaced{gap}." if lacking else ""
+    )
 
 
 def time_chart(fig, series):

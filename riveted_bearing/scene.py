@@ -45,6 +45,7 @@ SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
+DEEPEST = 50  # tables or lists in each other
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
@@ -193,12 +194,14 @@ def read_toml(path):
         raise UserError(f"{path}: {problem.strerror}") from None
 
 
-def check_integers(path, document, key=""):
-    """UserError for an integer beyond the 64 bits that TOML has."""
+def check_integers(path, document, key="", depth=0):
+    """UserError for an integer beyond the 64 bits that TOML has; RecursionError beyond DEEPEST."""
+    if depth > DEEPEST:
+        raise RecursionError
     for name, value in document.items() if isinstance(document, dict) else enumerate(document, 1):
         place = f"{key}.{name}".lstrip(".")
         if isinstance(value, dict | list):
-            check_integers(path, value, place)
+            check_integers(path, value, place, depth + 1)
         elif isinstance(value, int) and not -(2**63) <= value < 2**63:
             raise refusal(path, place, value, "an integer of at most 64 bits is allowed")
 

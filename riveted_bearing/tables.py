@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from .errors import UserError, extra, is_file, unknown
-from .units import SECONDS, is_unit, scale
+from .units import is_unit, scale
 
 BLOCK = 65536  # rows that are read together
 SAMPLE = 60  # rows that decide on the separator
@@ -89,7 +89,7 @@ class Table:
         ):
             found = [i for i, head in enumerate(self.heads) if fits(head)]
             if len(found) > 1:
-                raise UserError(f'{self.path}: {name}: two columns have this name: {", ".join(self.heads)}')
+                raise UserError(f"{self.path}: {name}: two columns have this name: {', '.join(self.heads)}")
             if found:
                 return found[0]
         raise unknown(self.path, "column", name, [head for head in self.heads if head])
@@ -100,7 +100,7 @@ class Table:
         own, certain = unit_of(head, wanted.scales)
         asked = wanted.unit or split_head(wanted.name)[1]
         where = f'{self.path}: column "{head}"'
-        if own and certain and asked and not same(own, asked, wanted.scales):
+        if own and certain and asked not in ("", own) and not same(own, asked, wanted.scales):
             raise UserError(f"{where}: its unit is {own}, but {asked} was asked for")
         unit = asked or own
         try:
@@ -118,8 +118,11 @@ class Table:
         scales = [scale(u, one.scales) if u else (1.0, 0.0) for u, one in zip(units, wanted, strict=True)]
         try:
             for rows, columns in self.source.blocks(places):
-                yield rows, np.column_stack(
-                    [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
+                yield (
+                    rows,
+                    np.column_stack(
+                        [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
+                    ),
                 )
         except OSError as problem:
             raise UserError(f"{self.path}: {problem.strerror}") from None
@@ -165,7 +168,9 @@ class Clock:
         self.last = rows[-1:], t[-1:]
         if np.any(step <= 0.0):
             k = int(np.argmax(step <= 0.0))
-            raise UserError(f"{self.where}, row {rows[k + 1]}: {t[k + 1]:.10g} s after {t[k]:.10g} s: times must increase")
+            raise UserError(
+                f"{self.where}, row {rows[k + 1]}: {t[k + 1]:.10g} s after {t[k]:.10g} s: times must increase"
+            )
         if self.usual is None and len(step):
             self.usual = usual_interval(step)
         longest = GAP * self.usual if self.gap is None and self.usual else self.gap or np.inf
@@ -301,7 +306,7 @@ class TextRows:
                     seen.setdefault(sign_of(GROUPS.sub("", entry.strip())), (row, entry.strip()))
                 elif len(entry) > 3 and not plain:
                     plain = re.fullmatch(r"[+-]?\d{4,}", entry.strip()) is not None
-            if "." in seen and self.separator == "," and not "," in seen:
+            if "." in seen and self.separator == "," and "," not in seen:
                 break  # a comma inside quotes would be a fault of its own row
         if "," in seen and "." in seen:
             rows = " and ".join(f'row {row} has "{text}"' for row, text in sorted((seen[","], seen["."])))
@@ -343,7 +348,9 @@ class TextRows:
         texts = [row[place] for _, row in piece]
         odd = "_." if self.decimal == "," else "_"
         try:
-            values = np.array([float(text.replace(",", ".")) for text in texts] if odd != "_" else list(map(float, texts)))
+            values = np.array(
+                [float(text.replace(",", ".")) for text in texts] if odd != "_" else list(map(float, texts))
+            )
             if np.all(np.isfinite(values)) and not any(sign in text for text in texts for sign in odd):
                 return values
         except ValueError:

@@ -3,7 +3,7 @@
 A unit is read by its atoms, prefixes and powers: "kN", "mm/s", "lbf.in", "µm", "min^-1".  It must have the dimension of
 its variable, so that 3600 rev/min cannot pass for 3600 rad/s; a bare number is SI.  The angle is a dimension of its own,
 as in FMI: a library that drops it reads 1/min as 1/60 rad/s.  What a symbol means may depend on the quantity (g: gram or
-gravity; lb: mass or force; 1/min and Hz: revolutions where a speed is wanted).
+gravity; lb: mass or force; 1/min: revolutions where a speed is wanted); 1/s and Hz are no speed, for they may be either.
 """
 
 import math
@@ -106,8 +106,7 @@ REVOLUTION = 2.0 * math.pi
 # what a symbol means where another quantity than its own is wanted: SI unit -> {symbol: SI value}
 MEANT = {
     "m/s2": {"g": GRAVITY, "G": GRAVITY, "gn": GRAVITY, "g0": GRAVITY, "mg": 1e-3 * GRAVITY, "ug": 1e-6 * GRAVITY},
-    "rad/s": {"1/min": REVOLUTION / 60.0, "min-1": REVOLUTION / 60.0, "/min": REVOLUTION / 60.0, "Hz": REVOLUTION, "kHz": 1e3 * REVOLUTION}
-    | {"rps": REVOLUTION},
+    "rad/s": {"1/min": REVOLUTION / 60.0, "min-1": REVOLUTION / 60.0, "/min": REVOLUTION / 60.0, "rps": REVOLUTION},
     "1": {"-": 1.0},
 }
 AS_FORCE = {"lb": "lbf", "oz": "ozf"}  # where a pound of mass does not fit
@@ -274,7 +273,9 @@ def atom_of(name, renamed):
     return None
 
 
-SECONDS = Scales({"s": (1.0, 0.0), "ms": (1e3, 0.0), "us": (1e6, 0.0), "min": (1.0 / 60.0, 0.0), "h": (1.0 / 3600.0, 0.0)})
+SECONDS = Scales(
+    {"s": (1.0, 0.0), "ms": (1e3, 0.0), "us": (1e6, 0.0), "min": (1.0 / 60.0, 0.0), "h": (1.0 / 3600.0, 0.0)}
+)
 
 
 def symbol_of(value):

@@ -17,7 +17,7 @@ RPM = math.pi / 30.0
 UNITS_OF = {  # SI value of one unit by definition: SI brochure, NIST SP 811
     "s": {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "us": 1e-6, "min": 60.0, "h": 3600.0, "sec": 1.0},
     "N": {"N": 1.0, "kN": 1e3, "mN": 1e-3, "daN": 10.0, "kgf": 9.80665, "lbf": 4.4482216152605, "MN": 1e6},
-    "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180.0, "rev/s": 2.0 * math.pi, "Hz": 2.0 * math.pi, "krpm": 1e3 * RPM}
+    "rad/s": {"rad/s": 1.0, "deg/s": math.pi / 180.0, "rev/s": 2.0 * math.pi, "rps": 2.0 * math.pi, "krpm": 1e3 * RPM}
     | dict.fromkeys(("rpm", "rev/min", "r/min", "RPM", "1/min", "min-1", "min^-1", "min⁻¹", "U/min"), RPM),
     "m/s2": {"m/s2": 1.0, "g": 9.80665, "mg": 9.80665e-3, "m/s²": 1.0, "m/s^2": 1.0, "mm/s2": 1e-3, "in/s2": 0.0254},
     "m/s": {"mm/s": 1e-3, "m/s": 1.0, "in/s": 0.0254, "µm/s": 1e-6, "km/h": 1.0 / 3.6},
@@ -60,7 +60,7 @@ def made(rng, separator, decimal, encoding):
     if separator == " ":
         head = "{}[{}]"
         unit = unit.replace(" ", "")
-    names = ["t [{}]".format(time_unit) if separator != " " else f"t[{time_unit}]", head.format("x", unit), "note"]
+    names = [f"t [{time_unit}]" if separator != " " else f"t[{time_unit}]", head.format("x", unit), "note"]
     quote = rng.random() < 0.2 and separator != " "
     lines = [separator.join(f'"{name}"' if quote else name for name in names)]
     for a, b in zip(t, x, strict=True):
@@ -83,8 +83,16 @@ def damaged(rng, lines, separator, decimal):
     k = rng.randrange(first + 2, first + 7)
     cells = lines[k].split(separator)
     quote = '"' if cells[0].startswith('"') else ""
-    kind = rng.choice(["nan", "empty", "word", "short", "long", "back", "twice", "gap", "unit", "number", "inf", "date"])
-    faults = {"nan": "NaN", "empty": "" if separator != " " else "n/a", "word": "fault", "number": "1_000", "inf": "1e999"}
+    kind = rng.choice(
+        ["nan", "empty", "word", "short", "long", "back", "twice", "gap", "unit", "number", "inf", "date"]
+    )
+    faults = {
+        "nan": "NaN",
+        "empty": "" if separator != " " else "n/a",
+        "word": "fault",
+        "number": "1_000",
+        "inf": "1e999",
+    }
     faults["date"] = "2026-01-31" if separator != " " else "12:30:05"
     row = f"row {k + 1}"
     if kind in faults:
@@ -178,7 +186,9 @@ def test_the_units_of_the_fmu_have_the_exponents_of_its_table():
 )
 def test_ways_of_writing(text, base, expected, tmp_path):
     (tmp_path / "rig.csv").write_bytes(text.encode())
-    t, n = read(tmp_path / "rig.csv", Wanted("time", SECONDS), Wanted("n_rpm" if "n_rpm" in text else "n", scales(base)))
+    t, n = read(
+        tmp_path / "rig.csv", Wanted("time", SECONDS), Wanted("n_rpm" if "n_rpm" in text else "n", scales(base))
+    )
     assert n == pytest.approx(expected, rel=1e-15, abs=1e-13) and t[1] == 1.0
 
 
@@ -188,7 +198,7 @@ def test_ways_of_writing(text, base, expected, tmp_path):
         (b"time,n\n0,5,1,2\n1,5,1,3\n", ["row 2 has 4 entries", "a comma as decimal sign"]),
         (b"time;n\n0;1,5\n1;2.5\n", ["two decimal signs", 'row 2 has "1,5"', 'row 3 has "2.5"']),
         (b"time;n\n0;1,500\n1;2,750\n", ["row 2", '"1,500"', "a thousand"]),
-        (b"time,T_C\n0,20\n1,30\n", ['"T_C"', "is \"C\" its unit?"]),
+        (b"time,T_C\n0,20\n1,30\n", ['"T_C"', 'is "C" its unit?']),
         (b"0,1\n1,2\n2,3\n", ["row 1", "names"]),
         (b"PK\x03\x04\0\0", ["Excel workbook"]),
         (b"\xff\xfet\0,\0n\0\n\0\x00", ["UTF-16", "row 2"]),
@@ -217,9 +227,15 @@ def test_parquet_is_read_as_csv_is(tmp_path):
     parquet.write_table(pa.table({names[0]: list(range(9)), names[1]: pa.array([60] * 8 + [90], pa.int32())}), path)
     t, n = Table(path).series(Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
     assert t[-1] == pytest.approx(8e-3) and n[[0, -1]] == pytest.approx([2 * math.pi, 3 * math.pi])
-    for values, said in (([60.0, None, 1.0], 'row 2, column "n'), ([1.0, 2.0, math.nan], "row 3"), (list("abc"), "row 1")):
+    for values, said in (
+        ([60.0, None, 1.0], 'row 2, column "n'),
+        ([1.0, 2.0, math.nan], "row 3"),
+        (list("abc"), "row 1"),
+    ):
         field = pa.field("n", pa.array(values).type, metadata={"unit": "rpm"})
-        parquet.write_table(pa.table([[0, 1, 2], values], schema=pa.schema([pa.field("time", pa.int64()), field])), path)
+        parquet.write_table(
+            pa.table([[0, 1, 2], values], schema=pa.schema([pa.field("time", pa.int64()), field])), path
+        )
         with pytest.raises(UserError, match=said):
             read(path, Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
 

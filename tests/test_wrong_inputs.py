@@ -60,7 +60,7 @@ WRONG = {
     "run lengths.toml": ["inputs.shaft.F_y", "got 2 and 1"],
     "run csv.toml": ["none.csv", "no such file"],
     "run column.toml": ["loads.csv", '"G"', "allowed: time, F, word"],
-    "run words.toml": ["loads.csv", '"word"', "no numbers"],
+    "run words.toml": ["loads.csv", "row 2", '"word"', "not a number"],
     "run place.toml": ["inputs.joint.preload", "into [parameters]"],
     "run choice.toml": ["parameters.ring.tilt_mode = 'fixed'", "prescribed, supported, free"],
     "run whole.toml": ["parameters.start.seed = 1.5", "not an integer"],

@@ -528,7 +528,9 @@ def history_points(path, document, model):
     columns = columns_of(path, "history", section, model, ("bins",))
     bins = [count_of(path, f"history.{name}.bins", entry.get("bins", 5)) for name, (*_, entry) in columns.items()]
     if np.prod(bins, dtype=float) > MOST_CLASSES:
-        raise UserError(f"{path}: history: {np.prod(bins, dtype=float):.3g} classes; at most {MOST_CLASSES} are allowed")
+        raise UserError(
+            f"{path}: history: {np.prod(bins, dtype=float):.3g} classes; at most {MOST_CLASSES} are allowed"
+        )
     gap = section.get("longest_gap")
     gap = None if gap is None else 3600.0 * amount(path, "history.longest_gap", gap, HOURS)
     wanted = [column for _, column, _ in columns.values()]
