@@ -65,7 +65,11 @@ def read_measured(path, result, columns=None):
     time = tables.Wanted(columns.pop(TIME, TIME), SECONDS)
     table.place(time.name)
     if not columns:
-        columns = {own: head for head in table.heads if (own := tables.split_head(head)[0]) in recorded}
+        names = [tables.split_head(head)[0] for head in table.heads]
+        columns = dict(zip(names, table.heads, strict=True))
+        columns = {name: head for name, head in columns.items() if name in recorded and name != TIME}
+        if twice := [name for name in columns if names.count(name) > 1]:
+            raise UserError(f"{path}: {twice[0]}: two columns have this name")
         if not columns:
             raise UserError(
                 f"{path}: no column has the name of a recorded channel ({', '.join(table.heads)}); --column housing.F_y=NAME assigns one"

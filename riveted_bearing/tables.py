@@ -12,7 +12,7 @@ import codecs
 import csv
 import re
 from dataclasses import dataclass, field
-from itertools import islice
+from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +23,6 @@ from .units import is_unit, scale
 BLOCK = 65536  # rows that are read together
 SAMPLE = 60  # rows that decide on the separator
 SEPARATORS = ("\t", ";", "|", ",", None)  # None: spaces
-NAMED = {"\t": "tabs", ";": "semicolons", "|": "bars", ",": "commas", None: "spaces"}
 MARKS = {
     codecs.BOM_UTF8: "utf-8-sig",
     codecs.BOM_UTF32_LE: "utf-32",
@@ -198,9 +197,9 @@ def split_head(head):
     for bracket in re.finditer(r"\[([^][]*)\]|\(((?:[^()]|\([^()]*\))*)\)", head):
         unit = (bracket[1] if bracket[1] is not None else bracket[2]).strip()
         last = bracket.end() == len(head) and bracket.start() > 0
-        if (is_unit(unit) or last) and not unit.isdigit():
-            name = f"{head[: bracket.start()].rstrip()}{head[bracket.end() :]}".strip(" /,:")
-            return name, "" if unit == "1" else unit
+        index = unit.isdigit() and not (unit == "1" and head[bracket.start() - 1].isspace())
+        if (is_unit(unit) or last) and not index:
+            return f"{head[: bracket.start()].rstrip()}{head[bracket.end() :]}".strip(" /,:"), unit
     for between in (r"\s+in\s+", r"\s*,\s*", r"\s*/\s*"):
         name, *unit = re.split(between, head, maxsplit=1)
         if name and unit and is_unit(unit[0]):
@@ -263,39 +262,24 @@ class TextRows:
             raise UserError(f"{self.path}: row {at[0]}: not a row of a CSV table: {problem}") from None
 
     def head(self):
-        """Separator, first row of numbers and names: the first line of names that rows as long with numbers follow."""
+        """Separator, first row of numbers and names: by the first separator by which most rows are as long as the names."""
         declared = next((re.fullmatch(r'"?sep=(.)"?\s*', line, re.IGNORECASE) for _, line in self.lines()), None)
-        begin = 2 if declared else 1
-        best = None
+        best = 2.0, None, 0, []
         for separator in (declared[1],) if declared else SEPARATORS:
-            sample = list(islice(self.rows(separator, begin), SAMPLE))
-            for k, ((_, names), (row, entries)) in enumerate(zip(sample, sample[1:], strict=False)):
-                names, units = [name.strip() for name in names], [entry.strip() for entry in entries]
-                if len(names) < 2 or any(map(is_number, names)) or not fits(names, entries):
-                    continue
-                below = len(sample) > k + 2 and any(map(is_number, sample[k + 2][1]))
-                if below and all(unit == "" or is_unit(unit.strip("[]()")) for unit in units):
-                    named = [f"{n} [{u.strip('[]()')}]" if u else n for n, u in zip(names, units, strict=False)]
-                    return separator, row + 1, named
-                if not any(map(is_number, entries)):  # a remark, or a row without a number
-                    best = best or (len(sample), separator, row, names)
-                    continue
-                faults = sum(not fits(names, below) for _, below in sample[k + 1 :])
-                if 2 * faults < len(sample) - k - 1:
-                    return separator, row, names
-                if best is None or faults < best[0]:
-                    best = faults, separator, row, names
+            sample = list(islice(self.rows(separator, 2 if declared else 1), SAMPLE))
+            faults, first, names = head_of(sample)
+            if faults < best[0]:
+                best = faults, separator, first, names
+            if faults < 0.5:
                 break
-            if best is None and sample and len(sample[0][1]) > 1:
-                best = len(sample), separator, sample[0][0] + 1, [name.strip() for name in sample[0][1]]
-        if best is None:
+        faults, separator, first, names = best
+        if faults > 1.0:
             raise UserError(
                 f"{self.path}: not a CSV table: a line of names and rows of numbers with commas, semicolons or tabs between are needed"
             )
-        _, separator, row, names = best
         if all(map(is_number, filter(None, names))):
-            raise UserError(f"{self.path}: row {row - 1}: numbers where the names of the columns are needed")
-        return separator, row, names
+            raise UserError(f"{self.path}: row {first - 1}: numbers where the names of the columns are needed")
+        return separator, first, names
 
     def decimal_sign(self):
         """The decimal sign by all entries; UserError if the file has both, or one that may part thousands."""
@@ -367,6 +351,29 @@ class TextRows:
         if DIGITS.fullmatch(plain) and np.isfinite(float(plain)):
             return float(plain)
         raise entry_fault(self.path, row, self.heads[place], text)
+
+
+def head_of(sample):
+    """Share of rows of another length, first row of numbers, and names with their units, from the first rows of a file:
+    the names are the first row without a number before a row with numbers that is as long.
+    """
+    for k, ((_, names), (row, entries)) in enumerate(pairwise(sample)):
+        names, units = [name.strip() for name in named(names)], [entry.strip().strip("[]()") for entry in entries]
+        if len(names) < 2 or any(map(is_number, names)) or not fits(names, entries):
+            continue
+        below = sample[k + 1 :]
+        if any(map(is_number, entries)):
+            return sum(not fits(names, cells) for _, cells in below) / len(below), row, names
+        if len(below) > 1 and any(map(is_number, below[1][1])) and all(unit == "" or is_unit(unit) for unit in units):
+            return 0.0, row + 1, [f"{n} [{u}]" if u else n for n, u in zip(names, units, strict=False)]
+    if sample and len(sample[0][1]) > 1:
+        return 1.0, sample[0][0] + 1, [name.strip() for name in named(sample[0][1])]
+    return 2.0, 0, []
+
+
+def named(names):
+    """The names up to the last one that is not empty."""
+    return names[: max((k for k, name in enumerate(names, 1) if name.strip()), default=0)]
 
 
 def entry_fault(path, row, head, text):

@@ -64,6 +64,8 @@ PLAIN = {  # no prefix stands before these
     "h": (TIME, 3600.0),
     "day": (TIME, 86400.0),
     "deg": (ANGLE, math.pi / 180.0),
+    "arcmin": (ANGLE, math.pi / 10800.0),
+    "arcsec": (ANGLE, math.pi / 648000.0),
     "rev": (ANGLE, 2.0 * math.pi),
     "rpm": ((0, 0, -1, 0, 1), 1.0 / RPM),
     "krpm": ((0, 0, -1, 0, 1), 1e3 / RPM),
