@@ -46,6 +46,7 @@ HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 DEEPEST = 50  # tables or lists in each other
+MOST_STEPS = 1e12
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
@@ -284,7 +285,7 @@ def read_changes(where, blocks, model):
 
 def unit_of(value):
     """The unit that the user wrote with a value or a history; None for numbers."""
-    return canonical(value["unit"]) if isinstance(value, dict) and "unit" in value else symbol_of(value)
+    return canonical(value["unit"]) if isinstance(value, dict) and value.get("unit") else symbol_of(value)
 
 
 def section_of(where, document, name):
@@ -507,6 +508,9 @@ def check_times(scene, where):
     """UserError unless step, output interval and end fit each other and the result is no larger than LARGEST_RESULT."""
     if scene.step > scene.t_end:
         raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
+    longest = max(scene.t_end, scene.output_interval or 0.0)
+    if longest / scene.step > MOST_STEPS:
+        raise refusal(where, "simulation.step", scene.step, f"at least {longest / MOST_STEPS:.3g} s is allowed here")
     if scene.output_interval is not None and (
         scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9
     ):
