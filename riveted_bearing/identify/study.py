@@ -505,7 +505,7 @@ class Reader:
             unit, scales = self.channel(where, "channel", channel)
             t, values = table.series(time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=gap)
             if len(t) < 16 * SEGMENTS:
-                raise UserError(f"{file}: {len(t)} rows; at least {16 * SEGMENTS} are needed")
+                raise UserError(f"{file}: {len(t)} rows: at least {16 * SEGMENTS} times are needed")
             head = table.heads[table.place(wanted)]
             measures = [Measure(kind, channel) for kind in kinds] + self.bands_of(where, channel, point, t, count)
             for measure in measures:
