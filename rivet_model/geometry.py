@@ -171,9 +171,9 @@ class Geometry:
         Raises ValueError for an unknown key or an impossible size, OSError if the file cannot be read.
         """
         try:
-            data = tomllib.loads(Path(path).read_text(encoding="utf-8"))
-        except tomllib.TOMLDecodeError as error:
-            raise ValueError(f"{path}: {error}") from error
+            data = tomllib.loads(Path(path).read_text(encoding="utf-8-sig"))
+        except (ValueError, RecursionError) as error:  # of the text, of int() or of nested lists
+            raise ValueError(f"{path}: not valid TOML: {error}") from error
         known = {field.name for field in fields(cls)}
         unknown = sorted(set(data) - known)
         if unknown:

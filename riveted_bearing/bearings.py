@@ -37,13 +37,14 @@ from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
 from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling
-from .errors import UserError, unknown
+from .errors import UserError, is_file, unknown
 from .file_kinds import OF_BEARINGS, check_keys
 from .origin import EXAMPLE, SOURCE
 from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
+LARGEST_RIVET = 1.0  # m
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
 BOUNDARY = ("bore", "outside_diameter", "width")
 CATALOGUE = (*BOUNDARY, "C", "C_0")
@@ -209,7 +210,7 @@ def find_bearing(source):
     """The file of a bearing given by path or by designation."""
     if str(source) in shipped_bearings():
         return SHIPPED / f"{source}.toml"
-    if Path(source).is_file():
+    if is_file(source):
         return Path(source)
     raise unknown_designation("bearing", "name or file", source, known_bearings())
 
@@ -218,8 +219,9 @@ def unknown_designation(where, kind, name, known):
     """The error for a designation that is not among the known ones: one with a suffix leads to the designation without
     it, another number to no other bearing.
     """
-    number = re.match(r"\d{4,}(?!\d)", str(name))
-    if number and number[0] in known and number[0] != str(name):
+    name = str(name)
+    number = re.match(r"\d{4,}(?!\d)", name)
+    if number and number[0] in known and number[0] != name:
         return UserError(
             f'{where}: unknown {kind} "{name}"; did you mean "{number[0]}"? Suffixes for seals, cage and clearance are not '
             'part of the name: a bearing file has clearance = "C3" in [catalogue]'
@@ -229,7 +231,7 @@ def unknown_designation(where, kind, name, known):
             f'{where}: unknown {kind} "{name}"; the catalogue has {len(catalogue.entries())} bearings of the series 60, 62, 63 '
             "and 64 with bores of 10 to 110 mm; a bearing file describes others"
         )
-    if Path(name).suffix == ".toml" or Path(name).name != str(name):
+    if Path(name).suffix == ".toml" or Path(name).name != name:
         return UserError(f"{where}: {name}: no such file")
     return unknown(where, kind, name, known)
 
@@ -238,7 +240,7 @@ def is_bearing(source):
     """Whether a name or file means a bearing, not a scene."""
     if str(source) in known_bearings() or str(source) in shipped_scenes():
         return str(source) in known_bearings()
-    return Path(source).is_file() and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
+    return is_file(source) and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
 
 
 def bearing_case(source, rivet=None, cage=None):
@@ -306,7 +308,10 @@ def check_designation(path, document):
     """UserError for a designation that the catalogue does not know in a file that leaves the balls to it: those of the
     6207 would take their place.
     """
-    if "designation" not in document or str(document["designation"]) in catalogue.entries():
+    designation = document.get("designation", "")
+    if isinstance(designation, bool) or not isinstance(designation, str | int):
+        raise refusal(path, "designation", designation, 'a text such as "6210" is needed')
+    if "designation" not in document or str(designation) in catalogue.entries():
         return
     parameters = dict(flat(section_of(path, document, "parameters")))
     missing = [
@@ -630,14 +635,17 @@ def rivet_values(path, section, where):
     """Dimensions of a rivet in SI, each checked; where: in front of the key in messages."""
     for key, value in section.items():
         try:
-            yield key, positive(value, unit_scales(rivet_unit(key)))
+            number, unit = positive(value, unit_scales(rivet_unit(key))), rivet_unit(key)
+            if unit == "m" and number > LARGEST_RIVET:
+                raise UserError(f"at most {LARGEST_RIVET:g} m is allowed")
+            yield key, number
         except UserError as problem:
             raise refusal(path, f"{where}{key}", value, problem) from None
 
 
 def clearance_class(path, name, given, data, entry):
     """bearing.P_d by the name of a class, which needs a bore and no clearance in [parameters] beside it."""
-    if name not in catalogue.CLEARANCE:
+    if not isinstance(name, str) or name not in catalogue.CLEARANCE:
         raise refusal(path, "catalogue.clearance", name, f"allowed: {', '.join(catalogue.CLEARANCE)}")
     if "bearing.P_d" in given:
         raise refusal(path, "catalogue.clearance", name, "allowed without bearing.P_d, which is given too")
@@ -738,7 +746,7 @@ def case_of(target=None, fmu=None, cage=None):
     """
     target = EXAMPLE if target is None and fmu is None else target
     names = [*known_bearings(), *shipped_scenes()]
-    if target is not None and str(target) not in names and not Path(target).is_file():
+    if target is not None and str(target) not in names and not is_file(target):
         raise unknown_designation("info", "bearing, scene or file", target, names)
     if target is not None and is_bearing(target):
         return bearing_case(target, cage=cage)

@@ -3,6 +3,7 @@
 import re
 import reprlib
 from difflib import get_close_matches
+from pathlib import Path
 
 
 class UserError(ValueError):
@@ -17,6 +18,14 @@ def unknown(where, kind, name, allowed):
     near = [bracketed] if bracketed in allowed else get_close_matches(bracketed, list(allowed), n=1, cutoff=0.6)
     hint = f'did you mean "{near[0]}"?' if near else f"allowed: {shortlist(allowed)}"
     return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
+
+
+def is_file(path):
+    """Whether a path is a file; a name that the system cannot have is none."""
+    try:
+        return Path(path).is_file()
+    except OSError:
+        return False
 
 
 def refusal(where, key, value, reason):

@@ -1,23 +1,22 @@
 """A measured series beside a run's: statistics, spectra and both over time, side by side.
 
-    time [ms],housing.F_y [kN]        # a line of names, units in brackets; a name without a unit is SI
+    time [ms],housing.F_y [kN]        # a table as tables.py reads it
     0.0,2.98
 
 A column is that of the channel it is named after, or of the one that `columns` says.  The motion of a bearing is chaotic
 and a measurement has no common start with a run: no point of one is compared with a point of the other.
 """
 
-import csv
 import re
 from dataclasses import dataclass, field
-from pathlib import Path
 
 import numpy as np
 from scipy.signal import welch
 
 from bearing_model.generated import variables
 
-from .errors import UserError, refusal, unknown
+from . import tables
+from .errors import UserError, unknown
 from .plot import FORCE, HEAD, MUTED
 from .summary import settled
 from .units import SECONDS, canonical, scale, scales_of, suffix
@@ -31,7 +30,9 @@ BUCKETS = 300
 
 @dataclass(frozen=True)
 class Series:
-    """A channel of the run with the measured one: times [s] and values in the unit shown; column: as the file names it."""
+    """A channel of the run with the measured one: times [s] and values in the unit shown; column: as the file names it;
+    gap: in its times, in words.
+    """
 
     channel: str
     column: str
@@ -40,54 +41,7 @@ class Series:
     run: np.ndarray = field(repr=False)
     t_measured: np.ndarray = field(repr=False)
     measured: np.ndarray = field(repr=False)
-
-
-def split_name(text):
-    """Name and unit ("" for none) of a header; an index is no unit."""
-    match = re.fullmatch(r"(.*\S)\s+\[([^][]*)\]", text.strip())
-    return (match[1], match[2].strip()) if match else (text.strip(), "")
-
-
-def read_table(path):
-    """Headers and columns of a CSV file; lines with # in front are skipped, and so is a mark of the byte order."""
-    path = Path(path)
-    if not path.is_file():
-        raise UserError(f"{path}: no such file")
-    try:
-        lines = [line for line in path.read_text(encoding="utf-8-sig").splitlines() if line and line[0] != "#"]
-        rows = list(csv.reader(lines))
-    except (OSError, UnicodeDecodeError, csv.Error) as problem:
-        raise UserError(f"{path}: not a CSV table: {problem}") from None
-    if len(rows) < 2:
-        raise UserError(f"{path}: a line of names and rows of numbers with commas between are needed")
-    names = [name.strip() for name in rows[0]]
-    if twice := {name for name in names if names.count(name) > 1}:
-        raise UserError(f"{path}: {', '.join(sorted(twice))}: two columns have this name")
-    for number, row in enumerate(rows[1:], 2):
-        if len(row) != len(names):
-            raise UserError(f"{path}: row {number} has {len(row)} entries, the line of names has {len(names)}")
-    return names, list(zip(*rows[1:], strict=True))
-
-
-def numbers(path, name, column):
-    """A column as floats."""
-    try:
-        values = np.array(column, float)
-    except ValueError:
-        bad = next(text for text in column if not is_float(text))
-        raise refusal(path, f'column "{name}"', bad, "not a number") from None
-    if not np.all(np.isfinite(values)):
-        raise UserError(f'{path}: column "{name}" has entries that are not finite')
-    return values
-
-
-def is_float(text):
-    """Whether a text is a number."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
+    gap: str = ""
 
 
 def assigned(options):
@@ -101,56 +55,52 @@ def assigned(options):
     return found
 
 
-def find_column(path, names, wanted):
-    """Place and unit of a column given as "name" or "name [unit]"."""
-    name, unit = split_name(wanted)
-    for i, header in enumerate(names):
-        own, own_unit = split_name(header)
-        if header == wanted or own == wanted or own == name:
-            if unit and own_unit and unit != own_unit:
-                raise UserError(f'{path}: column "{header}": its unit is {own_unit}, but [{unit}] was asked for')
-            return i, unit or own_unit
-    raise unknown(path, "column", wanted, names)
-
-
 def read_measured(path, result, columns=None):
-    """The Series of a CSV file beside a Result; columns: {channel: column} where names differ, "time" among them.
+    """The Series of a table (tables.py) beside a Result; columns: {channel: column} where names differ, "time" among them.
 
     Raises UserError if nothing fits, or naming file, column and value that cannot be used.
     """
-    names, table = read_table(path)
-    columns, recorded = dict(columns or {}), [name for name in result.data if name != TIME]
-    i, unit = find_column(path, names, columns.pop(TIME, TIME))
-    t = in_si(path, names[i], numbers(path, names[i], table[i]), unit, SECONDS)
-    if len(t) < FEWEST or np.any(np.diff(t) <= 0.0):
-        raise UserError(f'{path}: column "{names[i]}": at least {FEWEST} times that increase are needed')
+    table, columns = tables.Table(path), dict(columns or {})
+    recorded = [name for name in result.data if name != TIME]
+    time = tables.Wanted(columns.pop(TIME, TIME), SECONDS)
+    table.place(time.name)
     if not columns:
-        columns = {own: header for header in names if (own := split_name(header)[0]) in recorded}
+        names = [tables.split_head(head)[0] for head in table.heads]
+        columns = dict(zip(names, table.heads, strict=True))
+        columns = {name: head for name, head in columns.items() if name in recorded and name != TIME}
+        if twice := [name for name in columns if names.count(name) > 1]:
+            raise UserError(f"{path}: {twice[0]}: two columns have this name")
         if not columns:
             raise UserError(
-                f"{path}: no column has the name of a recorded channel ({', '.join(names)}); --column housing.F_y=NAME assigns one"
+                f"{path}: no column has the name of a recorded channel ({', '.join(table.heads)}); --column housing.F_y=NAME assigns one"
             )
     late = settled(result)
     found = []
-    for channel, wanted in columns.items():
+    for channel, name in columns.items():
         if channel not in recorded:
             raise unknown(f"{path}: --column", "recorded channel", channel, recorded)
-        i, unit = find_column(path, names, wanted)
         variable = KNOWN.get(re.sub(r"\[\d+\]", "[j]" if channel.startswith("ball") else "[k]", channel))
         own = result.units.get(channel, "1")
         displays = variables.UNITS.get(own, {})
-        values = in_si(path, names[i], numbers(path, names[i], table[i]), unit, scales_of(own, displays))
-        shown = unit_shown(unit, variable, own, displays)
-        factor, offset = scale(shown, scales_of(own, displays)) if shown != own else (1.0, 0.0)
+        scales = scales_of(own, displays)
+        wanted = tables.Wanted(name, scales)
+        rows, t, values = table.rows_and_columns(time, wanted)
+        clock = table.clock(time, strict=False)
+        clock.add(rows, t)
+        if len(t) < FEWEST:
+            raise UserError(f'{path}: column "{time.name}": at least {FEWEST} times are needed')
+        shown = unit_shown(table.unit(wanted), variable, own, displays)
+        factor, offset = scale(shown, scales) if shown != own else (1.0, 0.0)
         found.append(
             Series(
                 channel,
-                names[i],
+                table.heads[table.place(name)],
                 suffix(shown).strip(),
                 result.data["time"][late],
                 factor * result.data[channel][late] + offset,
                 t,
                 factor * values + offset,
+                clock.note,
             )
         )
     return found
@@ -161,17 +111,6 @@ def unit_shown(unit, variable, own, displays):
     if unit:
         return canonical(unit)
     return variable.display if variable is not None and variable.display in displays else own
-
-
-def in_si(path, name, values, unit, scales):
-    """A column in SI units."""
-    if not unit:
-        return values
-    try:
-        factor, offset = scale(unit, scales)
-    except UserError as problem:
-        raise UserError(f'{path}: column "{name}": {problem}') from None
-    return (values - offset) / factor
 
 
 def statistics(t, values):
@@ -210,7 +149,10 @@ def spectrum_note(series):
         for who, t, values in (("run", series.t_run, series.run), ("measurement", series.t_measured, series.measured))
         if spectrum(t, values) is None
     ]
-    return f"No spectrum of the {' and of the '.join(lacking)}: its times are not equally spaced." if lacking else ""
+    gap = f" ({series.gap})" if series.gap else ""
+    return (
+        f"No spectrum of the {' and of the '.join(lacking)}: its times are not equally spaced{gap}." if lacking else ""
+    )
 
 
 def time_chart(fig, series):

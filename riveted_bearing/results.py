@@ -13,6 +13,7 @@ import json
 import math
 import os
 import re
+import secrets
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -264,7 +265,7 @@ def write_atomically(path, write):
     folder or disk refuse.
     """
     make_folder(path.parent)
-    temporary = path.with_name(f".{path.stem}.{os.getpid()}{path.suffix}")
+    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(8)}{path.suffix}")
     try:
         write(temporary)
         with temporary.open("rb+") as file:  # some file systems say only now that they are full

@@ -10,7 +10,7 @@
     [parameters]                      # at the start; dotted keys, nested tables or quoted full names
     joint.preload = "30 N"
     ring.tilt_mode = "supported"
-    [inputs]                          # constant, points or a column of a CSV file; held before the first and after the last point
+    [inputs]                          # constant, points or a column of a table (tables.py); held before the first and after the last point
     shaft.F_y = "2994 N"
     shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
     shaft.F_x = { file = "loads.csv", column = "thrust", time = "t", unit = "kN", interpolation = "hold" }
@@ -23,7 +23,6 @@
 A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
 """
 
-import io
 import re
 import reprlib
 import tomllib
@@ -33,17 +32,21 @@ from pathlib import Path
 
 import numpy as np
 
-from .errors import UserError, refusal, shortlist, unknown
+from . import tables
+from .errors import UserError, is_file, refusal, shortlist, unknown
 from .file_kinds import check_keys
 from .oil import check_given, merged
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
+from .variable_list import is_like
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
-COLUMN = ("file", "column", "time", "unit", "interpolation")
+COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
+DEEPEST = 50  # tables or lists in each other
+MOST_STEPS = 1e12
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
@@ -162,7 +165,7 @@ def find_scene(source):
     if str(source) in shipped_scenes():
         return SHIPPED / f"{source}.toml"
     path = Path(source)
-    if path.is_file():
+    if is_file(path):
         return path
     if path.suffix:
         raise UserError(f"{source}: no such scene file")
@@ -170,16 +173,38 @@ def find_scene(source):
 
 
 def read_toml(path):
-    """The document of a TOML file; UserError if it cannot be read."""
+    """The document of a TOML file, UTF-8 with or without a mark; UserError if it cannot be read."""
     try:
-        text = path.read_text(encoding="utf-8")
-        return tomllib.loads(text)
+        data = path.read_bytes()
+        text = data.decode("utf-8-sig").replace("\r\n", "\n")
+        document = tomllib.loads(text)
+        check_integers(path, document)
+        return document
     except UnicodeDecodeError as problem:
-        raise UserError(f"{path}: not valid TOML: {problem}") from None
+        row = data[: problem.start].count(b"\n") + 1
+        raise UserError(f"{path}: not valid TOML: line {row} is not UTF-8: save the file as UTF-8") from None
     except tomllib.TOMLDecodeError as problem:
         raise UserError(f"{path}: not valid TOML: {problem}{quotes_hint(text, problem)}") from None
+    except UserError:
+        raise
+    except ValueError:  # of int()
+        raise UserError(f"{path}: not valid TOML: an integer of thousands of digits") from None
+    except RecursionError:
+        raise UserError(f"{path}: not valid TOML: tables or lists are nested too deeply") from None
     except OSError as problem:
         raise UserError(f"{path}: {problem.strerror}") from None
+
+
+def check_integers(path, document, key="", depth=0):
+    """UserError for an integer beyond the 64 bits that TOML has; RecursionError beyond DEEPEST."""
+    if depth > DEEPEST:
+        raise RecursionError
+    for name, value in document.items() if isinstance(document, dict) else enumerate(document, 1):
+        place = f"{key}.{name}".lstrip(".")
+        if isinstance(value, dict | list):
+            check_integers(path, value, place, depth + 1)
+        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
+            raise refusal(path, place, value, "an integer of at most 64 bits is allowed")
 
 
 def quotes_hint(text, problem):
@@ -260,7 +285,7 @@ def read_changes(where, blocks, model):
 
 def unit_of(value):
     """The unit that the user wrote with a value or a history; None for numbers."""
-    return canonical(value["unit"]) if isinstance(value, dict) and "unit" in value else symbol_of(value)
+    return canonical(value["unit"]) if isinstance(value, dict) and value.get("unit") else symbol_of(value)
 
 
 def section_of(where, document, name):
@@ -345,13 +370,15 @@ def profile_waves(race, value, model, folder):
     if not isinstance(value, dict):
         raise UserError('not a table such as { file = "race.csv", angle = "phi", height = "h" }')
     check_entries(value, SURFACE, ("file", "angle", "height"))
-    column = read_columns(folder / value["file"])
-    units = model.units["rad"], model.units["m"]
-    factors = [scale(value[key], of)[0] if key in value else 1.0 for key, of in zip(SURFACE[2::2], units, strict=True)]
+    angle, height = tables.read(
+        folder / value["file"],
+        tables.Wanted(value["angle"], model.units["rad"], value.get("angle_unit", "")),
+        tables.Wanted(value["height"], model.units["m"], value.get("unit", "")),
+    )
     variables = {kind: model.parameters.get(f"{race}.{kind}[1]") for kind in ("waviness", "waviness_phase")}
     if None in variables.values():
         raise UserError(f"this FMU has no {race}.waviness")
-    amplitude, phase = waves_of(column(value["angle"]) / factors[0], column(value["height"]) / factors[1])
+    amplitude, phase = waves_of(angle, height)
     found = {}
     for n, (a, b) in enumerate(zip(amplitude, phase, strict=True), 1):
         model.check_range(a, model.parameters[f"{race}.waviness[{n}]"])
@@ -402,7 +429,7 @@ def select(patterns, model):
     names = [*model.inputs, *model.outputs]
     chosen = set()
     for pattern in patterns:
-        matches = [name for name in names if re.fullmatch(re.escape(pattern).replace(r"\*", ".*"), name)]
+        matches = [name for name in names if is_like(name, pattern)]
         if not matches:
             raise unknown("outputs", "name", pattern, names)
         chosen.update(matches)
@@ -448,39 +475,15 @@ def from_points(value, scales):
 
 
 def from_column(value, scales, folder):
-    """A History from { file = "...", column = "..." }: CSV with a header line, lines with # in front are skipped, times
-    in s.
-    """
+    """A History from { file = "...", column = "..." }: a table with times in s or in the unit of their head."""
     check_entries(value, COLUMN, ("file", "column"))
-    column = read_columns(folder / value["file"])
-    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
-    return History(column(value.get("time", "time")), (column(value["column"]) - offset) / factor, is_hold(value))
-
-
-def read_columns(path):
-    """A function name -> numbers of a CSV file with a header line; UserError names what is missing."""
-    if not path.is_file():
-        raise UserError(f"{path}: no such file")
-    from pyarrow import ArrowInvalid, csv
-
-    try:
-        text = "\n".join(line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
-        table = csv.read_csv(io.BytesIO(text.encode()))
-    except OSError as problem:
-        raise UserError(f"{path}: {problem.strerror}") from None
-    except (ArrowInvalid, UnicodeDecodeError) as problem:
-        raise UserError(f"{path}: not a CSV table: {problem}") from None
-    names = [name.strip() for name in table.column_names]
-
-    def column(name):
-        if name not in names:
-            raise unknown(path, "column", name, names)
-        values = table.column(names.index(name)).to_numpy()
-        if not np.issubdtype(values.dtype, np.number):
-            raise UserError(f'{path}: column "{name}" has entries that are no numbers')
-        return values.astype(float)
-
-    return column
+    gap = seconds("longest_gap", value["longest_gap"]) if "longest_gap" in value else None
+    t, values = tables.Table(folder / value["file"]).series(
+        tables.Wanted(value.get("time", "time"), SECONDS),
+        tables.Wanted(value["column"], scales, value.get("unit", "")),
+        gap=gap,
+    )
+    return History(t, values, is_hold(value))
 
 
 def check_entries(value, allowed, needed):
@@ -488,7 +491,7 @@ def check_entries(value, allowed, needed):
     for key, entry in value.items():
         if key not in allowed:
             raise UserError(f'unknown key "{key}"; allowed: {shortlist(allowed)}')
-        if key not in ("t", "value") and not isinstance(entry, str):
+        if key not in ("t", "value", "longest_gap") and not isinstance(entry, str):
             raise UserError(f"{key} = {reprlib.repr(entry)}: not a text")
     for key in needed:
         if key not in value:
@@ -507,6 +510,9 @@ def check_times(scene, where):
     """UserError unless step, output interval and end fit each other and the result is no larger than LARGEST_RESULT."""
     if scene.step > scene.t_end:
         raise refusal(where, "simulation.step", scene.step, f"not longer than t_end = {scene.t_end:g} s is allowed")
+    longest = max(scene.t_end, scene.output_interval or 0.0)
+    if longest / scene.step > MOST_STEPS:
+        raise refusal(where, "simulation.step", scene.step, f"at least {longest / MOST_STEPS:.3g} s is allowed here")
     if scene.output_interval is not None and (
         scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9
     ):

@@ -46,7 +46,7 @@ import numpy as np
 from filelock import FileLock, Timeout
 
 from .basis import basis
-from .errors import UserError, unknown
+from .errors import UserError, is_file, unknown
 from .file_kinds import check_keys
 from .fmu import Model
 from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
@@ -269,7 +269,7 @@ def beside(path, source):
     if source is None or source in shipped_scenes() or Path(source).is_absolute():
         return source
     file = Path(path).parent / source
-    if not file.is_file():
+    if not is_file(file):
         if not file.suffix:
             raise unknown(f"{path}: scene", "name", source, shipped_scenes())
         raise UserError(f"{path}: scene: {file}: no such scene file")

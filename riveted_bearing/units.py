@@ -1,65 +1,183 @@
 """Values with units: "18238 rev/min" becomes 1909.9 rad/s, or an error.
 
-The units are those of the FMU (fmus/variables.toml, [units]) and those of workshops and catalogues (MULTIPLES).  A text
-must carry a unit of its own variable, so that 3600 rev/min cannot pass for 3600 rad/s; a bare number is SI.
+A unit is read by its atoms, prefixes and powers: "kN", "mm/s", "lbf.in", "µm", "min^-1".  It must have the dimension of
+its variable, so that 3600 rev/min cannot pass for 3600 rad/s; a bare number is SI.  The angle is a dimension of its own,
+as in FMI: a library that drops it reads 1/min as 1/60 rad/s.  What a symbol means may depend on the quantity (g: gram or
+gravity; lb: mass or force; 1/min: revolutions where a speed is wanted); 1/s and Hz are no speed, for they may be either.
 """
 
 import math
 import re
+from functools import cache
 from numbers import Real
 
 from .errors import UserError
 
 # m, kg, m/s2: exact by definition; rev/min per rad/s
 INCH, POUND, GRAVITY, RPM = 0.0254, 0.45359237, 9.80665, 30.0 / math.pi
-SPELLINGS = {  # symbol -> how else people write it
-    "rev/min": "rpm r/min 1/min min-1",
+BASE = ("kg", "m", "s", "K", "rad")
+PREFIXES = {"T": 1e12, "G": 1e9, "M": 1e6, "k": 1e3, "K": 1e3, "h": 1e2, "da": 1e1, "d": 1e-1, "c": 1e-2, "m": 1e-3}
+PREFIXES |= {"u": 1e-6, "n": 1e-9, "p": 1e-12}
+WORD_PREFIXES = {"giga": 1e9, "mega": 1e6, "kilo": 1e3, "centi": 1e-2, "milli": 1e-3, "micro": 1e-6, "nano": 1e-9}
+FORCE, PRESSURE, TORQUE = (1, 1, -2, 0, 0), (1, -1, -2, 0, 0), (1, 2, -2, 0, 0)
+LENGTH, TIME, MASS, ANGLE = (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (1, 0, 0, 0, 0), (0, 0, 0, 0, 1)
+PREFIXED = {  # symbol -> exponents of BASE and SI value; SI prefixes may stand before it
+    "m": (LENGTH, 1.0),
+    "g": (MASS, 1e-3),
+    "s": (TIME, 1.0),
+    "sec": (TIME, 1.0),
+    "K": ((0, 0, 0, 1, 0), 1.0),
+    "rad": (ANGLE, 1.0),
+    "Hz": ((0, 0, -1, 0, 0), 1.0),
+    "N": (FORCE, 1.0),
+    "dyn": (FORCE, 1e-5),
+    "Pa": (PRESSURE, 1.0),
+    "bar": (PRESSURE, 1e5),
+    "J": (TORQUE, 1.0),
+    "W": ((1, 2, -3, 0, 0), 1.0),
+    "L": ((0, 3, 0, 0, 0), 1e-3),
+    "l": ((0, 3, 0, 0, 0), 1e-3),
+    "P": ((1, -1, -1, 0, 0), 0.1),
+    "St": ((0, 2, -1, 0, 0), 1e-4),
+    "Nm": (TORQUE, 1.0),
+    "Nmm": (TORQUE, 1e-3),
+    "Ncm": (TORQUE, 1e-2),
+    "Pas": ((1, -1, -1, 0, 0), 1.0),
+}
+PLAIN = {  # no prefix stands before these
+    "in": (LENGTH, INCH),
+    "ft": (LENGTH, 12.0 * INCH),
+    "mil": (LENGTH, 1e-3 * INCH),
+    "micron": (LENGTH, 1e-6),
+    "lb": (MASS, POUND),
+    "oz": (MASS, POUND / 16.0),
+    "t": (MASS, 1e3),
+    "lbf": (FORCE, POUND * GRAVITY),
+    "ozf": (FORCE, POUND * GRAVITY / 16.0),
+    "kip": (FORCE, 1e3 * POUND * GRAVITY),
+    "kgf": (FORCE, GRAVITY),
+    "psi": (PRESSURE, POUND * GRAVITY / INCH**2),
+    "ksi": (PRESSURE, 1e3 * POUND * GRAVITY / INCH**2),
+    "atm": (PRESSURE, 101325.0),
+    "hp": ((1, 2, -3, 0, 0), 550.0 * 12.0 * INCH * POUND * GRAVITY),
+    "min": (TIME, 60.0),
+    "h": (TIME, 3600.0),
+    "day": (TIME, 86400.0),
+    "deg": (ANGLE, math.pi / 180.0),
+    "arcmin": (ANGLE, math.pi / 10800.0),
+    "arcsec": (ANGLE, math.pi / 648000.0),
+    "rev": (ANGLE, 2.0 * math.pi),
+    "rpm": ((0, 0, -1, 0, 1), 1.0 / RPM),
+    "krpm": ((0, 0, -1, 0, 1), 1e3 / RPM),
+    "gmm": ((1, 1, 0, 0, 0), 1e-6),
+    "%": ((0, 0, 0, 0, 0), 1e-2),
+    "‰": ((0, 0, 0, 0, 0), 1e-3),
+    "ppm": ((0, 0, 0, 0, 0), 1e-6),
+}
+NAMES = {  # other names of an atom
+    "m": "metre meter",
+    "s": "second",
+    "g": "gram gramme",
+    "N": "newton",
+    "Pa": "pascal",
+    "Hz": "hertz cps",
+    "J": "joule",
+    "W": "watt",
+    "L": "litre liter",
+    "K": "kelvin",
+    "rad": "radian",
+    "in": 'inch inches "',
+    "ft": "foot feet",
+    "mil": "mils thou",
+    "lb": "lbs lbm pound",
+    "lbf": "lbsf",
+    "kgf": "kp",
+    "psi": "PSI",
+    "min": "minute",
+    "h": "hr hrs hour",
+    "day": "d days",
+    "deg": "° degree",
+    "rev": "r revs U tr turn revolution",
+    "rpm": "RPM Rpm",
+    "micron": "microns",
+    "%": "percent",
+}
+ATOMS = PREFIXED | PLAIN
+ALIASES = {name: symbol for symbol, names in NAMES.items() for name in names.split()}
+REVOLUTION = 2.0 * math.pi
+# what a symbol means where another quantity than its own is wanted: SI unit -> {symbol: SI value}
+MEANT = {
+    "m/s2": {"g": GRAVITY, "G": GRAVITY, "gn": GRAVITY, "g0": GRAVITY, "mg": 1e-3 * GRAVITY, "ug": 1e-6 * GRAVITY},
+    "rad/s": {"1/min": REVOLUTION / 60.0, "min-1": REVOLUTION / 60.0, "/min": REVOLUTION / 60.0, "rps": REVOLUTION},
+    "1": {"-": 1.0},
+}
+AS_FORCE = {"lb": "lbf", "oz": "ozf"}  # where a pound of mass does not fit
+TEMPERATURES = {  # symbol -> (factor, offset): value in it = factor * K + offset
+    "degC": (1.0, -273.15),
+    "degF": (1.8, -459.67),
+}
+SPELLINGS = {  # how a symbol is shown -> how else people write it
+    "rev/min": "rpm RPM Rpm r/min U/min tr/min",
     "krpm": "krev/min",
-    "um": "µm μm micron",
+    "um": "micron",
     "in": 'inch inches "',
     "deg": "°",
-    "degC": "°C C",
-    "degF": "°F F",
+    "degC": "°C C ℃ celsius Celsius",
+    "degF": "°F F fahrenheit Fahrenheit",
     "kgf": "kp",
     "N.m": "Nm",
     "N.mm": "Nmm",
-    "MPa": "N/mm2 N/mm²",
-    "m2/s": "m²/s",
-    "mm2/s": "mm²/s cSt",
-    "kg/m3": "kg/m³",
-    "g/cm3": "g/cm³",
-    "m/s2": "m/s²",
+    "MPa": "N/mm2",
+    "mm2/s": "cSt",
     "L/min": "l/min",
     "Pa.s": "Pas",
     "mPa.s": "mPas",
     "s": "sec",
 }
 SYMBOLS = {spelling: symbol for symbol, spellings in SPELLINGS.items() for spelling in spellings.split()}
-# in addition to the display units of the variable table: value in that symbol = factor * SI value + offset
+# shown as allowed beside the display units of the variable table
 MULTIPLES = {
-    "m": {"cm": (1e2, 0.0), "in": (1.0 / INCH, 0.0)},
-    "N": {"kN": (1e-3, 0.0), "kgf": (1.0 / GRAVITY, 0.0), "lbf": (1.0 / (POUND * GRAVITY), 0.0)},
-    "N.m": {"N.mm": (1e3, 0.0), "kN.m": (1e-3, 0.0)},
-    "rad": {"mrad": (1e3, 0.0)},
-    "rad/s": {"krpm": (1e-3 * RPM, 0.0), "rev/s": (RPM / 60.0, 0.0)},
-    "Pa": {"bar": (1e-5, 0.0), "psi": (INCH**2 / (POUND * GRAVITY), 0.0)},
-    "Pa.s": {"cP": (1e3, 0.0)},
-    "kg": {"lb": (1.0 / POUND, 0.0)},
-    "kg/m3": {"g/cm3": (1e-3, 0.0)},
-    "s": {"us": (1e6, 0.0), "min": (1.0 / 60.0, 0.0), "h": (1.0 / 3600.0, 0.0)},
-    "K": {"degF": (1.8, -459.67)},
-    "1": {"%": (1e2, 0.0)},
+    "m": ("cm", "in"),
+    "m/s": ("mm/s", "in/s"),
+    "m/s2": ("g", "mm/s2"),
+    "N": ("kN", "kgf", "lbf"),
+    "N.m": ("N.mm", "kN.m", "lbf.in"),
+    "rad": ("mrad",),
+    "rad/s": ("krpm", "rev/s", "deg/s"),
+    "Pa": ("bar", "psi"),
+    "Pa.s": ("cP",),
+    "kg": ("lb",),
+    "kg/m3": ("g/cm3",),
+    "s": ("us", "min", "h"),
+    "K": ("degF",),
+    "1": ("%",),
 }
-SECONDS = {"s": (1.0, 0.0), "ms": (1e3, 0.0)} | MULTIPLES["s"]
+WRITTEN = str.maketrans("µμ·⋅×*−℃", "uu....-C") | {ord("²"): "2", ord("³"): "3", ord("⁻"): "-", ord("¹"): "1"}
+TERM = re.compile(r"([^\d^+\-()]+)\^?([+-]?\d+(?:\.\d+)?)?")
 SHORT = 0.1  # h: a shorter life is told in minutes or seconds
 LONGEST = 1e6  # h: a longer life is no figure to tell
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/|[^\d.,\s]).*?)?\s*")
 
 
-def unit_table(unit_definitions):
-    """For each unit of a model description its scales: symbol -> (factor, offset), value in that symbol = factor * SI +
-    offset.
+class Scales(dict):
+    """The units of a quantity: symbol -> (factor, offset), value in that symbol = factor * SI + offset.  The SI unit
+    stands first; the others listed are those to show, and every other symbol of the dimension is found too.
     """
+
+    def __missing__(self, symbol):
+        if (found := conversion(symbol, next(iter(self)))) is None:
+            raise KeyError(symbol)
+        return found
+
+    def __contains__(self, symbol):
+        return super().__contains__(symbol) or conversion(symbol, next(iter(self))) is not None
+
+    def get(self, symbol, default=None):
+        return self[symbol] if symbol in self else default
+
+
+def unit_table(unit_definitions):
+    """The Scales of each unit of a model description."""
     return {
         unit.name: scales_of(unit.name, {d.name: (float(d.factor), float(d.offset)) for d in unit.displayUnits})
         for unit in unit_definitions
@@ -68,14 +186,98 @@ def unit_table(unit_definitions):
 
 def scales_of(unit, displays):
     """Scales of an SI unit: its own, those of its display units, and its MULTIPLES."""
-    return {unit: (1.0, 0.0)} | displays | MULTIPLES.get(unit, {})
+    more = {symbol: conversion(symbol, unit) for symbol in MULTIPLES.get(unit, ())}
+    return Scales({unit: (1.0, 0.0)} | displays | more)
+
+
+def plain(symbol):
+    """A unit in one way of writing: u for µ, a point between factors, digits for powers."""
+    symbol = re.sub(r"\s+per\s+", "/", str(symbol or "").strip().translate(WRITTEN))
+    symbol = re.sub(r"\.{2}(?=[+-]?\d)", "^", symbol).replace("^", "")  # ** and ^
+    symbol = re.sub(r"\s*([./])\s*", r"\1", symbol)
+    symbol = re.sub(r"\s+|(?<=[A-Za-z])-(?=[A-Za-z])", ".", symbol)
+    return re.sub(r"^1/\((.*)\)$", r"1/\1", symbol)
 
 
 def canonical(symbol):
-    """A unit's symbol as the tables spell it."""
-    symbol = symbol.strip()
-    symbol = SYMBOLS.get(symbol, symbol).replace("·", ".").replace("*", ".") or "1"
+    """A unit's symbol as it is shown."""
+    symbol = plain(symbol) or "1"
     return SYMBOLS.get(symbol, symbol)
+
+
+def is_unit(symbol):
+    """Whether a text is a unit of any quantity."""
+    written = plain(symbol)
+    known = written in TEMPERATURES or SYMBOLS.get(written) in TEMPERATURES or any(written in m for m in MEANT.values())
+    return known or (written not in ("", "1") and parsed(written) is not None)
+
+
+@cache
+def conversion(symbol, base):
+    """Factor and offset from the unit `base` to a symbol, None unless both measure the same quantity.
+
+    >>> conversion("kN", "N"), conversion("kN", "m")
+    ((0.001, 0.0), None)
+    """
+    if not isinstance(symbol, str) or not isinstance(base, str):
+        return None
+    written = plain(symbol)
+    shown = SYMBOLS.get(written, written)
+    if base == "K" and shown in TEMPERATURES:
+        return TEMPERATURES[shown]
+    if written in MEANT.get(base, {}):
+        return 1.0 / MEANT[base][written], 0.0
+    wanted = parsed(plain(base))
+    for names in ({}, AS_FORCE):
+        found = parsed(written, tuple(names.items()))
+        if wanted and found and wanted[0] == found[0]:
+            return wanted[1] / found[1], 0.0
+    return None
+
+
+@cache
+def parsed(symbol, renamed=()):
+    """Exponents of BASE and SI value of a unit like "kg.m/s2", None if it is none; all behind a / divides."""
+    if re.search(r"\([^()]*/", symbol):
+        return None
+    exponents, value = [0.0] * len(BASE), 1.0
+    for place, part in enumerate(re.sub(r"[()]", "", symbol).split("/")):
+        for term in re.split(r"\.(?!\d)", part):
+            if term == "1" or (term == "" and part == "" and place == 0 and len(symbol) > 1):
+                continue
+            match = TERM.fullmatch(term)
+            atom = atom_of(match[1], dict(renamed)) if match else None
+            if atom is None:
+                return None
+            power = float(match[2] or 1) * (-1.0 if place else 1.0)
+            exponents = [old + power * new for old, new in zip(exponents, atom[0], strict=True)]
+            value *= atom[1] ** power
+    return tuple(exponents), value
+
+
+def atom_of(name, renamed):
+    """Exponents and SI value of one symbol or word with its prefix, None if there is none."""
+    symbol = ALIASES.get(name, name)
+    symbol = renamed.get(symbol, symbol)
+    if symbol in ATOMS:
+        return ATOMS[symbol]
+    for prefix in (name[:1], name[:2]):
+        rest = name[len(prefix) :]
+        if prefix in PREFIXES and rest in PREFIXED:
+            return PREFIXED[rest][0], PREFIXES[prefix] * PREFIXED[rest][1]
+    word = name.lower()
+    factor = 1.0
+    if prefix := next((one for one in WORD_PREFIXES if word.startswith(one)), ""):
+        word, factor = word.removeprefix(prefix), WORD_PREFIXES[prefix]
+    for spelled in (word, word.removesuffix("s")):
+        if len(spelled) > 3 and (symbol := ALIASES.get(spelled)) in ATOMS and (not prefix or symbol in PREFIXED):
+            return ATOMS[symbol][0], factor * ATOMS[symbol][1]
+    return None
+
+
+SECONDS = Scales(
+    {"s": (1.0, 0.0), "ms": (1e3, 0.0), "us": (1e6, 0.0), "min": (1.0 / 60.0, 0.0), "h": (1.0 / 3600.0, 0.0)}
+)
 
 
 def symbol_of(value):
@@ -91,11 +293,16 @@ def suffix(symbol):
 
 def scale(symbol, scales):
     """Factor and offset of a unit's symbol; UserError if the variable has no such unit."""
-    symbol = canonical(symbol)
-    if symbol not in scales:
-        complaint = "a text needs a unit" if symbol == "1" else f'unit "{symbol}" does not fit'
+    name = canonical(symbol)
+    if name in scales:
+        return scales[name]
+    base = next(iter(scales))
+    found = conversion(symbol, base)
+    if found is None:
+        complaint = "a text needs a unit" if name == "1" else f'unit "{str(symbol).strip()}" does not fit'
         raise UserError(f"{complaint}; allowed: {', '.join(scales)}")
-    return scales[symbol]
+    factor, offset = scales[base]
+    return found[0] * factor, found[1] + found[0] * offset
 
 
 def hours_text(hours):
@@ -124,6 +331,14 @@ def to_si(value, scales):
             )
         factor, offset = scale(match[2] or "", scales)
         value = (float(match[1]) - offset) / factor
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, Real) or not is_finite(value):
         raise UserError("not a finite number")
     return float(value)
+
+
+def is_finite(number):
+    """Whether a number is finite as a float: an integer may have more digits."""
+    try:
+        return math.isfinite(number)
+    except OverflowError:
+        return False

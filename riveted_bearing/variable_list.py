@@ -18,13 +18,33 @@ def essentials():
     return {title: [KNOWN[name] for name in names] for title, names in ESSENTIALS.items()}
 
 
+def is_like(text, pattern):
+    """Whether a text matches a pattern in which * stands for any text: the pieces between, each at its first place."""
+    first, *others = pattern.split("*")
+    if not others:
+        return text == pattern
+    *middle, last = others
+    if len(text) < len(first) + len(last) or not text.startswith(first) or not text.endswith(last):
+        return False
+    at, end = len(first), len(text) - len(last)
+    for piece in middle:
+        found = text.find(piece, at, end)
+        if found < 0:
+            return False
+        at = found + len(piece)
+    return True
+
+
 def matching(pattern):
     """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if
     there are none.
     """
     general = re.sub(r"\[\d+\]", "[*]", pattern)  # ball[3].Q_i is one of ball[j].Q_i
-    expression = re.compile(re.escape(general).replace(r"\*", ".*"), re.IGNORECASE)
-    fits = expression.fullmatch if "*" in general else lambda text: expression.search(text)
+    pattern_or_word = general if "*" in general else f"*{general}*"
+
+    def fits(text):
+        return is_like(text.lower(), pattern_or_word.lower())
+
     found = {
         title: [v for v in known.values() if fits(v.name) or ("*" not in general and fits(v.description))]
         for title, known in KINDS.items()

@@ -400,8 +400,8 @@ def test_the_same_from_parquet(model, tmp_path):
 @pytest.mark.parametrize(
     ("text", "changes", "fragments"),
     [
-        ("t [ms],Fy [kN]\n" + "\n".join(f"{i}," for i in range(300)), {}, ['column "Fy [kN]" is empty']),
-        ("t [ms],Fy [kN]\n" + "\n".join(f"{i},nan" for i in range(300)), {}, ['column "Fy [kN]"', "not finite"]),
+        ("t [ms],Fy [kN]\n" + "\n".join(f"{i}," for i in range(300)), {}, ['row 2, column "Fy [kN]"', "no value"]),
+        ("t [ms],Fy [kN]\n" + "\n".join(f"{i},nan" for i in range(300)), {}, ['row 2, column "Fy [kN]"', "no value"]),
         ("t [ms],Fy [kN]\n" + "\n".join(f"{i},3" for i in range(300)), {}, ["does not scatter, its uncertainty is 0"]),
         ("t [ms],Fy [mm]\n" + "\n".join(f"{i},{i % 7}" for i in range(300)), {}, ["Fy"]),
         ("t [ms],Fy [kN]\n0,1\n1,2", {}, ["at least 128 times"]),

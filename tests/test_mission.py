@@ -27,6 +27,8 @@ from riveted_bearing.duty.mission import LIFE, plan_mission
 from riveted_bearing.duty.notes import matrix_warnings, notes
 from riveted_bearing.duty.page import life_density, write_page, write_picture
 from riveted_bearing.fmu import Model
+from riveted_bearing.tables import BLOCK, Wanted
+from riveted_bearing.units import SECONDS
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
@@ -320,13 +322,13 @@ def test_preload_that_falls_is_simulated_at_each_factor(model):
 
 
 def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
-    """Three levels of known duration in a record that is longer than one of pyarrow's pieces (1 MB)."""
+    """Three levels of known duration in a record that is longer than one piece of 65,536 rows."""
     t = np.arange(120000) * 0.5
     level = np.select([t < 12000, t < 42000], [1.0, 3.0], 9.0)
     path = tmp_path / "record.csv"
     path.write_text("# measured\ntime,load\n" + "".join(f"{a:.1f},{b:.6f}\n" for a, b in zip(t, level, strict=True)))
-    assert path.stat().st_size > 1 << 20
-    spent, cells, means, spreads = binned(path, "time", ["load"], [4])
+    assert len(t) > BLOCK
+    spent, cells, means, spreads = binned(path, Wanted("time", SECONDS), [Wanted("load", {"N": (1.0, 0.0)})], [4])
     assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5] and means[:, 0] == pytest.approx(
         [1.0, 3.0, 9.0], rel=1e-12
     )
@@ -438,7 +440,7 @@ def test_tables_and_records_become_points(tmp_path, model):
         ({"points": []}, ['"points"', 'did you mean "point"']),
         ({"point": [{"inputs": {}}]}, ["point 1", "hours or share is needed"]),
         ({"point": [{"hours": -3}]}, ["point 1: hours = -3", "must not be negative"]),
-        ({"point": [{"hours": "3 days"}]}, ["hours = '3 days'", "allowed: h, min, s"]),
+        ({"point": [{"hours": "3 weeks"}]}, ["hours = '3 weeks'", "allowed: h, min, s"]),
         ({"point": [{"hours": 1, "share": 0.1}]}, ["not both"]),
         ({"point": [{"hours": 1}, {"share": 0.1}]}, ["point 2", "every point"]),
         ({"point": [{"hours": 1, "horses": 3}]}, ['"horses"']),
@@ -465,7 +467,7 @@ def test_tables_and_records_become_points(tmp_path, model):
         ),
         (
             {"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "text"}}}},
-            ['"text"', "no numbers"],
+            ["duty.csv", "row 2", '"text"', "not a number"],
         ),
         (
             {"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n", "unit": "N"}}}},
@@ -477,7 +479,7 @@ def test_tables_and_records_become_points(tmp_path, model):
         ),
         (
             {"history": {"file": "duty.csv", "time": "minus", "inputs": {"shaft.omega": {"column": "n"}}}},
-            ["do not increase"],
+            ["row 3", "times must increase"],
         ),
         (
             {"history": {"file": "duty.csv", "time": "n", "inputs": {"shaft.omega": {"column": "n", "bins": 0}}}},

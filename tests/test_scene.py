@@ -227,8 +227,8 @@ BAD_SCENES = [
     ("[inputs]\nshaft.F_y = { t = [0, 1], values = [1, 2] }", ['"values"', "t, value, unit, interpolation"]),
     ("[inputs]\nshaft.F_y = { file = 'none.csv', column = 'F' }", ["inputs.shaft.F_y", "none.csv", "no such file"]),
     ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fq' }", ["loads.csv", '"Fq"', "time, Fr, word"]),
-    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'word' }", ["loads.csv", '"word"', "no numbers"]),
-    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 'MN' }", ['"MN"', "N, kN"]),
+    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'word' }", ["loads.csv", "row 2", '"word"', "not a number"]),
+    ("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 'MV' }", ['"MV"', "N, kN"]),
     (
         "[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', unit = 3 }",
         ["inputs.shaft.F_y", "unit = 3: not a text"],

@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 import fmpy
@@ -22,6 +23,7 @@ transmission = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(transmission)
 
 FMU, SYSTEM = ROOT / "fmus" / "Shaft.fmu", ROOT / "fmus" / "Transmission.ssp"
+COMMON = "http://ssp-standard.org/SSP1/SystemStructureCommon"
 STEP = 1e-4
 J, M, OMEGA = 0.05, 40.0, 1500.0
 FREE = {"drive__k": 0.0, "support__mu": 0.0, "shaft__J": J, "shaft__omega_start": OMEGA}  # no drive, no friction
@@ -193,6 +195,59 @@ NAMES = (
 def result():
     """50 ms of the system as it is shipped."""
     return transmission.simulate(SYSTEM, 0.05, STEP)
+
+
+def packed(path, values, units=""):
+    """The system with other parameters of the bearing: entries of its parameter set and of the set's units."""
+    with zipfile.ZipFile(SYSTEM) as old, zipfile.ZipFile(path, "w") as new:
+        for name in old.namelist():
+            data = old.read(name)
+            if name == "resources/bearing.ssv":
+                entries = "".join(
+                    f'<ssv:Parameter name="{n}"><ssv:Real {v}/></ssv:Parameter>' for n, v in values.items()
+                )
+                data = data.decode()
+                inside = data.split("<ssv:Parameters>")[1].split("</ssv:Parameters>")[0]
+                data = data.replace(inside, entries)
+                data = data.replace(
+                    "</ssv:Parameters>",
+                    f"</ssv:Parameters><ssv:Units>{units}</ssv:Units>" if units else "</ssv:Parameters>",
+                )
+            new.writestr(name, data)
+    return path
+
+
+def test_units_of_parameter_sets_are_converted_by_their_definitions(tmp_path):
+    """Offset and factor are those of the definition; a unit that the set does not define is one of the FMU's; a unit of
+    another quantity and one without a definition are refused.
+    """
+    units = "".join(
+        f'<ssc:Unit xmlns:ssc="{COMMON}" name="{name}"><ssc:BaseUnit {base}/></ssc:Unit>'
+        for name, base in (
+            ("u1", 'rad="1" s="-1" factor="0.10471975511965977"'),
+            ("u2", 'kg="1" m="1" s="-2" factor="1000"'),
+            ("u3", 'K="1" factor="0.5555555555555556" offset="255.3722222222222"'),
+        )
+    )
+    values = {
+        "shaft.omega": 'value="3000" unit="u1"',
+        "joint.preload": 'value="0.03" unit="u2"',
+        "oil.T": 'value="212" unit="u3"',
+        "joint.fit": 'value="-1e-5"',
+        "bearing.P_d": 'value="1.5e-5" unit="m"',
+    }
+    _, parts, start = transmission.load(packed(tmp_path / "a.ssp", values, units), tmp_path / "a")
+    found = {name: float(start[f"bearing.{name}"]) for name in values}
+    assert found == pytest.approx(
+        {"shaft.omega": 100 * np.pi, "joint.preload": 30.0, "oil.T": 373.15, "joint.fit": -1e-5, "bearing.P_d": 1.5e-5}
+    )
+    for part in parts.values():
+        part.fmu.freeInstance()
+    for unit, said in (("u2", "is not one of shaft.omega"), ("u9", "has no definition")):
+        with pytest.raises(ValueError, match=said):
+            transmission.load(
+                packed(tmp_path / "b.ssp", {"shaft.omega": f'value="1" unit="{unit}"'}, units), tmp_path / unit
+            )
 
 
 def test_reaction_carries_the_load(result):

@@ -1,12 +1,25 @@
 """What a user can get wrong: one line on stderr that names it, exit code 2, nothing left behind."""
 
+import copy
+import json
+import math
+import random
 import shutil
+import tomllib
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
+from riveted_bearing import UserError
+from riveted_bearing.bearings import bearing_case
 from riveted_bearing.cli import program
+from riveted_bearing.duty.mission import load_mission
+from riveted_bearing.fmu import Model
+from riveted_bearing.results import write_atomically
+from riveted_bearing.scene import load_scene, read_toml
+from riveted_bearing.sweep import load_sweep
+from riveted_bearing.variable_list import is_like
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = {
@@ -60,7 +73,7 @@ WRONG = {
     "run lengths.toml": ["inputs.shaft.F_y", "got 2 and 1"],
     "run csv.toml": ["none.csv", "no such file"],
     "run column.toml": ["loads.csv", '"G"', "allowed: time, F, word"],
-    "run words.toml": ["loads.csv", '"word"', "no numbers"],
+    "run words.toml": ["loads.csv", "row 2", '"word"', "not a number"],
     "run place.toml": ["inputs.joint.preload", "into [parameters]"],
     "run choice.toml": ["parameters.ring.tilt_mode = 'fixed'", "prescribed, supported, free"],
     "run whole.toml": ["parameters.start.seed = 1.5", "not an integer"],
@@ -167,3 +180,157 @@ def test_wrong_input_is_one_line(folder, monkeypatch, arguments):
     for words in WRONG[arguments]:
         assert words in done.stderr
     assert sorted(folder.rglob("*")) == before
+
+
+ODD = (
+    True,
+    "",
+    "nan",
+    "1 N",
+    "x" * 300,
+    -1,
+    10**30,
+    1e308,
+    -math.inf,
+    math.nan,
+    [],
+    {},
+    [[]],
+    {"": 0},
+    [1, "a"],
+    5e-324,
+)
+ODD += ("\0", {"a": {"b": [1]}}, [{}])
+RICH = {  # files that have most keys of their kind, and what reads them
+    "scene": (
+        """
+simulation = { t_end = "10 ms", step = 1e-4, output_interval = 2e-4, tolerance = 1e-4, outputs = ["ring.*"] }
+parameters = { joint.preload = "30 N", ring.tilt_mode = "supported", pulse.count = 2 }
+inputs.shaft.F_y = { file = "loads.csv", column = "F", time = "time", unit = "kN", longest_gap = 3 }
+inputs.shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
+change = [{ at = "5 ms", joint.mu = 0.3 }]
+""",
+        lambda path, model: load_scene(path, model),
+    ),
+    "bearing": (
+        """
+designation = "6210"
+Z = 10
+catalogue.clearance = "C3"
+cage.material = "brass"
+rivet.shank_diameter = "2 mm"
+parameters = { joint.preload = "30 N" }
+inputs.shaft.F_y = "2 kN"
+""",
+        lambda path, model: bearing_case(path),
+    ),
+    "mission": (
+        """
+scene = "demo"
+point = [{ name = "climb", hours = 20, preload_factor = 0.9, interpolate = false, inputs.shaft.F_y = "3 kN" }]
+event = [{ name = "bump", count = 2, after_settle = true, inputs.impact.F_r = { t = [0, 0.1, 0.2], value = [0, 4, 0] } }]
+table = { file = "duty.csv", hours = "h", inputs.shaft.omega = { column = "n", unit = "rev/min" } }
+history = { file = "loads.csv", time = "time", hours = 9, longest_gap = 1, inputs.shaft.F_y = { column = "F", bins = 2 } }
+preload_loss = { hours = [0, 100], factor = [1, 0.9] }
+life = { confidence = 0.9, min_seeds = 6, seed = 1, skip = 0.01, rivets = "each" }
+sn = { sigma_D = "100 MPa", k_1 = 5 }
+""",
+        lambda path, model: load_mission(path, model),
+    ),
+    "sweep": (
+        """
+scene = "demo"
+repeats = 2
+vary = [{ joint.preload = { from = "10 N", to = "60 N", count = 3, spacing = "log" } }, { shaft.F_y = ["1 kN", 2000] }]
+sample = { method = "sobol", count = 4, between.joint.fit = ["-10 um", "10 um"] }
+""",
+        lambda path, model: load_sweep(path, model),
+    ),
+}
+
+
+def places(node, at=()):
+    """The places of all entries of nested tables and lists."""
+    for key in list(node) if isinstance(node, dict) else range(len(node)):
+        yield (*at, key)
+        if isinstance(node[key], dict | list):
+            yield from places(node[key], (*at, key))
+
+
+def inline(value):
+    """A value as TOML on one line."""
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{json.dumps(key)} = {inline(one)}' for key, one in value.items())} }}"
+    if isinstance(value, list):
+        return f"[{', '.join(map(inline, value))}]"
+    return repr(value) if isinstance(value, float) else json.dumps(value)
+
+
+@pytest.mark.filterwarnings("ignore:overflow")
+@pytest.mark.parametrize("kind", RICH)
+def test_wrong_types_are_one_line(kind, tmp_path):
+    """Every entry of a file with six odd values in its place: read, or refused in one line that names the file."""
+    text, load = RICH[kind]
+    path, model, document = tmp_path / "mine.toml", Model(), tomllib.loads(text)
+    (tmp_path / "loads.csv").write_text("time,F\n0,1\n0.1,2\n0.2,2\n")
+    (tmp_path / "duty.csv").write_text("h,n\n10,8000\n20,12000\n")
+    path.write_text("".join(f"{key} = {inline(value)}\n" for key, value in document.items()))
+    load(path, model)
+    refused, rng = 0, random.Random(kind)
+    for at in places(document):
+        for odd in rng.sample(ODD, 6):
+            changed = copy.deepcopy(document)
+            node = changed
+            for key in at[:-1]:
+                node = node[key]
+            node[at[-1]] = odd
+            path.write_text("".join(f"{key} = {inline(value)}\n" for key, value in changed.items()))
+            try:
+                load(path, model)
+                message = ""
+            except UserError as problem:
+                message = str(problem)
+            refused += message != ""
+            assert not message or ("\n" not in message and str(tmp_path) in message), (at, odd)
+    assert refused > 4 * len(list(places(document)))
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("a = " + 3000 * "[", "nested too deeply"),
+        ("a = " + 900 * "{ a = " + "1" + 900 * "}", "nested too deeply"),
+        ("a" + 3000 * ".a" + " = 1", "nested too deeply"),
+        ("a = " + 5000 * "9", "an integer of thousands of digits"),
+        ("a = " + 30 * "9", "at most 64 bits"),
+        ("# \u00b5".encode("latin-1"), "line 1 is not UTF-8"),
+    ],
+)
+def test_files_beyond_toml_are_one_line(text, said, tmp_path):
+    (tmp_path / "mine.toml").write_bytes(text if isinstance(text, bytes) else text.encode())
+    with pytest.raises(UserError, match=said) as refused:
+        read_toml(tmp_path / "mine.toml")
+    assert "mine.toml" in str(refused.value) and "\n" not in str(refused.value) and len(str(refused.value)) < 300
+
+
+def test_patterns_end():
+    """Any number of stars and letters on names that almost fit: linear in the name."""
+    for pattern in (30 * "*" + "x", 20 * "*a" + "x", 20 * "a*" + "x"):
+        assert not is_like(100 * "a", pattern)
+    for text, pattern in (
+        ("ring.x", "ring.*"),
+        ("rivet[3].N", "rivet[*].N"),
+        ("aXbXc", "a*X*c"),
+        ("abc", "abc"),
+        ("", "*"),
+    ):
+        assert is_like(text, pattern)
+    for text, pattern in (("ring.x", "ring"), ("aba", "ab*ba"), ("rivet[3].N", "rivet[*].V"), ("abc", "a*bc*bc")):
+        assert not is_like(text, pattern)
+
+
+def test_temporary_names_are_not_predictable(tmp_path):
+    names = []
+    for _ in range(2):
+        write_atomically(tmp_path / "a.csv", lambda path: names.append(path.name) or path.write_text("1"))
+    assert names[0] != names[1] and [path.name for path in tmp_path.iterdir()] == ["a.csv"]

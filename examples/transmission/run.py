@@ -14,9 +14,11 @@ from pathlib import Path
 import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
-from fmpy.ssp.ssd import get_connections, read_ssd, read_ssv
+from fmpy.ssp.ssd import get_connections, read_ssd
+from lxml import etree
 
 SYSTEM = Path(__file__).resolve().parents[2] / "fmus" / "Transmission.ssp"
+BASE_UNIT = ("kg", "m", "s", "A", "K", "mol", "cd", "rad", "factor", "offset")
 
 
 class Component:
@@ -25,6 +27,11 @@ class Component:
     def __init__(self, name, path):
         description = read_model_description(str(path))
         self.variables = {v.name: v for v in description.modelVariables}
+        self.units = {
+            unit.name: definition({key: getattr(unit.baseUnit, key) for key in BASE_UNIT})
+            for unit in description.unitDefinitions
+            if unit.baseUnit is not None
+        }
         identifier = description.coSimulation.modelIdentifier
         self.fmu = FMU2Slave(
             guid=description.guid,
@@ -34,6 +41,17 @@ class Component:
         )
         self.fmu.instantiate()
         self.fmu.setupExperiment(startTime=0.0)
+
+    def converted(self, name, parameter, units):
+        """The value of a parameter in the unit of its variable; units: definitions of the parameter set."""
+        own = self.variables[name].unit
+        if parameter.type != "Real" or parameter.unit in (None, own):
+            return parameter.value
+        here, there = units.get(parameter.unit, self.units.get(parameter.unit)), self.units.get(own)
+        if here is None or there is None or here[0] != there[0]:
+            reason = "has no definition" if here is None else f"is not one of {name} [{own or '1'}]"
+            raise ValueError(f"{name} = {parameter.value} {parameter.unit}: the unit {reason}")
+        return (here[1] * float(parameter.value) + here[2] - there[2]) / there[1]
 
     def set(self, name, value):
         variable = self.variables[name]
@@ -48,26 +66,36 @@ class Component:
 
 def load(path, folder):
     """The system of an SSP unpacked to a folder: its description, its components by name, and the start values of its
-    parameter sets.
+    parameter sets in the units of the FMUs.
     """
     with zipfile.ZipFile(path) as archive:
         archive.extractall(folder)
     system = read_ssd(str(path)).system
     parts = {element.name: Component(element.name, folder / element.source) for element in system.elements}
-    sets = {
-        element.name: read_ssv(str(folder / binding.source))
-        for element in system.elements
-        for binding in element.parameterBindings
-    }
-    return (
-        system,
-        parts,
-        {
-            f"{component}.{parameter.name}": parameter.value
-            for component, values in sets.items()
-            for parameter in values.parameters
-        },
-    )
+    owners = [("", system), *((f"{element.name}.", element) for element in system.elements)]
+    bindings = [(prefix, binding) for prefix, owner in owners for binding in owner.parameterBindings]
+    start = {}
+    for prefix, binding in bindings:
+        if binding.parameterMapping:
+            raise ValueError(f"{path}: {binding.source or 'parameter set'}: parameter mappings are not read")
+        units = units_of(folder / (binding.source or "SystemStructure.ssd"))
+        for parameter in (one for values in binding.parameterValues for one in values.parameters):
+            name = f"{prefix}{binding.prefix or ''}{parameter.name}"
+            component, variable = name.split(".", 1)
+            start[name] = parts[component].converted(variable, parameter, units)
+    return system, parts, start
+
+
+def units_of(path):
+    """{name: (exponents, factor, offset)} of the units that an XML file of an SSP defines."""
+    definitions = (unit for unit in etree.parse(str(path)).iter("{*}Unit"))
+    return {unit.get("name"): definition(unit.find("{*}BaseUnit").attrib) for unit in definitions}
+
+
+def definition(base):
+    """Exponents, factor and offset of a BaseUnit: value in SI = factor * value + offset."""
+    exponents = tuple(int(base.get(name, 0)) for name in ("kg", "m", "s", "A", "K", "mol", "cd", "rad"))
+    return exponents, float(base.get("factor", 1.0)), float(base.get("offset", 0.0))
 
 
 def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):

@@ -23,13 +23,14 @@ inputs.impact.F_r = { t = [0.01, 0.011, 0.012], value = [0, 4000, 0] }
 at = "2 h"                           # in their order; a point that is under way is divided
 joint.mu = 0.2
 
-[table]                              # further points from a CSV table
+[table]                              # further points from a CSV or Parquet table; a unit may stand in a column's name (tables.py)
 file = "duty.csv"
 hours = "h"                          # column
 inputs.shaft.omega = { column = "n", unit = "rev/min" }
 [history]                            # further points: a measured record, binned
 file = "flight.csv"
-time = "t"                           # column [s]
+time = "t"                           # column [s], or with its unit
+longest_gap = "10 min"               # between samples; default: ten usual intervals
 hours = 1000                         # what the record stands for; default: its own length
 inputs.shaft.F_y = { column = "load", unit = "kN", bins = 6 }
 
@@ -61,8 +62,9 @@ from ..file_kinds import check_keys
 from ..life import fatigue_law
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
 from ..sweep import beside, count_of, key_of
-from ..units import scale, to_si
-from .history import binned, read_columns
+from ..tables import Wanted, read
+from ..units import SECONDS, scale, to_si
+from .history import binned
 from .miner import Duty
 from .slow import slow_warnings
 from .sn import assumed, in_words, read_strength
@@ -86,7 +88,7 @@ SECTIONS = (
 POINT = ("name", "hours", "share", "preload_factor", "interpolate", "scene", "simulation", "parameters", "inputs")
 EVENT = ("name", "count", "after_settle", "preload_factor", "scene", "simulation", "parameters", "inputs")
 TABLE = ("file", "hours", "inputs", "parameters")
-HISTORY = ("file", "time", "hours", "inputs", "parameters")
+HISTORY = ("file", "time", "hours", "longest_gap", "inputs", "parameters")
 LOSS = ("hours", "factor")
 FEWEST = 3  # seeds
 LIFE = {
@@ -102,6 +104,7 @@ HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
 ROUNDED = 0.011  # by how much shares may miss 1, as three of 0.33 do
 RIVETS = ("each", "alike")
+MOST_CLASSES = 100_000  # of a record
 PRELOAD = "joint.preload"
 FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
 
@@ -464,7 +467,7 @@ def values_of(scene, model):
 
 
 def columns_of(path, where, section, model, further=()):
-    """The columns that a table or a history gives: {full name: (column, factor, offset, further entries)}."""
+    """The columns that a table or a history gives: {full name: (kind, Wanted column, entries)}."""
     found = {}
     known = {"inputs": model.inputs, "parameters": model.parameters}
     for kind, variables in known.items():
@@ -478,12 +481,14 @@ def columns_of(path, where, section, model, further=()):
                     value,
                     f"{{ column = ..., unit = ...{''.join(f', {key} = ...' for key in further)} }} is needed",
                 )
+            if any(not isinstance(value.get(key, ""), str) for key in ("column", "unit")):
+                raise refusal(path, f"{where}.{name}", value, "column and unit are texts")
             scales = model.units[variables[name].unit]
             try:
-                factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+                scale(value["unit"], scales) if "unit" in value else None
             except UserError as problem:
                 raise refusal(path, f"{where}.{name}.unit", value["unit"], problem) from None
-            found[name] = (kind, str(value["column"]), factor, offset, value)
+            found[name] = (kind, Wanted(value["column"], scales, value.get("unit", "")), value)
     if not found:
         raise UserError(f"{path}: {where}: inputs or parameters are needed, each with its column")
     return found
@@ -507,7 +512,7 @@ def table_points(path, document, model):
         return
     file = file_of(path, "table", section, TABLE, ("file", "hours"))
     columns = columns_of(path, "table", section, model)
-    hours, *values = read_columns(file, (section["hours"], *(column for _, column, *_ in columns.values())))
+    hours, *values = read(file, Wanted(section["hours"], HOURS), *(column for _, column, _ in columns.values()))
     for i, row in enumerate(np.column_stack([hours, *values]), 1):
         label = f"{file.name} line {i}"
         weight = amount(path, f"{label}: {section['hours']}", float(row[0]), HOURS)
@@ -522,7 +527,14 @@ def history_points(path, document, model):
     file = file_of(path, "history", section, HISTORY, ("file", "time"))
     columns = columns_of(path, "history", section, model, ("bins",))
     bins = [count_of(path, f"history.{name}.bins", entry.get("bins", 5)) for name, (*_, entry) in columns.items()]
-    spent, cells, means, spreads = binned(file, section["time"], [column for _, column, *_ in columns.values()], bins)
+    if np.prod(bins, dtype=float) > MOST_CLASSES:
+        raise UserError(
+            f"{path}: history: {np.prod(bins, dtype=float):.3g} classes; at most {MOST_CLASSES} are allowed"
+        )
+    gap = section.get("longest_gap")
+    gap = None if gap is None else 3600.0 * amount(path, "history.longest_gap", gap, HOURS)
+    wanted = [column for _, column, _ in columns.values()]
+    spent, cells, means, spreads = binned(file, Wanted(section["time"], SECONDS), wanted, bins, gap)
     hours = amount(path, "history.hours", section.get("hours", spent.sum() / 3600.0), HOURS)
     for i, (seconds, cell, row, spread) in enumerate(zip(spent, cells, means, spreads, strict=True), 1):
         label = f"{file.name} class {i}"
@@ -531,10 +543,10 @@ def history_points(path, document, model):
 
 
 def block_of(columns, row):
-    """A point's block from values of columns."""
+    """A point's block from SI values of columns."""
     block = {"inputs": {}, "parameters": {}}
-    for (name, (kind, _, factor, offset, _)), value in zip(columns.items(), row.tolist(), strict=True):
-        block[kind][name] = (value - offset) / factor
+    for (name, (kind, *_)), value in zip(columns.items(), row.tolist(), strict=True):
+        block[kind][name] = value
     return block
 
 

@@ -27,6 +27,7 @@ from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 
 from ..errors import UserError, extra, unknown
 from ..scene import read_toml, refusal
+from ..tables import Table, Wanted
 from ..units import to_si
 
 PASCAL = {"Pa": (1.0, 0.0), "MPa": (1e-6, 0.0)}
@@ -160,8 +161,8 @@ def assumed(strength, given=()):
 def with_file(path, where, section):
     """The section with the keys of its file below its own, and the table of the file if it is one."""
     name = section.pop("file", None)
-    unit = section.get("unit", "Pa")
-    if unit not in PASCAL:
+    unit = section.get("unit", "")
+    if unit not in ("", *PASCAL):
         raise refusal(where, "unit", unit, f"allowed: {', '.join(PASCAL)}")
     if name is None:
         return section, None
@@ -172,10 +173,8 @@ def with_file(path, where, section):
         raise UserError(f"{where}: file: {file}: no such file")
     if file.suffix == ".toml":
         return read_toml(file) | section, None
-    from .history import read_columns
-
-    amplitude, cycles = read_columns(file, ("amplitude", "cycles"))
-    amplitude = amplitude / PASCAL[unit][0]
+    table, wanted = Table(file), Wanted("amplitude", PASCAL, unit)
+    amplitude, cycles = table.columns(wanted, Wanted("cycles", PLAIN))
     order = np.argsort(amplitude)
     amplitude, cycles = amplitude[order], cycles[order]
     if (
@@ -190,8 +189,8 @@ def with_file(path, where, section):
         )
     if amplitude[0] < LEAST:
         raise UserError(
-            f"{where}: {file}: amplitude = {amplitude[0]:g} Pa: {LEAST_ALLOWED}; the column is read in {unit}: "
-            'its unit stands in [sn], as in unit = "MPa"'
+            f"{where}: {file}: amplitude = {amplitude[0]:g} Pa: {LEAST_ALLOWED}; the column is read in {table.unit(wanted) or 'Pa'}: "
+            'its unit stands in its head, or in [sn], as in unit = "MPa"'
         )
     return section, (amplitude, cycles)
 

@@ -50,11 +50,9 @@ from scipy.stats import norm
 
 from ..design.bench import COLUMNS as RESPONSES
 from ..errors import UserError, refusal, unknown
-from ..overlay import find_column, in_si, numbers
-from ..overlay import read_table as read_csv_table
-from ..results import read_table as read_parquet_table
 from ..scene import leaves, load_scene, section_of
 from ..sweep import KINDS, beside, bounds, count_of, known_names
+from ..tables import Table, Wanted
 from ..units import SECONDS, scales_of, to_si
 from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
 
@@ -68,7 +66,7 @@ SEARCH = {"rounds": 2, "points": 12}
 POINT = ("name", "inputs", "parameters", "simulation")
 COMMON = ("point", "over", "minus", "uncertainty", "held_out")
 TARGET = ("measure", "line", "frequency", "width", "value", *COMMON)
-SERIES = ("file", "time", "columns", "statistics", "bands", *COMMON)
+SERIES = ("file", "time", "longest_gap", "columns", "statistics", "bands", *COMMON)
 HERTZ = {"Hz": (1.0, 0.0), "kHz": (1e-3, 0.0)}
 SHORT = {"slip": "mean(cage.slip_ratio)", "cage_speed": "stat.cage_omega", "heat": "mean(bearing.power_loss)"}
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
@@ -330,6 +328,13 @@ def quantity(path, key, value, scales):
         raise refusal(path, key, value, problem) from None
 
 
+def text_of(path, key, value):
+    """A text; UserError naming the key."""
+    if not isinstance(value, str):
+        raise refusal(path, key, value, "a text is needed")
+    return value
+
+
 def spread(path, key, value, scales, mean):
     """A standard deviation in SI: of a unit, or in percent of the mean; offsets of units do not count."""
     relative = isinstance(value, str) and value.strip().endswith("%")
@@ -483,11 +488,8 @@ class Reader:
             raise UserError(f"{where}: over and minus are for [[target]]")
         point, _, _ = self.place(where, block)
         file = self.path.parent / block["file"]
-        names, table = measured_table(file)
-        i, unit = find_column(file, names, block.get("time", "time"))
-        t = in_si(file, names[i], numbers_of(file, names[i], table[i]), unit, SECONDS)
-        if len(t) < 16 * SEGMENTS or np.any(np.diff(t) <= 0.0):
-            raise UserError(f'{file}: column "{names[i]}": at least {16 * SEGMENTS} times that increase are needed')
+        table, time = Table(file), Wanted(text_of(where, "time", block.get("time", "time")), SECONDS)
+        gap = quantity(where, "longest_gap", block["longest_gap"], SECONDS) if "longest_gap" in block else None
         channels = self.model.inputs | self.model.outputs
         columns = dict(leaves(section_of(where, block, "columns"), channels))
         if not columns:
@@ -501,11 +503,13 @@ class Reader:
             count_of(where, "bands", count)
         for channel, wanted in columns.items():
             unit, scales = self.channel(where, "channel", channel)
-            i, own = find_column(file, names, wanted)
-            values = in_si(file, names[i], numbers_of(file, names[i], table[i]), own, scales)
+            t, values = table.series(time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=gap)
+            if len(t) < 16 * SEGMENTS:
+                raise UserError(f"{file}: {len(t)} rows: at least {16 * SEGMENTS} times are needed")
+            head = table.heads[table.place(wanted)]
             measures = [Measure(kind, channel) for kind in kinds] + self.bands_of(where, channel, point, t, count)
             for measure in measures:
-                self.measured(where, block, measure, point, t, values, unit, file, names[i])
+                self.measured(where, block, measure, point, t, values, unit, file, head)
 
     def bands_of(self, where, channel, point, t, count):
         """Measures of so many bands that run and series both have."""
@@ -551,30 +555,3 @@ class Reader:
         self.add(
             where, block, measure.column, point, measure.column, value, scatter, unit, origin=f"{file.name}: {column}"
         )
-
-
-def measured_table(file):
-    """Headers "name [unit]" and columns of a CSV or Parquet file."""
-    if file.suffix != ".parquet":
-        return read_csv_table(file)
-    if not file.is_file():
-        raise UserError(f"{file}: no such file")
-    try:
-        table = read_parquet_table(file)
-    except Exception as problem:  # pyarrow has many
-        raise UserError(f"{file}: not a Parquet table: {problem}") from None
-    names = []
-    for one in table.schema:
-        unit = (one.metadata or {}).get(b"unit", b"").decode()
-        names.append(f"{one.name} [{unit}]" if unit and not one.name.endswith("]") else one.name)
-    if not table.num_rows:
-        raise UserError(f"{file}: the table has no rows")
-    return names, [column.to_pylist() for column in table.columns]
-
-
-def numbers_of(file, name, column):
-    """A column as floats; UserError if it is empty."""
-    column = ["" if entry is None else entry for entry in column]
-    if all(isinstance(entry, str) and not entry.strip() for entry in column):
-        raise UserError(f'{file}: column "{name}" is empty')
-    return numbers(file, name, column)

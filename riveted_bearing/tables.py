@@ -1,0 +1,509 @@
+"""Tables of numbers that users bring, CSV or Parquet: one reader and one convention of units for all of them.
+
+    time [ms];radial [kN];speed (rpm)     # a line of names; a name without a unit is SI
+    0,00;2,99;3000
+
+Separator (comma, semicolon, tab, bar, spaces), decimal sign, thousands, encoding, a line of units below the names and
+lines with # in front are recognised.  Numbers come out in SI.  A fault is named with its file, row and column; rows count
+as in an editor, those of a Parquet file from 1.
+"""
+
+import codecs
+import csv
+import re
+from dataclasses import dataclass, field
+from itertools import islice, pairwise
+from pathlib import Path
+
+import numpy as np
+
+from .errors import UserError, extra, is_file, unknown
+from .units import is_unit, scale
+
+BLOCK = 65536  # rows that are read together
+SAMPLE = 60  # rows that decide on the separator
+SEPARATORS = ("\t", ";", "|", ",", None)  # None: spaces
+MARKS = {
+    codecs.BOM_UTF8: "utf-8-sig",
+    codecs.BOM_UTF32_LE: "utf-32",
+    codecs.BOM_UTF32_BE: "utf-32",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
+OTHERS = {
+    b"PK\x03\x04": "an Excel workbook or an archive: save the sheet as CSV",
+    b"\xd0\xcf\x11\xe0": "an Excel workbook: save the sheet as CSV",
+    b"\x1f\x8b": "compressed: unpack it first",
+}
+MISSING = ("", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "#nv", "#div/0!", "#value!", "#wert!", "?", "nat")
+GROUPS = re.compile(r"[ '’\u00a0\u202f](?=\d{3}(?!\d))")  # thousands
+PLAIN = r"[+-]?[1-9]\d{0,2}"
+DIGITS = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+DOUBTFUL = {",": re.compile(PLAIN + r",\d{3}"), ".": re.compile(PLAIN + r"\.\d{3}")}  # a decimal sign or thousands
+GROUPED = {",": re.compile(PLAIN + r"(,\d{3})+(\.\d*)?"), ".": re.compile(PLAIN + r"(\.\d{3})+(,\d*)?")}
+UNSURE = ("in", "min")  # units that end a name as words do: d_in, t_min
+GAP = 10.0  # usual intervals: a longer one is a gap
+FEWEST = 5  # intervals that show what is usual
+USUAL = 0.75  # share of the intervals that lie within a factor of 2 of the median in a record of a fixed rate
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A column that is read: as the user names it, the Scales of its quantity, and the unit that the user wrote."""
+
+    name: str
+    scales: dict = field(repr=False)
+    unit: str = ""
+
+
+def read(path, *wanted):
+    """SI arrays of the Wanted columns of a file; UserError for the first fault."""
+    return Table(path).columns(*wanted)
+
+
+class Table:
+    """The names of a file's columns, and its numbers read in pieces, as often as they are needed."""
+
+    def __init__(self, path):
+        self.path = Path(path)
+        if not is_file(path):
+            raise UserError(f"{path}: no such file")
+        try:
+            with self.path.open("rb") as file:
+                start = file.read(4096)
+            if other := next((what for magic, what in OTHERS.items() if start.startswith(magic)), None):
+                raise UserError(f"{path}: not a CSV or Parquet table but {other}")
+            self.source = ParquetRows(self.path) if start.startswith(b"PAR1") else TextRows(self.path, start)
+        except OSError as problem:
+            raise UserError(f"{path}: {problem.strerror}") from None
+        self.heads = self.source.heads
+
+    def place(self, name):
+        """Number of the column of a name, with or without its unit."""
+        asked = split_head(name)[0]
+        for fits in (
+            lambda head: head == name.strip(),
+            lambda head: split_head(head)[0] == name.strip(),
+            lambda head: split_head(head)[0] == asked,
+        ):
+            found = [i for i, head in enumerate(self.heads) if fits(head)]
+            if len(found) > 1:
+                raise UserError(f"{self.path}: {name}: two columns have this name: {', '.join(self.heads)}")
+            if found:
+                return found[0]
+        raise unknown(self.path, "column", name, [head for head in self.heads if head])
+
+    def unit(self, wanted):
+        """The unit in which a Wanted column is read, "" for SI."""
+        head = self.heads[self.place(wanted.name)]
+        own, certain = unit_of(head, wanted.scales)
+        asked = wanted.unit or split_head(wanted.name)[1]
+        where = f'{self.path}: column "{head}"'
+        if own and certain and asked not in ("", own) and not same(own, asked, wanted.scales):
+            raise UserError(f"{where}: its unit is {own}, but {asked} was asked for")
+        unit = asked or own
+        try:
+            found = scale(unit, wanted.scales) if unit else (1.0, 0.0)
+        except UserError as problem:
+            raise UserError(f"{where}: {problem}") from None
+        if not asked and not certain and found != (1.0, 0.0) and (len(unit) < 2 or unit in UNSURE):
+            raise UserError(f'{where}: is "{unit}" its unit? Write "[{unit}]" into its name, or the unit beside it')
+        return unit
+
+    def blocks(self, *wanted):
+        """Pieces of the Wanted columns: row numbers, and numbers in SI [n, columns]."""
+        places = [self.place(one.name) for one in wanted]
+        units = [self.unit(one) for one in wanted]
+        scales = [scale(u, one.scales) if u else (1.0, 0.0) for u, one in zip(units, wanted, strict=True)]
+        try:
+            for rows, columns in self.source.blocks(places):
+                yield (
+                    rows,
+                    np.column_stack(
+                        [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
+                    ),
+                )
+        except OSError as problem:
+            raise UserError(f"{self.path}: {problem.strerror}") from None
+
+    def columns(self, *wanted):
+        """SI arrays of the Wanted columns."""
+        return self.rows_and_columns(*wanted)[1:]
+
+    def rows_and_columns(self, *wanted):
+        """The numbers of the rows, and SI arrays of the Wanted columns."""
+        pieces = list(self.blocks(*wanted))
+        if not pieces:
+            raise UserError(f"{self.path}: a line of names but no row of numbers")
+        return (np.concatenate([rows for rows, _ in pieces]), *np.concatenate([block for _, block in pieces]).T)
+
+    def series(self, time, *wanted, gap=None):
+        """SI arrays of the times and the Wanted columns; UserError for times that go back or leave a gap."""
+        rows, t, *columns = self.rows_and_columns(time, *wanted)
+        self.clock(time, gap).add(rows, t)
+        return (t, *columns)
+
+    def clock(self, time, gap=None, strict=True):
+        """The Clock of a Wanted column of times."""
+        return Clock(self.path, self.heads[self.place(time.name)], gap, strict)
+
+
+class Clock:
+    """Times of a record as they come in pieces: they increase and, where the rate is fixed, leave no gap.
+
+    gap: longest interval [s] that is allowed; None: GAP usual intervals.  A gap ends in a UserError if strict, else in
+    the note.
+    """
+
+    def __init__(self, path, head, gap=None, strict=True):
+        self.where, self.gap, self.strict = f'{path}: column "{head}"', gap, strict
+        self.last, self.usual, self.note = None, None, ""
+
+    def add(self, rows, t):
+        """The next piece; UserError naming the row of the first fault."""
+        if self.last is not None:
+            rows, t = np.concatenate([self.last[0], rows]), np.concatenate([self.last[1], t])
+        step = np.diff(t)
+        self.last = rows[-1:], t[-1:]
+        if np.any(step <= 0.0):
+            k = int(np.argmax(step <= 0.0))
+            raise UserError(
+                f"{self.where}, row {rows[k + 1]}: {t[k + 1]:.10g} s after {t[k]:.10g} s: times must increase"
+            )
+        if self.usual is None and len(step):
+            self.usual = usual_interval(step)
+        longest = GAP * self.usual if self.gap is None and self.usual else self.gap or np.inf
+        if np.any(step > longest * (1.0 + 1e-9)):
+            k = int(np.argmax(step > longest * (1.0 + 1e-9)))
+            usual = f", usual is {self.usual:.4g} s" if self.usual else ""
+            self.note = f"row {rows[k + 1]}: a gap of {step[k]:.6g} s{usual}"
+            if self.strict:
+                raise UserError(
+                    f'{self.where}, {self.note}: cut the record there, or allow it with longest_gap = "{step[k]:.6g} s"'
+                )
+
+
+def usual_interval(step):
+    """The median of intervals if they are those of a fixed rate, 0 otherwise."""
+    if len(step) < FEWEST:
+        return 0.0
+    middle = float(np.median(step))
+    return middle if np.mean((step > 0.5 * middle) & (step < 2.0 * middle)) >= USUAL else 0.0
+
+
+def split_head(head):
+    """Name and unit ("" for none) of a column's head: "F [kN]", "F (kN)", "F / kN", "F in kN"; an index is no unit."""
+    head = head.strip()
+    for bracket in re.finditer(r"\[([^][]*)\]|\(((?:[^()]|\([^()]*\))*)\)", head):
+        unit = (bracket[1] if bracket[1] is not None else bracket[2]).strip()
+        last = bracket.end() == len(head) and bracket.start() > 0
+        index = unit.isdigit() and not (unit == "1" and head[bracket.start() - 1].isspace())
+        if (is_unit(unit) or last) and not index:
+            return f"{head[: bracket.start()].rstrip()}{head[bracket.end() :]}".strip(" /,:"), unit
+    for between in (r"\s+in\s+", r"\s*,\s*", r"\s*/\s*"):
+        name, *unit = re.split(between, head, maxsplit=1)
+        if name and unit and is_unit(unit[0]):
+            return name, unit[0]
+    return head, ""
+
+
+def unit_of(head, scales):
+    """Unit of a column's head and whether it is certain: a last word that fits, as in speed_rpm, is not."""
+    name, unit = split_head(head)
+    if unit:
+        return unit, True
+    word = re.split(r"[\s_]", name)[-1]
+    try:
+        fits = is_unit(word) and scale(word, scales) != (1.0, 0.0)
+    except UserError:
+        fits = False
+    return (word, False) if fits else ("", False)
+
+
+def same(one, other, scales):
+    """Whether two units are one."""
+    try:
+        return np.allclose(scale(one, scales), scale(other, scales), rtol=1e-12, atol=0.0)
+    except UserError:
+        return False
+
+
+class TextRows:
+    """The rows of a CSV file."""
+
+    def __init__(self, path, start):
+        self.path = path
+        self.encoding = encoding_of(path, start)
+        self.separator, self.first, self.heads = self.head()
+        self.decimal = self.decimal_sign()
+
+    def lines(self):
+        """Numbers and texts of the lines that are neither empty nor a remark."""
+        with self.path.open(encoding=self.encoding, errors="strict") as file:
+            for number, line in enumerate(file, 1):
+                if line.strip() and not line.startswith("#"):
+                    yield number, line
+
+    def rows(self, separator, first=1):
+        """Row numbers and entries from the line `first` on."""
+        if separator is None:
+            yield from ((n, re.split(r"\s+(?![\[(])", line.strip())) for n, line in self.lines() if n >= first)
+            return
+        at = [0]
+
+        def texts():
+            for at[0], line in self.lines():
+                if at[0] >= first:
+                    yield line
+
+        try:
+            yield from ((at[0], row) for row in csv.reader(texts(), delimiter=separator) if any(map(str.strip, row)))
+        except csv.Error as problem:
+            raise UserError(f"{self.path}: row {at[0]}: not a row of a CSV table: {problem}") from None
+
+    def head(self):
+        """Separator, first row of numbers and names: by the first separator by which most rows are as long as the names."""
+        declared = next((re.fullmatch(r'"?sep=(.)"?\s*', line, re.IGNORECASE) for _, line in self.lines()), None)
+        best = 2.0, None, 0, []
+        for separator in (declared[1],) if declared else SEPARATORS:
+            sample = list(islice(self.rows(separator, 2 if declared else 1), SAMPLE))
+            faults, first, names = head_of(sample)
+            if faults < best[0]:
+                best = faults, separator, first, names
+            if faults < 0.5:
+                break
+        faults, separator, first, names = best
+        if faults > 1.0:
+            raise UserError(
+                f"{self.path}: not a CSV table: a line of names and rows of numbers with commas, semicolons or tabs between are needed"
+            )
+        if all(map(is_number, filter(None, names))):
+            raise UserError(f"{self.path}: row {first - 1}: numbers where the names of the columns are needed")
+        return separator, first, names
+
+    def decimal_sign(self):
+        """The decimal sign by all entries; UserError if the file has both, or one that may part thousands."""
+        seen, plain = {}, False
+        for row, entries in self.rows(self.separator, self.first):
+            for entry in entries:
+                if "," in entry or "." in entry:
+                    seen.setdefault(sign_of(GROUPS.sub("", entry.strip())), (row, entry.strip()))
+                elif len(entry) > 3 and not plain:
+                    plain = re.fullmatch(r"[+-]?\d{4,}", entry.strip()) is not None
+            if "." in seen and self.separator == "," and "," not in seen:
+                break  # a comma inside quotes would be a fault of its own row
+        if "," in seen and "." in seen:
+            rows = " and ".join(f'row {row} has "{text}"' for row, text in sorted((seen[","], seen["."])))
+            raise UserError(f"{self.path}: two decimal signs: {rows}")
+        for sign in (",", "."):
+            if sign in seen:
+                return sign
+        for sign, doubt in ((",", "?,"), (".", "?.")):
+            if doubt in seen and (plain or (sign == "." and self.separator in (",", None))):
+                return sign
+            if doubt in seen:
+                row, text = seen[doubt]
+                raise UserError(
+                    f'{self.path}: row {row}: "{text}" may be a thousand or have decimals: write the numbers without a sign for thousands'
+                )
+        return "."
+
+    def blocks(self, places):
+        """Row numbers and the numbers of some columns, in pieces."""
+        rows, count = self.rows(self.separator, self.first), len(self.heads)
+        while piece := list(islice(rows, BLOCK)):
+            for number, row in piece:
+                if not fits(self.heads, row):
+                    raise UserError(
+                        f"{self.path}: row {number} has {len(row)} entries, the line of names has {count}{self.hint(row)}"
+                    )
+            yield (
+                np.array([number for number, _ in piece]),
+                [self.numbers(place, piece) for place in places],
+            )
+
+    def hint(self, row):
+        """Why a row may have more entries than there are names."""
+        doubled = self.separator == "," and len(row) > len(self.heads)
+        return ": a comma as decimal sign needs semicolons between the entries" if doubled else ""
+
+    def numbers(self, place, piece):
+        """One column of a piece as floats."""
+        texts = [row[place] for _, row in piece]
+        odd = "_." if self.decimal == "," else "_"
+        try:
+            values = np.array(
+                [float(text.replace(",", ".")) for text in texts] if odd != "_" else list(map(float, texts))
+            )
+            if np.all(np.isfinite(values)) and not any(sign in text for text in texts for sign in odd):
+                return values
+        except ValueError:
+            pass
+        return np.array([self.number(place, number, row[place].strip()) for number, row in piece])
+
+    def number(self, place, row, text):
+        """One entry as float; UserError naming its row."""
+        plain = GROUPS.sub("", text).replace("−", "-")
+        other = "." if self.decimal == "," else ","
+        if other in plain and GROUPED[other].fullmatch(plain):
+            plain = plain.replace(other, "")
+        plain = plain.replace(",", ".") if self.decimal == "," else plain
+        if DIGITS.fullmatch(plain) and np.isfinite(float(plain)):
+            return float(plain)
+        raise entry_fault(self.path, row, self.heads[place], text)
+
+
+def head_of(sample):
+    """Share of rows of another length, first row of numbers, and names with their units, from the first rows of a file:
+    the names are the first row without a number before a row with numbers that is as long.
+    """
+    for k, ((_, names), (row, entries)) in enumerate(pairwise(sample)):
+        names, units = [name.strip() for name in named(names)], [entry.strip().strip("[]()") for entry in entries]
+        if len(names) < 2 or any(map(is_number, names)) or not fits(names, entries):
+            continue
+        below = sample[k + 1 :]
+        if any(map(is_number, entries)):
+            return sum(not fits(names, cells) for _, cells in below) / len(below), row, names
+        if len(below) > 1 and any(map(is_number, below[1][1])) and all(unit == "" or is_unit(unit) for unit in units):
+            return 0.0, row + 1, [f"{n} [{u}]" if u else n for n, u in zip(names, units, strict=False)]
+    if sample and len(sample[0][1]) > 1:
+        return 1.0, sample[0][0] + 1, [name.strip() for name in named(sample[0][1])]
+    return 2.0, 0, []
+
+
+def named(names):
+    """The names up to the last one that is not empty."""
+    return names[: max((k for k, name in enumerate(names, 1) if name.strip()), default=0)]
+
+
+def entry_fault(path, row, head, text):
+    """The error for an entry that is no finite number."""
+    text = text if len(text) < 40 else f"{text[:37]}..."
+    what = "no value" if text.lower() in MISSING else "not a number"
+    if re.fullmatch(r"\d{1,4}[-./]\d{1,2}[-./]\d{1,4}.*|\d{1,2}:\d\d.*", text):
+        what = "a date or time of day: numbers are needed, such as the seconds since the start"
+    if re.fullmatch(r"[+-]?(inf(inity)?|\d[\d.,]*e\+?\d+)", text.lower()):
+        what = "not a finite number"
+    return UserError(f'{path}: row {row}, column "{head}": "{text}": {what}')
+
+
+def fits(names, entries):
+    """Whether a row has an entry for each name, and only empty ones beyond."""
+    return len(entries) == len(names) or (len(entries) > len(names) and not any(map(str.strip, entries[len(names) :])))
+
+
+def is_number(text):
+    """Whether an entry is a number by any decimal sign, or stands for a missing one."""
+    text = GROUPS.sub("", text.strip())
+    return bool(re.fullmatch(r"[-+−]?[\d.,]*\d[\d.,]*([eE][+-]?\d+)?", text)) or text.lower() == "nan"
+
+
+def sign_of(text):
+    """Decimal sign that an entry shows: "," or ".", "?," or "?." where the sign may part thousands, "" for none."""
+    number = re.fullmatch(r"([+-]?[\d.,]+)(?:[eE][+-]?\d+)?", text)
+    if not number:
+        return ""
+    signs = re.sub(r"[^.,]", "", number[1])
+    if len(set(signs)) == 2:
+        return signs[-1] if signs.count(signs[-1]) == 1 else ""
+    if len(signs) > 1:
+        return {",": ".", ".": ","}[signs[0]] if GROUPED[signs[0]].fullmatch(number[1]) else ""
+    return f"?{signs}" if DOUBTFUL[signs].fullmatch(text) else signs
+
+
+def encoding_of(path, start):
+    """UTF-8, UTF-16 or UTF-32 by the mark of the byte order or its zeros, else Latin-1 as Windows writes it."""
+    for mark, encoding in MARKS.items():
+        if start.startswith(mark):
+            return checked(path, encoding)
+    if len(start) > 3 and start[1:2] == b"\0" and start[:1] != b"\0":
+        return checked(path, "utf-16-le")
+    if len(start) > 3 and start[:1] == b"\0" and start[1:2] != b"\0":
+        return checked(path, "utf-16-be")
+    if b"\0" in start:
+        raise UserError(f"{path}: not a CSV table: it holds bytes that are no text")
+    for encoding in ("utf-8", "cp1252"):
+        try:
+            decode(path, encoding)
+            return encoding
+        except UnicodeDecodeError:
+            pass
+    return "latin-1"
+
+
+def checked(path, encoding):
+    """An encoding if all of the file has it; UserError naming the row where it ends."""
+    try:
+        decode(path, encoding)
+    except UnicodeDecodeError:
+        row = 1
+        with path.open(encoding=encoding, errors="replace") as file:
+            row = next((number for number, line in enumerate(file, 1) if "\ufffd" in line), 1)
+        raise UserError(f"{path}: row {row}: bytes that are no {encoding.upper()} text: the file is damaged") from None
+    return encoding
+
+
+def decode(path, encoding):
+    """UnicodeDecodeError unless all of a file is text of an encoding."""
+    decoder = codecs.getincrementaldecoder(encoding)()
+    with path.open("rb") as file:
+        while piece := file.read(1 << 20):
+            decoder.decode(piece)
+    decoder.decode(b"", final=True)
+
+
+class ParquetRows:
+    """The rows of a Parquet file; the unit of a column may stand in its field's metadata."""
+
+    def __init__(self, path):
+        try:
+            from pyarrow import parquet
+        except ImportError:
+            raise UserError(f"{path}: pyarrow is not installed: {extra('full')}; a CSV table needs nothing") from None
+        self.path = path
+        try:
+            self.file = parquet.ParquetFile(path, page_checksum_verification=True)
+        except Exception as problem:  # pyarrow has many
+            raise UserError(f"{path}: not a Parquet table: {one_line(problem)}") from None
+        self.heads = []
+        for one in self.file.schema_arrow:
+            unit = (one.metadata or {}).get(b"unit", b"").decode(errors="replace")
+            self.heads.append(f"{one.name} [{unit}]" if unit and not split_head(one.name)[1] else one.name)
+
+    def blocks(self, places):
+        """Row numbers and the numbers of some columns, in pieces."""
+        first, names = 1, [self.file.schema_arrow.names[place] for place in places]
+        try:
+            for batch in self.file.iter_batches(BLOCK, columns=names):
+                rows = np.arange(first, first + len(batch))
+                first += len(batch)
+                columns = (batch.column(batch.schema.get_field_index(name)) for name in names)
+                yield rows, [self.numbers(one, rows, self.heads[i]) for one, i in zip(columns, places, strict=True)]
+        except UserError:
+            raise
+        except Exception as problem:
+            raise UserError(f"{self.path}: not a Parquet table: {one_line(problem)}") from None
+
+    def numbers(self, column, rows, head):
+        """One column as floats."""
+        from pyarrow import compute, float64, types
+
+        kind = column.type
+        if types.is_string(kind) or types.is_large_string(kind):
+            texts = ["" if text is None else text.strip() for text in column.to_pylist()]
+            for row, text in zip(rows, texts, strict=True):
+                if not DIGITS.fullmatch(text):
+                    raise entry_fault(self.path, row, head, text)
+            return np.array(texts, float)
+        if types.is_temporal(kind) or types.is_boolean(kind) or types.is_nested(kind):
+            raise UserError(f'{self.path}: column "{head}": {kind} where numbers are needed')
+        values = compute.cast(column, float64(), safe=False).to_numpy(zero_copy_only=False)
+        if not np.all(np.isfinite(values)):
+            k = int(np.argmin(np.isfinite(values)))
+            raise entry_fault(self.path, rows[k], head, "" if column[k].as_py() is None else f"{column[k].as_py()}")
+        return values
+
+
+def one_line(problem):
+    """An error of a library in one line."""
+    return " ".join(f"{problem}".split())[:300]
