@@ -138,7 +138,7 @@ def test_clearance_by_a_class(tmp_path):
 @pytest.mark.parametrize(
     ("text", "named"),
     [
-        (CLASS + 'clearance = "C7"\n', "catalogue.clearance = 'C7'.*allowed: C2, CN, C3, C4, C5"),
+        (CLASS + 'clearance = "C7"\n', "catalogue.clearance = 'C7'.*allowed: C2, CM, CN, C3, C4, C5"),
         (CLASS + "clearance = 3\n", "catalogue.clearance = 3.*allowed: C2"),
         (CLASS + 'clearance = "C3"\n[parameters]\nbearing.P_d = "20 um"\n', "without bearing.P_d"),
         (OWN + '[catalogue]\nclearance = "C3"\n', "needs catalogue.bore"),
