@@ -5,7 +5,6 @@ import reprlib
 from difflib import get_close_matches
 from pathlib import Path
 
-
 INSTEAD = {  # names that are near to others of another meaning: what does it
     "gravity.x": "gravity along the shaft is the input frame.a_x: an acceleration of the frame against it",
 }
