@@ -297,7 +297,7 @@ class TextRows:
         seen, plain = {}, False
         for row, entries in self.rows(self.separator, self.first):
             for entry in entries:
-                if "," in entry or "." in entry:
+                if ("." in entry and "." not in seen) or ("," in entry and "," not in seen):
                     seen.setdefault(sign_of(GROUPS.sub("", entry.strip())), (row, entry.strip()))
                 elif len(entry) > 3 and not plain:
                     plain = re.fullmatch(r"[+-]?\d{4,}", entry.strip()) is not None
