@@ -5,6 +5,10 @@ import reprlib
 from difflib import get_close_matches
 from pathlib import Path
 
+INSTEAD = {  # names that are near to others of another meaning: what does it
+    "gravity.x": "gravity along the shaft is the input frame.a_x: an acceleration of the frame against it",
+}
+
 
 class UserError(ValueError):
     """A file, name, value or unit that cannot be used; the message says where it stands, what it is and what is
@@ -17,6 +21,7 @@ def unknown(where, kind, name, allowed):
     bracketed = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", str(name))  # rivet.3.intact is rivet[3].intact
     near = [bracketed] if bracketed in allowed else get_close_matches(bracketed, list(allowed), n=1, cutoff=0.6)
     hint = f'did you mean "{near[0]}"?' if near else f"allowed: {shortlist(allowed)}"
+    hint = INSTEAD.get(bracketed, hint)
     return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
 
 

@@ -102,12 +102,14 @@ class Table:
         if own and certain and asked not in ("", own) and not same(own, asked, wanted.scales):
             raise UserError(f"{where}: its unit is {own}, but {asked} was asked for")
         unit = asked or own
+        if not asked and not certain and unit and (len(unit) < 2 or unit in UNSURE or unit[0] == "?"):
+            unit = unit.lstrip("?")
+            raise UserError(f'{where}: is "{unit}" its unit? Write "[{unit}]" into its name, or the unit beside it')
         try:
-            found = scale(unit, wanted.scales) if unit else (1.0, 0.0)
+            if unit:
+                scale(unit, wanted.scales)
         except UserError as problem:
             raise UserError(f"{where}: {problem}") from None
-        if not asked and not certain and found != (1.0, 0.0) and (len(unit) < 2 or unit in UNSURE):
-            raise UserError(f'{where}: is "{unit}" its unit? Write "[{unit}]" into its name, or the unit beside it')
         return unit
 
     def blocks(self, *wanted):
@@ -212,12 +214,21 @@ def unit_of(head, scales):
     name, unit = split_head(head)
     if unit:
         return unit, True
-    word = re.split(r"[\s_]", name)[-1]
+    word = re.split(r"[\s_.:-]", name)[-1]
+    if changes(word, scales):
+        return word, False
+    last = re.search(r"(?<=[a-z\d])[A-Z][A-Za-z]+$", word)  # speedRPM, timeMs
+    if last and any(changes(one, scales) for one in (last[0], last[0].lower(), last[0][0].lower() + last[0][1:])):
+        return f"?{last[0]}", False
+    return "", False
+
+
+def changes(unit, scales):
+    """Whether a text is a unit of a quantity other than its SI unit."""
     try:
-        fits = is_unit(word) and scale(word, scales) != (1.0, 0.0)
+        return is_unit(unit) and scale(unit, scales) != (1.0, 0.0)
     except UserError:
-        fits = False
-    return (word, False) if fits else ("", False)
+        return False
 
 
 def same(one, other, scales):
@@ -286,7 +297,7 @@ class TextRows:
         seen, plain = {}, False
         for row, entries in self.rows(self.separator, self.first):
             for entry in entries:
-                if "," in entry or "." in entry:
+                if ("." in entry and "." not in seen) or ("," in entry and "," not in seen):
                     seen.setdefault(sign_of(GROUPS.sub("", entry.strip())), (row, entry.strip()))
                 elif len(entry) > 3 and not plain:
                     plain = re.fullmatch(r"[+-]?\d{4,}", entry.strip()) is not None
@@ -358,17 +369,24 @@ def head_of(sample):
     the names are the first row without a number before a row with numbers that is as long.
     """
     for k, ((_, names), (row, entries)) in enumerate(pairwise(sample)):
-        names, units = [name.strip() for name in named(names)], [entry.strip().strip("[]()") for entry in entries]
+        names = [" ".join(name.split()) for name in named(names)]
         if len(names) < 2 or any(map(is_number, names)) or not fits(names, entries):
             continue
         below = sample[k + 1 :]
         if any(map(is_number, entries)):
             return sum(not fits(names, cells) for _, cells in below) / len(below), row, names
-        if len(below) > 1 and any(map(is_number, below[1][1])) and all(unit == "" or is_unit(unit) for unit in units):
+        if len(below) > 1 and any(map(is_number, below[1][1])) and is_line_of_units(entries):
+            units = [entry.strip().strip("[]()") for entry in entries]
             return 0.0, row + 1, [f"{n} [{u}]" if u else n for n, u in zip(names, units, strict=False)]
     if sample and len(sample[0][1]) > 1:
-        return 1.0, sample[0][0] + 1, [name.strip() for name in named(sample[0][1])]
+        return 1.0, sample[0][0] + 1, [" ".join(name.split()) for name in named(sample[0][1])]
     return 2.0, 0, []
+
+
+def is_line_of_units(entries):
+    """Whether all entries of a row that are not empty are units, or stand in brackets."""
+    texts = [entry.strip() for entry in entries if entry.strip()]
+    return all(re.fullmatch(r"\[.*\]|\(.*\)", text) or is_unit(text) for text in texts)
 
 
 def named(names):
@@ -378,6 +396,7 @@ def named(names):
 
 def entry_fault(path, row, head, text):
     """The error for an entry that is no finite number."""
+    text = " ".join(text.split())
     text = text if len(text) < 40 else f"{text[:37]}..."
     what = "no value" if text.lower() in MISSING else "not a number"
     if re.fullmatch(r"\d{1,4}[-./]\d{1,2}[-./]\d{1,4}.*|\d{1,2}:\d\d.*", text):

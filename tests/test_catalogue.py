@@ -116,7 +116,10 @@ def test_clearance_is_the_middle_of_class_cn():
         and clearance(0.041) == pytest.approx(14.5e-6)
     )
     assert clearance(0.2) is None
-    bounds = np.array(list(CLEARANCE.values()))
+    bounds = np.array([bounds for name, bounds in CLEARANCE.items() if name != "CM"])
+    motors, normal = np.array(CLEARANCE["CM"]), np.array(CLEARANCE["CN"])
+    assert np.all(np.diff(motors, axis=0) >= 0) and np.all(motors[1:, 0] >= normal[1:, 0])
+    assert np.all(motors[:, 1] < normal[:, 1])  # of motors: within the normal class, and narrower
     assert np.all(np.diff(bounds, axis=1) >= 0) and np.all(np.diff(bounds, axis=0) >= 0)
     assert np.all(bounds[1:, :, 0] <= bounds[:-1, :, 1])  # classes beside each other overlap
 
@@ -138,7 +141,7 @@ def test_clearance_by_a_class(tmp_path):
 @pytest.mark.parametrize(
     ("text", "named"),
     [
-        (CLASS + 'clearance = "C7"\n', "catalogue.clearance = 'C7'.*allowed: C2, CN, C3, C4, C5"),
+        (CLASS + 'clearance = "C7"\n', "catalogue.clearance = 'C7'.*allowed: C2, CN, C3, C4, C5, CM"),
         (CLASS + "clearance = 3\n", "catalogue.clearance = 3.*allowed: C2"),
         (CLASS + 'clearance = "C3"\n[parameters]\nbearing.P_d = "20 um"\n', "without bearing.P_d"),
         (OWN + '[catalogue]\nclearance = "C3"\n', "needs catalogue.bore"),

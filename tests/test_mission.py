@@ -415,22 +415,31 @@ def test_times_of_an_event_count_from_the_end_of_settling(model):
     assert mission.cases[1].scene.inputs["impact.F_r"] is history and not mission.parts[1].warnings
 
 
-def test_tables_and_records_become_points(tmp_path, model):
-    (tmp_path / "duty.csv").write_text("h,n\n10,8000\n20,12000\n")
-    (tmp_path / "flight.csv").write_text("t,kN\n0,1\n3600,2\n7200,2\n")
+@pytest.mark.parametrize("written", [False, True])
+def test_tables_and_records_become_points(tmp_path, model, written):
+    """Units beside the columns, or in their heads as Excel writes them."""
+    duty, flight = ("h,n", "t,kN") if not written else ("h [min];n (rpm)", "t [min];kN [N]")
+    rows = ("10,8000\n20,12000\n", "0,1\n3600,2\n7200,2\n")
+    if written:
+        rows = "600;8000\n1200;12000\n", "0,0;1000,5\n60;2000\n120;2000\n"
+    (tmp_path / "duty.csv").write_text(f"{duty}\n{rows[0]}", encoding="utf-16")
+    (tmp_path / "flight.csv").write_text(f"{flight}\n{rows[1]}", encoding="utf-8-sig")
+    column = {"column": "n"} if written else {"column": "n", "unit": "rev/min"}
     document = SHORT | {
-        "table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft": {"omega": {"column": "n", "unit": "rev/min"}}}},
+        "table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft": {"omega": column}}},
         "history": {
             "file": "flight.csv",
             "time": "t",
             "hours": 30,
-            "inputs": {"shaft.F_y": {"column": "kN", "unit": "kN", "bins": 2}},
+            "inputs": {"shaft.F_y": {"column": "kN", "bins": 2} | ({} if written else {"unit": "kN"})},
         },
     }
     mission = plan_mission("trial", document, model, tmp_path / "trial.toml")
     assert [part.weight for part in mission.parts] == pytest.approx([10, 20, 15, 15])
     assert mission.parts[1].values["shaft.omega"] == pytest.approx(12000 * math.pi / 30)
-    assert [part.values["shaft.F_y"] for part in mission.parts[2:]] == pytest.approx([1000, 2000])
+    assert [part.values["shaft.F_y"] for part in mission.parts[2:]] == pytest.approx(
+        [1000.5 if written else 1000.0, 2000.0]
+    )
 
 
 @pytest.mark.parametrize(

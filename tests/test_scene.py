@@ -146,13 +146,21 @@ def test_history_by_hand():
     assert History(*points, hold=True)(t).tolist() == [1, 1, 1, 2, 2, -2, -2]
 
 
-def test_points_and_columns_give_the_same_history(model, scene_file, tmp_path):
-    (tmp_path / "loads.csv").write_text("# measured\nt,Fr,other\n0,1,7\n0.1,3,8\n0.2,2.5,9\n")
+@pytest.mark.parametrize(
+    ("text", "unit"),
+    [
+        ("# measured\nt,Fr,other\n0,1,7\n0.1,3,8\n0.2,2.5,9\n", ", unit = 'kN'"),
+        ("t [ms];Fr [kN]\n0;1\n100;3\n200;2,5\n", ""),
+        ("t (s)\tFr (N)\n0\t1000\n0.1\t3000\n0.2\t2500\n", ", unit = 'N'"),
+    ],
+)
+def test_points_and_columns_give_the_same_history(model, scene_file, tmp_path, text, unit):
+    (tmp_path / "loads.csv").write_text(text)
     points = load_scene(
         scene_file("[inputs]\nshaft.F_y = { t = [0, '100 ms', 0.2], value = [1, '3 kN', 2.5], unit = 'kN' }"), model
     )
     column = load_scene(
-        scene_file("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', time = 't', unit = 'kN' }"), model
+        scene_file("[inputs]\nshaft.F_y = { file = 'loads.csv', column = 'Fr', time = 't'" + unit + " }"), model
     )
     t = np.linspace(0.0, 0.3, 31)
     assert points.inputs["shaft.F_y"](t) == pytest.approx(np.interp(t, [0, 0.1, 0.2], [1000, 3000, 2500]), rel=1e-14)

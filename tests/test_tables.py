@@ -208,6 +208,9 @@ def test_ways_of_writing(text, base, expected, tmp_path):
         (b"time,n\n", ["no row of numbers"]),
         (b"time [ms],time [s],n\n0,0,1\n", ["two columns have this name"]),
         (b"time,n [kN]\n0,1\n", ["its unit is kN, but lbf was asked for"]),
+        (b"time;n\n[s];[V]\n0;1\n1;2\n", ['"n [V]"', '"V" does not fit']),
+        (b'time,n\n0,1\n1,"2\n2,3\n', ["row 4", '"2 2,3"', "not a number"]),
+        (b"timeMs,n\n0,1\n1,2\n", ['"timeMs"', 'is "Ms" its unit?']),
     ],
 )
 def test_faults_of_files(data, said, tmp_path):
@@ -215,7 +218,8 @@ def test_faults_of_files(data, said, tmp_path):
     kelvin, unit = b"T_C" in data, "lbf" if b"kN" in data else ""
     with pytest.raises(UserError) as refused:
         Table(tmp_path / "rig.csv").series(
-            Wanted("time", SECONDS), Wanted("T_C" if kelvin else "n", scales("K" if kelvin else "N"), unit)
+            Wanted("timeMs" if b"Ms" in data else "time", SECONDS),
+            Wanted("T_C" if kelvin else "n", scales("K" if kelvin else "N"), unit),
         )
     message = str(refused.value)
     assert "\n" not in message and "rig.csv" in message and all(words in message for words in said), message
