@@ -1,0 +1,334 @@
+"""The default against converged results in scenes that nobody tuned on, drawn over the whole design space.
+
+    python benchmarks/blind.py SEED N [--cage elastic] [--method verlet] [--bearing FMU ...]
+
+Each scene runs with the default tolerance and with REFERENCE on the same start seeds.  Where a bias is beyond its limit,
+the scene runs with FINER too, which then is the reference, and by Runge-Kutta, whose biases against it are listed.  A
+bias counts if it is beyond its limit and beyond two standard errors of the seeds' differences.  A scene's record stays
+in build/blind/, so that a run that was stopped goes on; the record of all is in benchmarks/results/.  Every record
+needs a new SEED.
+"""
+
+import argparse
+import hashlib
+import json
+import math
+import multiprocessing
+import os
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from functools import cache, partial
+from pathlib import Path
+
+import numpy as np
+from common import BUILD, FMU, say, write
+
+from riveted_bearing import UserError
+from riveted_bearing.fmu import Model
+from riveted_bearing.runner import simulate
+from riveted_bearing.scene import load_scene
+
+SETTLE, SPAN, STEP = 0.05, 0.2, 1e-4  # [s]: statistics run over SPAN after SETTLE, sampled outputs at each STEP
+REFERENCE, FINER, RUNGE_KUTTA = 1e-5, 1e-6, 1e-4  # tolerances
+NOT_STIFF = (
+    1000.0  # r/min from which Runge-Kutta can: the rates of traction grow with 1/speed, below its runs take minutes
+)
+PITCH_SPEED = {"machined": 25000 * 53.5, "ribbon": 480_000 / 0.7}  # largest n d_m [r/min mm]
+OFFSET = 0.2e-3  # largest distance of a cage's centre of mass from its axis [m]
+SAMPLED = [
+    "bearing.friction_torque",
+    "bearing.power_loss",
+    "loss.land",
+    "bearing.energy_residual",
+    "event.step_too_long",
+]
+# name -> limit of the bias, floor of its denominator: values below the floor decide nothing in a design
+FIGURES = {
+    "head_mean": (0.02, 20e6),
+    "head_p999": (0.03, 20e6),
+    "force_rms": (0.02, 1.0),
+    "force_p999": (0.03, 5.0),
+    "dislocation": (0.05, 1e-6),
+    "torque": (0.05, 2e-3),
+    "land_loss": (0.05, 0.5),
+}
+UNITS = {"head_mean": 1e-6, "head_p999": 1e-6, "dislocation": 1e6}  # printed in MPa, um
+
+
+# --------------------------------------------------------------------------------------------------------------- scenes
+
+
+def draw(seed, number, model, cage):
+    """Scene `number` of a seed for an FMU's bearing: parameters and inputs that a bearing of its size may see."""
+    rng = np.random.default_rng([seed, number])
+    start = {name: model.default(variable) for name, variable in model.parameters.items()}
+    shape, size = start["cage.shape"], start["bearing.D"] / 0.0111125  # of the 6207's balls
+
+    def log(low, high):
+        return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+    def chance(share):
+        return rng.random() < share
+
+    radial, angle = size**2 * log(200.0, 6000.0), rng.uniform(0.0, 2.0 * math.pi)
+    parameters = {
+        "scene.cage": cage if cage != "any" else "two_half" if chance(1 / 6) else "elastic",
+        "scene.lubrication": "mixed" if chance(0.3) else "film",
+        "oil.eta": log(3e-3, 60e-3),
+        "joint.preload": size**2 * float(rng.uniform(5.0, 60.0)),
+        "joint.fit": float(rng.uniform(-40e-6, 5e-6)),
+        "joint.mu": log(0.08, 0.3),
+        "cage.mu": log(0.02, 0.15),
+        "bearing.P_d": size * float(rng.uniform(2e-6, 40e-6)),
+        "cage.pocket_filling": float(rng.choice([0.0, rng.uniform(), 1.0])),
+        "gravity.y": float(rng.choice([0.0, -9.81])),
+    }
+    if shape == "machined":
+        parameters["cage.pocket_clearance"] = start["cage.pocket_clearance"] * log(0.5, 2.0)
+        parameters["cage.guide_clearance"] = start["cage.guide_clearance"] * log(0.5, 2.0)
+    inputs = {
+        "shaft.omega": float(rng.choice([1.0, 1.0, 1.0, -1.0]))
+        * log(50.0, PITCH_SPEED[shape] / (1e3 * start["bearing.d_m"]))
+        * math.pi
+        / 30.0,
+        "shaft.F_x": size**2 * float(rng.uniform(0.0, 2000.0)) * rng.choice([1.0, 1.0, -1.0]),
+        "shaft.F_y": radial * math.cos(angle),
+        "shaft.F_z": radial * math.sin(angle),
+    }
+    kind, tilts, moments = rng.random(), np.radians(rng.uniform(-0.4, 0.4, 2)), size**3 * rng.uniform(-8.0, 8.0, 2)
+    if kind < 0.35:
+        inputs |= {"shaft.tilt_y": tilts[0]} | ({"shaft.tilt_z": tilts[1]} if kind < 0.15 else {})
+    elif kind < 0.55:
+        parameters["ring.tilt_mode"] = "supported"
+        inputs |= {"shaft.M_y": moments[0], "shaft.M_z": moments[1]}
+    if chance(0.25):
+        parameters["cage.unbalance"] = 2.0 * start["cage.m"] * float(rng.uniform(0.0, OFFSET))
+    if chance(0.25):
+        parameters |= {
+            "pulse.F_r": size**2 * log(500.0, 6000.0),
+            "pulse.F_a": size**2 * float(rng.uniform(0.0, 2000.0)),
+        }
+        parameters |= {"pulse.t_start": 0.1, "pulse.count": 60}
+    return parameters, {name: float(value) for name, value in inputs.items()}
+
+
+def in_words(parameters, inputs):
+    """A scene in a line."""
+    p = parameters
+    loads = [math.hypot(inputs["shaft.F_y"], inputs["shaft.F_z"]), inputs["shaft.F_x"]]
+    words = [
+        p["scene.cage"],
+        p["scene.lubrication"],
+        f"{30.0 / math.pi * inputs['shaft.omega']:.0f} r/min, {loads[0]:.0f} N, {loads[1]:.0f} N",
+        f"{1e3 * p['oil.eta']:.1f} mPa.s",
+        f"P {p['joint.preload']:.0f} N",
+        f"fit {1e6 * p['joint.fit']:.0f} um",
+        f"filling {p['cage.pocket_filling']:.2f}",
+    ]
+    if "cage.guide_clearance" in p:
+        words += [f"pocket {1e3 * p['cage.pocket_clearance']:.2f}, guide {1e3 * p['cage.guide_clearance']:.2f} mm"]
+    words += [f"{n[6:]} {math.degrees(v):+.2f} deg" for n, v in inputs.items() if n.startswith("shaft.tilt")]
+    words += [f"{n[6:]} {v:+.1f} N.m" for n, v in inputs.items() if n.startswith("shaft.M")]
+    if "cage.unbalance" in p:
+        words.append(f"unbalance {1e6 * p['cage.unbalance']:.1f} g.mm")
+    return ", ".join(words + ["pulses"] * ("pulse.F_r" in p))
+
+
+# ----------------------------------------------------------------------------------------------------------------- runs
+
+
+@cache
+def model_of(fmu):
+    """One for each process, because unpacking takes longer than a run."""
+    return Model(fmu)
+
+
+def measure(fmu, scene, seed, tolerance, method):
+    """Figures and cost of one run; ArithmeticError if the FMU gives up."""
+    parameters, inputs = scene
+    settings = {"solver.method": method, "solver.clock": "on", "start.settle": SETTLE, "start.seed": seed}
+    changes = {
+        "simulation": {"t_end": SETTLE + SPAN, "step": STEP, "outputs": SAMPLED},
+        "parameters": parameters | settings | ({} if tolerance is None else {"solver.tol": tolerance}),
+        "inputs": inputs,
+    }
+    found = simulate(model_of(fmu), load_scene(None, model_of(fmu), ("a blind scene", changes)))
+    if found.stopped:
+        raise ArithmeticError(found.stopped)
+    s, after = found.summary, found.data["time"] > SETTLE * (1.0 + 1e-9)
+    sampled = {name: found.data[name] for name in SAMPLED}
+    mean = {name: float(np.mean(values[after])) for name, values in sampled.items()}
+    loss = float(np.mean(np.abs(sampled["bearing.power_loss"]))) * (SETTLE + SPAN)
+    return {
+        "head_mean": s["stat.sigma_head_mean"],
+        "head_p999": s["stat.sigma_head_p999"],
+        "force_rms": s["stat.Q_c_rms"],
+        "force_p999": s["stat.Q_c_p999"],
+        "dislocation": s["stat.dislocation_max"],
+        "torque": mean["bearing.friction_torque"] * math.copysign(1.0, inputs["shaft.omega"]),
+        "land_loss": mean["loss.land"],
+        "residual": float(sampled["bearing.energy_residual"][-1]) / max(loss, 1e-3),
+        "flagged": float(np.max(sampled["event.step_too_long"])),
+        "evaluations": s["solver.rhs_evals"],
+        "seconds": s["solver.cpu_time"],
+    }
+
+
+def biases(runs, reference):
+    """Bias of each figure and its standard error, both over the reference's mean, from runs on common seeds."""
+    rows = {}
+    for name, (_, floor) in FIGURES.items():
+        difference = np.array([run[name] - other[name] for run, other in zip(runs, reference, strict=True)])
+        scale = max(abs(float(np.mean([other[name] for other in reference]))), floor)
+        rows[name] = float(difference.mean() / scale)
+        rows[f"{name}_se"] = float(difference.std(ddof=1) / math.sqrt(len(difference)) / scale)
+    return rows
+
+
+def beyond(row, times=1.0):
+    """Figures whose bias is beyond a multiple of the limit and beyond two standard errors."""
+    return [n for n, (limit, _) in FIGURES.items() if abs(row[n]) > max(times * limit, 2.0 * row[f"{n}_se"])]
+
+
+def averages(runs, names):
+    return {name: float(np.mean([run[name] for run in runs])) for name in names}
+
+
+def compare(number, options):
+    """Record of one scene."""
+    fmu = options.bearing[number % len(options.bearing)]
+    scene = draw(options.seed, number, model_of(fmu), options.cage)
+    row = {"scene": number, "bearing": Path(fmu).stem, "words": in_words(*scene)}
+
+    def runs(tolerance, method):
+        return [measure(fmu, scene, seed, tolerance, method) for seed in range(1, options.seeds + 1)]
+
+    try:
+        ours, reference, tolerance = runs(None, options.method), runs(REFERENCE, "verlet"), REFERENCE
+        other = None
+        if beyond(biases(ours, reference)):
+            try:
+                reference, tolerance = runs(FINER, "verlet"), FINER
+                if abs(scene[1]["shaft.omega"]) > NOT_STIFF * math.pi / 30.0:
+                    other = runs(RUNGE_KUTTA, "explicit")
+            except (ArithmeticError, UserError) as problem:  # what is reached is the reference
+                row["not_reached"] = str(problem)[:200]
+    except (ArithmeticError, UserError) as problem:
+        return row | {"failed": str(problem)[:300]}
+    row |= averages(reference, FIGURES.keys()) | {"tolerance": tolerance, "bias": biases(ours, reference)}
+    row["bias"] |= averages(ours, ("residual", "evaluations", "seconds"))
+    row["bias"]["flagged"] = max(run["flagged"] for run in ours)
+    row["reference"] = averages(reference, ("residual", "evaluations", "seconds"))
+    if other:
+        row["runge_kutta"] = biases(other, reference) | averages(other, ("residual", "evaluations", "seconds"))
+    return row
+
+
+def run_all(options, folder):
+    """Records of all scenes in their order; those in the folder are not run again."""
+    options.bearing = [str(Path(fmu).resolve()) for fmu in options.bearing]
+    digest = hashlib.sha256(b"".join(Path(fmu).read_bytes() for fmu in options.bearing)).hexdigest()[:12]
+    name = f"{options.seed}-{options.cage}-{options.method}-{options.seeds}-{digest}.jsonl"
+    folder.mkdir(parents=True, exist_ok=True)
+    kept = folder / name
+    rows = {row["scene"]: row for row in map(json.loads, kept.read_text().splitlines())} if kept.exists() else {}
+    rows = {number: row for number, row in rows.items() if number < options.count}
+    missing = [number for number in range(options.count) if number not in rows]
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(options.workers, mp_context=context) as pool, kept.open("a") as file:
+        for future in as_completed([pool.submit(partial(compare, options=options), number) for number in missing]):
+            row = future.result()
+            rows[row["scene"]] = row
+            file.write(json.dumps(row) + "\n")
+            file.flush()
+            say_scene(row)
+    return [rows[number] for number in sorted(rows)]
+
+
+# -------------------------------------------------------------------------------------------------------------- figures
+
+
+def say_scene(row):
+    """A scene's biases in %, those that count in brackets, with the reference's values and the cost."""
+    say(f"{row['scene']}, {row['bearing']}: {row['words']}")
+    if "failed" in row:
+        say(f"    failed: {row['failed']}")
+        return
+    for name in ("bias", "runge_kutta"):
+        if name in row:
+            bias, marked = row[name], beyond(row[name])
+            cells = [
+                f"{'[' * (n in marked)}{n} {100.0 * bias[n]:+.1f} ± {100.0 * bias[f'{n}_se']:.1f}{']' * (n in marked)}"
+                for n in FIGURES
+            ]
+            kind = "Runge-Kutta" if name == "runge_kutta" else "default"
+            say(f"    {kind}, %: {', '.join(cells)}, residual {100.0 * bias['residual']:+.2f}")
+    values = ", ".join(f"{n} {UNITS.get(n, 1.0) * row[n]:.4g}" for n in FIGURES)
+    say(f"    reference {row['tolerance']:g}: {values}, residual {100.0 * row['reference']['residual']:+.2f} %")
+    costs = [f"{row[n]['evaluations']:.0f} evaluations, {row[n]['seconds']:.2f} s" for n in ("bias", "reference")]
+    say(f"    cost: {costs[0]}; reference {costs[1]}")
+    if "not_reached" in row:
+        say(f"    not reached: {row['not_reached']}")
+
+
+def summary(rows):
+    """Numbers of scenes, and the distribution of each figure's absolute bias."""
+    fine = [row["bias"] for row in rows if "failed" not in row]
+    result = {
+        "scenes": len(rows),
+        "failed": len(rows) - len(fine),
+        "beyond": sum(bool(beyond(row)) for row in fine),
+        "beyond_twice": sum(bool(beyond(row, 2.0)) for row in fine),
+        "flagged": sum(row["flagged"] > 0.0 for row in fine),
+        "evaluations": float(np.mean([row["evaluations"] for row in fine])) if fine else 0.0,
+        "seconds": float(np.mean([row["seconds"] for row in fine])) if fine else 0.0,
+        "figures": {},
+    }
+    for name in [*FIGURES, "residual"] if fine else []:
+        values = np.abs([row[name] for row in fine])
+        result["figures"][name] = {
+            "median": float(np.median(values)),
+            "p95": float(np.quantile(values, 0.95)),
+            "worst": float(values.max()),
+            "beyond": sum(name in beyond(row) for row in fine),
+        }
+    return result
+
+
+def say_summary(found):
+    say(
+        f"{found['scenes']} scenes: {found['failed']} failed, {found['beyond']} beyond a limit, "
+        f"{found['beyond_twice']} beyond twice of it, {found['flagged']} flagged; "
+        f"{found['evaluations']:.0f} evaluations and {found['seconds']:.2f} s for {SETTLE + SPAN:g} s"
+    )
+    say("| absolute bias, % | limit | median | 95 % | worst | scenes beyond |\n|---|---|---|---|---|---|")
+    for name, row in found["figures"].items():
+        limit = f"{100.0 * FIGURES[name][0]:g}" if name in FIGURES else ""
+        cells = [f"{100.0 * row[key]:.2f}" for key in ("median", "p95", "worst")]
+        say(f"| {name} | {limit} | {' | '.join(cells)} | {row['beyond']} |")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("seed", type=int, help="of the scenes; a record needs one that was never run")
+    parser.add_argument("count", type=int, help="scenes")
+    parser.add_argument("--cage", choices=("any", "elastic", "two_half"), default="any")
+    parser.add_argument("--method", choices=("verlet", "explicit", "fixed"), default="verlet")
+    parser.add_argument("--bearing", nargs="+", default=[FMU], metavar="FMU", help="FMUs that take turns")
+    parser.add_argument("--seeds", type=int, default=4, help="start seeds of each scene, at least 2")
+    parser.add_argument("--workers", type=int, default=os.cpu_count())
+    options = parser.parse_args()
+    if options.count < 1 or options.seeds < 2:
+        parser.error(f"{options.count} scenes with {options.seeds} seeds: at least 1 and 2 are needed")
+    rows = run_all(options, BUILD / "blind")
+    found = summary(rows)
+    say_summary(found)
+    settings = {"seed": options.seed, "cage": options.cage, "method": options.method, "seeds": options.seeds}
+    write(
+        "blind" if options.method == "verlet" else f"blind_{options.method}", settings | found | {"rows": rows}, False
+    )
+    if found["failed"] or found["beyond_twice"] or found["beyond"] > 0.05 * found["scenes"]:
+        raise SystemExit("the default does not hold its limits: at most 5 % of the scenes may be beyond, none twice")
+
+
+if __name__ == "__main__":
+    main()
