@@ -117,6 +117,17 @@ static void fill_constant(Bearing *b)
     b->out.bearing.Z = Z;
 }
 
+// Means over the communication step; before the first one the values of the start.
+static void fill_exchange(Bearing *b)
+{
+    const IntegratorState *i = &b->s.integrator;
+    const double length = i->t - i->since;
+    if (!(length > 0.0)) return;
+    b->out.bearing.friction_torque = i->sum.torque / length;
+    b->out.shaft.power = i->sum.power / length;
+    b->out.bearing.power_loss = i->sum.loss / length;
+}
+
 void outputs_fill(Bearing *b, OutputGroup group)
 {
     const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
@@ -133,9 +144,13 @@ void outputs_fill(Bearing *b, OutputGroup group)
         b->out.bearing.energy_residual -= b->s.energy_start;
         b->out.bearing.energy_residual -= b->s.energy_change;
         b->out.bearing.energy_change = b->s.energy_change;
+        fill_exchange(b);
+        return;
+    case GROUP_RING:
+        outputs_evaluate(&now, group, &b->out);
+        fill_exchange(b);
         return;
     case GROUP_STATE:
-    case GROUP_RING:
     case GROUP_POSE:
     case GROUP_BALL:
     case GROUP_CAGE:

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "physics/frame.h"
+#include "cage/cage.h"
 #include "physics/outer_ring.h"
 
 // Force and moment about the origin that balls and cage put on the housing (outer ring, oil).
@@ -55,6 +56,35 @@ static inline scalar shaft_power(const Work *w)
 {
     return -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega);
 }
+
+// Power dissipated in contacts, films, drag and joints.
+static inline scalar power_loss(const Work *w)
+{
+    return ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated +
+           ball_array_sum(w->joint_dissipated) + cage_losses(w);
+}
+
+// Torque of the shaft about its axis.
+static inline scalar friction_torque(const Work *w)
+{
+    return -dot3(w->ring.M, w->ring.a);
+}
+
+#ifndef DUAL
+// What the shaft gives at the instant of an evaluation.
+static inline Exchange exchange_at(const Work *w)
+{
+    return (Exchange){friction_torque(w), shaft_power(w), power_loss(w)};
+}
+
+// Adds what it gives over a time h that begins and ends with these rates.
+static inline void exchange_add(double h, const Exchange *from, const Exchange *to, Exchange *sum)
+{
+    sum->torque += 0.5 * h * (from->torque + to->torque);
+    sum->power += 0.5 * h * (from->power + to->power);
+    sum->loss += 0.5 * h * (from->loss + to->loss);
+}
+#endif
 
 // Power of the housing into balls and cage.
 static inline scalar housing_power(const Model *model, const Work *w)

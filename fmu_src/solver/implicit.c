@@ -32,6 +32,7 @@
 #include "cage/cage.h"
 #include "numbers/elimination.h"
 #include "numbers/octet.h"
+#include "numbers/vec.h"
 #include "physics/rotor.h"
 
 // ---- balls ------------------------------------------------------------------------------------------------
@@ -458,6 +459,42 @@ void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *s
 
     // The cage, which A and K do not couple with the rest.
     cage_solve(model, w, gamma, step, v);
+}
+
+void implicit_ring_wrench(const Model *model, double gamma, const double *delta, Work *w)
+{
+    const double *V = &delta[Y_RING_V_X], none[3] = {0.0};
+    const bool coupled = ring_coupled(model, w, gamma);  // else the balls' equations have the ring's predicted velocities
+    const double turn[3] = {0.0, V[3], V[4]};
+    ball_array rows[BLOCK], change[6];
+    load_balls(delta, rows);
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide c = wide_load(&w->cos_theta[j]), s = wide_load(&w->sin_theta[j]);
+        const vec n = vec_load(&w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
+        const vec arm = vec_scale(wide_load(&model->d->R[j]), n);
+        const vec v = {wide_load(&rows[0][j]), wide_load(&rows[1][j]),
+                       wide_load(&rows[2][j]) * wide_load(&w->r[j])};
+        const vec omega = vec_load(&rows[3][j], &rows[4][j], &rows[5][j]);
+        const vec ball = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+        const vec place = vec_add(vec_sub(ball, vec_local(w->ring.x, c, s)), arm);
+
+        // the velocity of the ball's surface against the race's, and the force that resists it, on the ring
+        vec slip = vec_add(v, vec_cross(omega, arm));
+        const vec race = vec_add(vec_local(coupled ? V : none, c, s),
+                                 vec_cross(vec_local(coupled ? turn : none, c, s), vec_add(ball, arm)));
+        slip = vec_across(vec_sub(slip, race), n);
+        const wide normal = normal_term(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
+        const vec F = vec_axpy(normal * (1.0 / gamma) * vec_dot(v, n), n, vec_scale(wide_load(&w->g_i[j]), slip));
+        vec M = vec_cross(place, F);
+        if (model->p->scene.traction == TRACTION_SLICED)
+            M = vec_axpy(wide_load(&w->g_spin_i[j]) * vec_dot(omega, n), n, M);
+        vec_to_global(F, c, s, &change[0][j], &change[1][j], &change[2][j]);
+        vec_to_global(M, c, s, &change[3][j], &change[4][j], &change[5][j]);
+    }
+    for (int i = 0; i < 3; i++) {
+        w->ring.F[i] += ball_array_sum(change[i]);
+        w->ring.M[i] += ball_array_sum(change[3 + i]);
+    }
 }
 
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)

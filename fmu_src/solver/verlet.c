@@ -20,6 +20,7 @@
 #include "physics/ball_turn.h"
 #include "physics/housing.h"
 #include "physics/land_bent.h"
+#include "physics/powers.h"
 #include "physics/rhs.h"
 #include "physics/ring_load.h"
 #include "solver/implicit.h"
@@ -212,6 +213,7 @@ static void housing_correct(double gamma, const Housing *from, Housing *to)
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
     rhs_now(model, t, now, w);
+    now->exchange = exchange_at(w);
     cage_split(model, now->y, w, now->f, &now->cage);
 }
 
@@ -243,8 +245,12 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     cage_shear(model, w, gamma, &cage, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
     implicit_solve(model, w, gamma, &cage, delta);
-    to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
-    to->f[Y_WORK] += bent_arrive(gamma, cage.bent, w);
+    double saved = dissipation_correction(model, w, y, gamma, residual, delta);
+    saved += bent_arrive(gamma, cage.bent, w);
+    to->f[Y_WORK] += saved;
+    implicit_ring_wrench(model, gamma, delta, w);
+    to->exchange = exchange_at(w);
+    to->exchange.loss -= saved;
     remember_films(w, to);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
