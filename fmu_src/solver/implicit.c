@@ -41,6 +41,10 @@
 // factor (1 - z)/(1 + z) is -1/3, and overshoot begins to matter.
 static const double STIFF_LIMIT = 2.0;
 
+// Traction's rates g in A / the secants |traction|/|slip| of the evaluation.  A predictor that is far out on the law's flat
+// branch has too small a secant, and too small a rate rings.
+static const double TRACTION_MARGIN = 1.5;
+
 // Least approach in the stiffness 3 Q/(2 delta) [m]: no division by 0.
 static const double APPROACH_FLOOR = 1e-12;
 
@@ -153,11 +157,12 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
         normal_i = normal_term(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
         normal_e = normal_term(model, gamma, wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j]));
     }
-    add_contact(gamma * wide_load(&w->g_i[j]), normal_i, R, n_i, W);
-    add_contact(gamma * wide_load(&w->g_e[j]), normal_e, R, n_e, W);
+    const double g = gamma * TRACTION_MARGIN;
+    add_contact(g * wide_load(&w->g_i[j]), normal_i, R, n_i, W);
+    add_contact(g * wide_load(&w->g_e[j]), normal_e, R, n_e, W);
     if (model->p->scene.traction == TRACTION_SLICED) {
-        add_spin(gamma * wide_load(&w->g_spin_i[j]), n_i, W);
-        add_spin(gamma * wide_load(&w->g_spin_e[j]), n_e, W);
+        add_spin(g * wide_load(&w->g_spin_i[j]), n_i, W);
+        add_spin(g * wide_load(&w->g_spin_e[j]), n_e, W);
     }
 
     // Films in the pockets.
@@ -230,7 +235,7 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
                           const wide x[BLOCK], Coupling *c)
 {
     const wide n[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
-    const wide g = gamma * wide_load(&w->g_i[j]), g_R = g * wide_load(&model->d->R[j]);
+    const wide g = gamma * TRACTION_MARGIN * wide_load(&w->g_i[j]), g_R = g * wide_load(&model->d->R[j]);
     const wide r = wide_load(&w->r[j]), zero = wide_set(0.0);
 
     // Columns of G: force gamma g (1 - n n^T) e_k and moment gamma g R n x e_k.
@@ -484,10 +489,10 @@ void implicit_ring_wrench(const Model *model, double gamma, const double *delta,
                                  vec_cross(vec_local(coupled ? turn : none, c, s), vec_add(ball, arm)));
         slip = vec_across(vec_sub(slip, race), n);
         const wide normal = normal_term(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
-        const vec F = vec_axpy(normal * (1.0 / gamma) * vec_dot(v, n), n, vec_scale(wide_load(&w->g_i[j]), slip));
+        const vec F = vec_axpy(normal * (1.0 / gamma) * vec_dot(v, n), n, vec_scale(TRACTION_MARGIN * wide_load(&w->g_i[j]), slip));
         vec M = vec_cross(place, F);
         if (model->p->scene.traction == TRACTION_SLICED)
-            M = vec_axpy(wide_load(&w->g_spin_i[j]) * vec_dot(omega, n), n, M);
+            M = vec_axpy(TRACTION_MARGIN * wide_load(&w->g_spin_i[j]) * vec_dot(omega, n), n, M);
         vec_to_global(F, c, s, &change[0][j], &change[1][j], &change[2][j]);
         vec_to_global(M, c, s, &change[3][j], &change[4][j], &change[5][j]);
     }
