@@ -117,21 +117,18 @@ static void fill_constant(Bearing *b)
     b->out.bearing.Z = Z;
 }
 
-// Means over the communication step; before the first one the values of the start.
-static void fill_exchange(Bearing *b)
+// Time that the integrals over the communication step cover [s]; 0 before the first one, where outputs are those of the
+// start.
+static double covered(const IntegratorState *i)
 {
-    const IntegratorState *i = &b->s.integrator;
-    const double length = i->t - i->since;
-    if (!(length > 0.0)) return;
-    b->out.bearing.friction_torque = i->sum.torque / length;
-    b->out.shaft.power = i->sum.power / length;
-    b->out.bearing.power_loss = i->sum.loss / length;
+    return fmax(i->t - i->since, 0.0);
 }
 
 void outputs_fill(Bearing *b, OutputGroup group)
 {
     const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
                             &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
+    const IntegratorState *i = &b->s.integrator;
     switch (group) {
     case GROUP_CONSTANT: fill_constant(b); return;
     case GROUP_PEAK: fill_peak(b); return;
@@ -144,11 +141,11 @@ void outputs_fill(Bearing *b, OutputGroup group)
         b->out.bearing.energy_residual -= b->s.energy_start;
         b->out.bearing.energy_residual -= b->s.energy_change;
         b->out.bearing.energy_change = b->s.energy_change;
-        fill_exchange(b);
+        if (covered(i) > 0.0) b->out.shaft.power = i->sum.power / covered(i);
         return;
     case GROUP_RING:
         outputs_evaluate(&now, group, &b->out);
-        fill_exchange(b);
+        if (covered(i) > 0.0) b->out.bearing.friction_torque = i->sum.torque / covered(i);
         return;
     case GROUP_STATE:
     case GROUP_POSE:

@@ -5,8 +5,8 @@
 // forces.
 #pragma once
 
-#include "physics/frame.h"
 #include "cage/cage.h"
+#include "physics/frame.h"
 #include "physics/outer_ring.h"
 
 // Force and moment about the origin that balls and cage put on the housing (outer ring, oil).
@@ -71,18 +71,17 @@ static inline scalar friction_torque(const Work *w)
 }
 
 #ifndef DUAL
-// What the shaft gives at the instant of an evaluation.
+// What the shaft gives by the forces on the ring in w.
 static inline Exchange exchange_at(const Work *w)
 {
-    return (Exchange){friction_torque(w), shaft_power(w), power_loss(w)};
+    return (Exchange){friction_torque(w), shaft_power(w)};
 }
 
-// Adds what it gives over a time h that begins and ends with these rates.
+// Adds what it gives over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
 static inline void exchange_add(double h, const Exchange *from, const Exchange *to, Exchange *sum)
 {
     sum->torque += 0.5 * h * (from->torque + to->torque);
     sum->power += 0.5 * h * (from->power + to->power);
-    sum->loss += 0.5 * h * (from->loss + to->loss);
 }
 #endif
 

@@ -5,8 +5,8 @@
 // that the contact resists:
 //
 //   contact                 relative velocity B v                        coefficient C
-//   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = |traction|/|slip|
-//   race, spin (sliced)     omega.n                                      g_spin = moment/spin
+//   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = 1.5 |traction|/|slip|
+//   race, spin (sliced)     omega.n                                      g_spin = 1.5 moment/spin
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
 //   pocket, oil             v.m of the ball by itself                    D
@@ -41,8 +41,8 @@
 // factor (1 - z)/(1 + z) is -1/3, and overshoot begins to matter.
 static const double STIFF_LIMIT = 2.0;
 
-// Traction's rates g in A / the secants |traction|/|slip| of the evaluation.  A predictor that is far out on the law's flat
-// branch has too small a secant, and too small a rate rings.
+// Traction's rates g in A / the secants |traction|/|slip| of the evaluation.  At a predictor on the flat branch of the law the
+// secant is below the slope on the way back, and too small a rate rings (docs/method.md).
 static const double TRACTION_MARGIN = 1.5;
 
 // Least approach in the stiffness 3 Q/(2 delta) [m]: no division by 0.
@@ -468,10 +468,15 @@ void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *s
 
 void implicit_ring_wrench(const Model *model, double gamma, const double *delta, Work *w)
 {
-    const double *V = &delta[Y_RING_V_X], none[3] = {0.0};
-    const bool coupled = ring_coupled(model, w, gamma);  // else the balls' equations have the ring's predicted velocities
-    const double turn[3] = {0.0, V[3], V[4]};
+    const bool sliced = model->p->scene.traction == TRACTION_SLICED;
+    double v_ring[3] = {0.0},
+           turn[3] = {0.0};  // stay 0 where the balls' equations have the ring's predicted velocities
     ball_array rows[BLOCK], change[6];
+    if (ring_coupled(model, w, gamma)) {
+        const double *V = &delta[Y_RING_V_X];
+        memcpy(v_ring, V, sizeof v_ring);
+        turn[1] = V[3], turn[2] = V[4];
+    }
     load_balls(delta, rows);
     for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
         const wide c = wide_load(&w->cos_theta[j]), s = wide_load(&w->sin_theta[j]);
@@ -483,16 +488,16 @@ void implicit_ring_wrench(const Model *model, double gamma, const double *delta,
         const vec ball = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
         const vec place = vec_add(vec_sub(ball, vec_local(w->ring.x, c, s)), arm);
 
-        // the velocity of the ball's surface against the race's, and the force that resists it, on the ring
-        vec slip = vec_add(v, vec_cross(omega, arm));
-        const vec race = vec_add(vec_local(coupled ? V : none, c, s),
-                                 vec_cross(vec_local(coupled ? turn : none, c, s), vec_add(ball, arm)));
-        slip = vec_across(vec_sub(slip, race), n);
+        // change of the slip, and what resists it, on the ring
+        const vec race =
+            vec_add(vec_local(v_ring, c, s), vec_cross(vec_local(turn, c, s), vec_add(ball, arm)));
+        const vec slip = vec_across(vec_sub(vec_add(v, vec_cross(omega, arm)), race), n);
         const wide normal = normal_term(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
-        const vec F = vec_axpy(normal * (1.0 / gamma) * vec_dot(v, n), n, vec_scale(TRACTION_MARGIN * wide_load(&w->g_i[j]), slip));
-        vec M = vec_cross(place, F);
-        if (model->p->scene.traction == TRACTION_SLICED)
-            M = vec_axpy(TRACTION_MARGIN * wide_load(&w->g_spin_i[j]) * vec_dot(omega, n), n, M);
+        const vec F = vec_axpy(normal * (1.0 / gamma) * vec_dot(v, n), n,
+                               vec_scale(TRACTION_MARGIN * wide_load(&w->g_i[j]), slip));
+        const wide spin =
+            sliced ? TRACTION_MARGIN * wide_load(&w->g_spin_i[j]) * vec_dot(omega, n) : wide_set(0.0);
+        const vec M = vec_axpy(spin, n, vec_cross(place, F));
         vec_to_global(F, c, s, &change[0][j], &change[1][j], &change[2][j]);
         vec_to_global(M, c, s, &change[3][j], &change[4][j], &change[5][j]);
     }

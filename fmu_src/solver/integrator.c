@@ -574,7 +574,11 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 
     fine &= cage_memory_is_valid(&s->now.cage, p);
 
-    // Films, switch and counters.
+    // What the shaft gives; films, switch and counters.
+    const double LARGEST_EXCHANGE = 1e30;
+    fine &= values_are_within(&s->now.exchange.torque, 2, LARGEST_EXCHANGE) &&
+            values_are_within(&s->sum.torque, 2, LARGEST_EXCHANGE) &&
+            values_are_within(&s->since, 1, LARGEST_TIME);
     fine &=
         values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
     fine &= s->f_is_current == 0 || s->f_is_current == 1;

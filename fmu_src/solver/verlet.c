@@ -245,12 +245,10 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     cage_shear(model, w, gamma, &cage, residual);
     for (int i = VELOCITY; i < N_STATES; i++) delta[i] = residual[i];
     implicit_solve(model, w, gamma, &cage, delta);
-    double saved = dissipation_correction(model, w, y, gamma, residual, delta);
-    saved += bent_arrive(gamma, cage.bent, w);
-    to->f[Y_WORK] += saved;
+    to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
+    to->f[Y_WORK] += bent_arrive(gamma, cage.bent, w);
     implicit_ring_wrench(model, gamma, delta, w);
     to->exchange = exchange_at(w);
-    to->exchange.loss -= saved;
     remember_films(w, to);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
