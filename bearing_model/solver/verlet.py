@@ -59,7 +59,7 @@ from bearing_model.physics.rhs import jacobian, rhs
 SMOOTHING = 0.15  # part of the second difference of stiff accelerations that is taken away
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
-TRACTION_MARGIN = 1.5  # traction's rates in A / the secants |traction|/|slip| of the evaluation
+TRACTION_MARGIN = 1.4  # traction's rates in A / the secants |traction|/|slip| of the evaluation
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 SAFETY, MIN_FACTOR, MAX_FACTOR = 0.8, 0.2, 1.5  # of the next step size
 LEAST_ERROR = 1e-4  # smaller errors are the same to the next step

@@ -5,8 +5,8 @@
 // that the contact resists:
 //
 //   contact                 relative velocity B v                        coefficient C
-//   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = 1.5 |traction|/|slip|
-//   race, spin (sliced)     omega.n                                      g_spin = 1.5 moment/spin
+//   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = 1.4 |traction|/|slip|
+//   race, spin (sliced)     omega.n                                      g_spin = 1.4 moment/spin
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
 //   pocket, oil             v.m of the ball by itself                    D
@@ -43,7 +43,7 @@ static const double STIFF_LIMIT = 2.0;
 
 // Traction's rates g in A / the secants |traction|/|slip| of the evaluation.  At a predictor on the flat branch of the law the
 // secant is below the slope on the way back, and too small a rate rings (docs/method.md).
-static const double TRACTION_MARGIN = 1.5;
+static const double TRACTION_MARGIN = 1.4;
 
 // Least approach in the stiffness 3 Q/(2 delta) [m]: no division by 0.
 static const double APPROACH_FLOOR = 1e-12;
