@@ -25,6 +25,7 @@ from mechanics import Instance
 from race_control import LOADS, SPEEDS
 from race_control import equilibrium as control_equilibrium
 from race_control import running as running_with_spin
+from scipy import signal
 
 from bearing_model.kinematics import fault_frequencies
 from bearing_model.physics.hertz import curvature_difference, hertz_contact
@@ -454,7 +455,41 @@ def cage_forces(fmu, short):
         }
         for name, (path, cage) in fmus.items()
     ]
-    return {"t_end": t_end, "rows": rows, "soft": soft}
+    return {"t_end": t_end, "rows": rows, "soft": soft} | sensed_forces(fmu, t_end)
+
+
+SENSORS = (1000.0, 300.0)  # natural frequencies of the part of the cage that feels a ball [Hz]
+SENSOR_DAMPING = 0.1  # assumed
+
+
+def sensed(force, step, frequency):
+    """What a part of the cage with one natural frequency [Hz] shows of a force, each ball's in a column: k x of
+    m x'' + c x' + k x = F, F joined by straight lines.
+    """
+    omega = 2.0 * np.pi * frequency
+    part = signal.lti([omega**2], [1.0, 2.0 * SENSOR_DAMPING * omega, omega**2])
+    times = step * np.arange(len(force))
+    return np.column_stack([signal.lsim(part, column, times)[1] for column in force.T])
+
+
+def sensed_forces(fmu, t_end, speed=12000, step=2e-5):
+    """99.9 % quantiles of the forces in the pockets and of what sensors show of them, over F_r/F_a: the abstract does not give
+    the radial load.
+    """
+    rows = []
+    for F_x in (2224.0, 4448.0):
+        for ratio in (0.0, 0.05, 0.1, 0.2, 0.5):
+            inputs = {"shaft.omega": speed * RPM, "shaft.F_x": F_x, "shaft.F_y": ratio * F_x, "shaft.F_z": 0.0}
+            parameters = {"scene.cage": "elastic", "start.settle": 0.5 * t_end}
+            found = run(
+                "demo", fmu=fmu, t_end=t_end, step=step, inputs=inputs, parameters=parameters, outputs=["ball[*].Q_c"]
+            )
+            force = np.column_stack([values for name, values in found.data.items() if name.endswith("Q_c")])
+            late = found.data["time"] > 0.5 * t_end
+            shown = {f"{f:g} Hz": np.quantile(np.abs(sensed(force, step, f)[late]), 0.999) for f in SENSORS}
+            rows.append({"F_x": F_x, "ratio": ratio, "force": found.summary["stat.Q_c_p999"]} | shown)
+            say(f"  {rows[-1]}")
+    return {"sensed": rows}
 
 
 MEASURED = {

@@ -3,14 +3,16 @@
 import numpy as np
 import pytest
 from mechanics import SLICE, Instance, Z, axis, pocket_loads, running_state
+from ribbon import RIBBON
 
-from bearing_model.generated.variables import PARAMETERS, Lubrication, Method, Switch, TiltMode, Traction
+from bearing_model.generated.variables import PARAMETERS, CageModel, Lubrication, Method, Switch, TiltMode, Traction
 
 TWINS = True
 BALL_MASS = 7800.0 * np.pi / 6.0 * 0.0111125**3
 BALL_J = 0.1 * BALL_MASS * 0.0111125**2
 M, J_P, J_T = (PARAMETERS[f"cage.{name}"].start for name in ("m", "J_p", "J_t"))
 RING = 0.6
+ELASTIC = {"scene.cage": int(CageModel.ELASTIC)}
 
 
 def momenta(y):
@@ -209,15 +211,42 @@ def test_housing_moment(core):
         assert np.abs(housing).max() > 0.1
 
 
+STEADY = {
+    "rigid": {},
+    "elastic": ELASTIC,
+    "mixed": ELASTIC | {"scene.lubrication": int(Lubrication.MIXED)},
+    "ribbon": RIBBON | ELASTIC,
+    "fixed": ELASTIC | {"solver.method": int(Method.FIXED)},
+}
+
+
 @pytest.mark.c_only
-def test_friction_torque_is_the_shafts(core):
-    """bearing.friction_torque times speed feeds all losses in the mean: here at an instant, -M.a of the contacts about
-    the ring's axis.
+@pytest.mark.parametrize("rpm", [50.0, 380.0, 500.0, 1150.0, 5000.0, 20000.0])
+@pytest.mark.parametrize("scene", STEADY)
+def test_friction_torque_feeds_the_losses(core, scene, rpm, record_property):
+    """The torque that the shaft gave in each communication step times the speed is the mean loss, within 1 %, for steps of
+    20 us, 0.1 ms and 1 ms.
+
+    The loss is sampled at instants, most often in the first run, whose mean holds for all. Observed: 0.5 %; of the torque at
+    an instant -166 % at 380 r/min.
     """
-    bearing = Instance(core)
-    model = core.model()
-    bearing.step(1e-3)
-    model.rhs(1e-3, bearing.y)
+    omega, begin, expected = rpm * np.pi / 30.0, 0.03, None
+    length = 0.12 if rpm < 2e4 else 0.6  # impacts: the loss of a ribbon scatters by 8 %, runs of 0.12 s by 1 %
+    for H in (2e-5, 1e-4, 1e-3):
+        bearing, rows = Instance(core, STEADY[scene], {"shaft.omega": omega}).step(begin), []
+        for n in range(round(length / H)):
+            bearing.step(begin + (n + 1) * H)
+            rows.append([bearing.output("bearing.friction_torque"), bearing.output("bearing.power_loss")])
+        torque, loss = np.mean(rows, axis=0)
+        expected = expected or loss
+        record_property(f"{H:g} s", float(torque * omega / expected - 1.0))
+        assert torque * omega == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.c_only
+def test_friction_torque_at_the_start_is_the_shafts(core):
+    """Before the first step it is that of the instant: -M.a of the contacts about the ring's axis."""
+    bearing, model = Instance(core), core.model()
+    model.rhs(0.0, bearing.y)
     ring = model.work.ring
     assert bearing.output("bearing.friction_torque") == pytest.approx(-np.dot(list(ring.M), list(ring.a)), rel=1e-12)
-    assert bearing.output("bearing.friction_torque") > 0.0

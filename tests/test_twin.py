@@ -425,11 +425,14 @@ def after_a_step(parameters, inputs, h):
     return model
 
 
+MEANS = "bearing.friction_torque", "shaft.power"
+
+
 # not those that a run follows in the FMU alone: the turn of balls with spalls
 @pytest.mark.parametrize("scene", [scene for scene in SCENES if scene != "ball_spalls"])
 def test_outputs(core, scene, record_property):
     """Every output of the FMU at one instant, at random states with loaded joints: put in the place of the state that a
-    step reached.
+    step reached, whose means over the step are not those of an instant (test_verlet.py).
     """
     parameters, inputs = SCENES[scene]
     model, y_start, _ = start_of(scene)
@@ -441,6 +444,8 @@ def test_outputs(core, scene, record_property):
         instance = Instance(core, parameters, inputs).step(t)
         np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), y.nbytes))[:] = y
         for name, value in observe(model, t, y, energy_start).items():
+            if name in MEANS:
+                continue
             c = instance.output(name.replace("[j]", "").replace("[k]", ""))
             worst[name] = max(worst.get(name, 0.0), np.max(np.abs(value - c)) / max(np.max(np.abs(c)), floor_of(name)))
     record_property("worst", plain(worst))

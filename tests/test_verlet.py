@@ -73,6 +73,8 @@ def differences(c, start, end, h, scale):
     for name in ("y", "f"):
         value = getattr(end, name)[WORK][0]
         found[f"work: {name}"] = abs(getattr(c, name)[WORK.start] - value) / max(abs(value), 1.0)
+    for name, value, scale_of in zip(("torque", "power"), end.exchange, (1.0, 100.0), strict=True):
+        found[name] = abs(getattr(c.exchange, name) - value) / max(abs(value), scale_of)
     found["film"] = np.max(np.abs(copied(c).film - end.film)) / np.max(np.abs(end.film))
     return found
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{b5a63b05-dba1-4958-9c3f-fbc81d1d1d0d}"
+MODEL_GUID = "{0f8cb7e9-995a-c303-ff59-fe242640d20f}"
 Z = 9
 
 
@@ -455,7 +455,7 @@ OUTPUTS = {
         Variable("shaft.R_z", 2163, "Real", "N", None, None, None, None, 1, "ring", "Force of the bearing's contacts and films on the shaft along Z", None, False, None),
         Variable("shaft.R_My", 2164, "Real", "N.m", None, None, None, None, 1, "ring", "Moment of the bearing's contacts and films on the shaft about Y, at the inner ring's centre", None, False, None),
         Variable("shaft.R_Mz", 2165, "Real", "N.m", None, None, None, None, 1, "ring", "Moment of the bearing's contacts and films on the shaft about Z, at the inner ring's centre", None, False, None),
-        Variable("shaft.power", 2171, "Real", "W", None, None, None, None, 1, "energy", "Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring", None, False, None),
+        Variable("shaft.power", 2171, "Real", "W", None, None, None, None, 1, "energy", "Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring; mean over the communication step", None, False, None),
         Variable("housing.power", 2172, "Real", "W", None, None, None, None, 1, "energy", "Power of the housing into balls and cage", None, False, None),
         Variable("frame.power", 2173, "Real", "W", None, None, None, None, 1, "energy", "Power of gravity and of the frame's inertia forces into balls and cage", None, False, None),
         Variable("bearing.energy", 2174, "Real", "J", None, None, None, None, 1, "energy", "Kinetic energy of balls and cage in the frame, and elastic energy of all contacts", None, False, None),
@@ -529,7 +529,7 @@ OUTPUTS = {
         Variable("rivet[k].flex_1_x", 8820, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the +X side at the rivet along X by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None, False, None),
         Variable("rivet[k].flex_1_r", 8860, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the +X side at the rivet away from the axis by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None, False, None),
         Variable("rivet[k].flex_1_t", 8900, "Real", "m", "um", None, None, None, Z, "pose", "Motion of the cage half on the +X side at the rivet in the sense of psi by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)", None, False, None),
-        Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X", None, False, None),
+        Variable("bearing.friction_torque", 4001, "Real", "N.m", None, None, None, None, 1, "ring", "Torque that the shaft must supply about X; mean over the communication step", None, False, None),
         Variable("bearing.power_loss", 4002, "Real", "W", None, None, None, None, 1, "energy", "Power dissipated in contacts, films, drag and joints", None, False, None),
         Variable("bearing.energy_residual", 4003, "Real", "J", None, None, None, None, 1, "energy", "Energy now - energy at start - bearing.energy_change - net work since: 0 but for the errors of the integration and of the work's own integral", None, False, None),
         Variable("bearing.energy_change", 4006, "Real", "J", None, None, None, None, 1, "energy", "Energy that changes of parameters have added to the bearing since the start; negative: released, as by a rivet that breaks", None, False, None),

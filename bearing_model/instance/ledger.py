@@ -13,10 +13,15 @@ import numpy as np
 
 from bearing_model.instance.energy import energy_terms
 from bearing_model.physics.model import Work
-from bearing_model.physics.powers import loss_terms, supply_terms
+from bearing_model.physics.powers import friction_torque, loss_terms, shaft_power, supply_terms
 from bearing_model.physics.rhs import rhs
 
 STEP = 1e-30  # of the complex step [s]
+
+
+def exchange_terms(model, w):
+    """What the shaft gives, by the output that has its mean over a communication step."""
+    return {"bearing.friction_torque": friction_torque(w), "shaft.power": shaft_power(w)}
 
 
 @dataclass
@@ -26,6 +31,7 @@ class Ledger:
     supplied: by the inner ring's spin (the shaft's torque), translation and tilting, by the housing, by gravity and
     frame; stored: change of kinetic and elastic energies;
     changed: by parameters that were set in the run and rivets that broke, part of stored;
+    exchanged: integrals of the shaft's torque about its axis [N.m.s] and of its power [J];
     lost: in races, pockets, drag, land and joints.
     """
 
@@ -33,6 +39,7 @@ class Ledger:
     stored: dict = field(default_factory=dict)
     lost: dict = field(default_factory=dict)
     changed: dict = field(default_factory=dict)
+    exchanged: dict = field(default_factory=dict)
 
     @property
     def residual(self):
@@ -54,7 +61,8 @@ class Ledger:
         w, along = Work(), Work()
         y_dot = rhs(model, t, y, w)
         rhs(model, t + 1j * STEP, y + 1j * STEP * y_dot, along)
-        for account, terms in ((self.supplied, supply_terms), (self.lost, loss_terms)):
+        accounts = (self.supplied, supply_terms), (self.lost, loss_terms), (self.exchanged, exchange_terms)
+        for account, terms in accounts:
             for name, rate in terms(model.at(t + 1j * STEP), along).items():
                 P = np.broadcast_to(rate, (len(t), 1))[:, 0]
                 account[name] = account.get(name, 0.0) + integral(np.diff(t), np.real(P), np.imag(P) / STEP)
@@ -66,7 +74,11 @@ class Ledger:
         self.lost["joints"] = self.lost.get("joints", 0.0) + lost
 
     def copy(self):
-        return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost), dict(self.changed))
+        return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost), dict(self.changed), dict(self.exchanged))
+
+    def means(self, before, length):
+        """Outputs that are means over a communication step of this length [s], by the Ledger at its start."""
+        return {name: (value - before.exchanged[name]) / length for name, value in self.exchanged.items()}
 
     @classmethod
     def over_time(cls, ledgers):
@@ -76,7 +88,8 @@ class Ledger:
             terms = getattr(ledgers[-1], name)
             return {term: np.array([getattr(ledger, name).get(term, 0.0) for ledger in ledgers]) for term in terms}
 
-        return cls(account("supplied"), account("stored"), account("lost"), account("changed"))
+        accounts = "supplied", "stored", "lost", "changed", "exchanged"
+        return cls(*(account(name) for name in accounts))
 
 
 def integral(h, P, P_dot):

@@ -26,7 +26,14 @@ from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_dot, vec_local
 from bearing_model.physics.hertz import hertz_pressure
 from bearing_model.physics.outer_ring import spread
-from bearing_model.physics.powers import frame_power, housing_power, housing_wrench, power_loss, shaft_power
+from bearing_model.physics.powers import (
+    frame_power,
+    friction_torque,
+    housing_power,
+    housing_wrench,
+    power_loss,
+    shaft_power,
+)
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.physics.ring_load import ring_tilts
 from bearing_model.physics.traction import Q_FLOOR, traction_ln_film, traction_ln_thermal
@@ -70,7 +77,7 @@ def ring_outputs(model, w, y_dot):
         "shaft.R_My": w.ring.M[1],
         "shaft.R_Mz": w.ring.M[2],
     }
-    values["bearing.friction_torque"] = -vec_dot(w.ring.M, w.ring.a)
+    values["bearing.friction_torque"] = friction_torque(w)
     return {name: value[..., 0] for name, value in values.items()}
 
 

@@ -35,6 +35,11 @@ def shaft_power(w):
     return -vec_dot(w.ring.F, w.ring.v) - vec_dot(w.ring.M, w.ring.Omega)
 
 
+def friction_torque(w):
+    """Torque of the shaft about its axis [N.m], [..., 1]."""
+    return -vec_dot(w.ring.M, w.ring.a)
+
+
 def housing_power(model, w):
     """Power of the housing into balls and cage [W], [..., 1]."""
     outer, (F, M) = outer_ring(model.ring_load, w.x), housing_wrench(model, w)

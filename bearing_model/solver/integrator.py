@@ -363,6 +363,7 @@ def simulate(
             observe(model, run.t, run.y, energy_start, energy_change)
             | record.rivet_outputs()
             | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]}
+            | ledger.means(ledgers[-2], point - t_0)
         )
         if p.scene.breakage == Switch.ON and not np.any(record.breakage.holds(p)):
             raise RuntimeError(f"t = {run.t:.9g} s: all {Z} rivets are broken, the halves of the cage come apart")

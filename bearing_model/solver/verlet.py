@@ -53,11 +53,13 @@ from bearing_model.generated.variables import (
     Z,
 )
 from bearing_model.physics.model import Work
+from bearing_model.physics.powers import friction_torque, shaft_power
 from bearing_model.physics.rhs import jacobian, rhs
 
 SMOOTHING = 0.15  # part of the second difference of stiff accelerations that is taken away
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
+TRACTION_MARGIN = 1.4  # traction's rates in A / the secants |traction|/|slip| of the evaluation
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 SAFETY, MIN_FACTOR, MAX_FACTOR = 0.8, 0.2, 1.5  # of the next step size
 LEAST_ERROR = 1e-4  # smaller errors are the same to the next step
@@ -96,6 +98,8 @@ class VerletState:
     h: float = 0.0  # length of that step [s], 0: none yet
     cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
+    # what the shaft gives there, by the forces that move the balls: torque about its axis [N.m], power [W]
+    exchange: np.ndarray = None
 
     def __post_init__(self):
         self.jerk = np.zeros(len(self.y)) if self.jerk is None else self.jerk
@@ -166,8 +170,8 @@ def ball_blocks(model, w, gamma):
     """Force per velocity, force per position [N_V, N_V] of race contacts and pockets, and the part of the former that
     is friction of stiff balls.
 
-    A contact's traction is -g P u, u the slip, P = 1 - n n^T, with the secant g = |traction|/|slip|: symmetric, and
-    never below the tangent of a concave law. Its normal force has the rate lambda Q and the stiffness 3 Q/(2 delta).
+    A contact's traction is -g P u, u the slip, P = 1 - n n^T, with g = TRACTION_MARGIN times the secant |traction|/|slip|:
+    symmetric, and never below the tangent of a concave law. Its normal force has the rate lambda Q and the stiffness 3 Q/(2 delta).
     Pockets: the diagonal of their friction, and D m m^T of their films on the ball by itself.
     """
     d, sliced, coupled = model.d, model.p.scene.traction == Traction.SLICED, ring_coupled(model, w, gamma)
@@ -180,6 +184,7 @@ def ball_blocks(model, w, gamma):
         friction = np.diag(np.append(w.D[:, j] * d.m * [1.0, 1.0, w.r[j] ** 2], w.D_omega[:, j] * d.J))
         contacts = (w.n_i, w.g_i, w.g_spin_i, w.Q_i, w.delta_i), (w.n_e, w.g_e, w.g_spin_e, w.Q_e, w.delta_e)
         for n, g, g_spin, Q, delta in ([value[..., j] for value in contact] for contact in contacts):
+            g, g_spin = TRACTION_MARGIN * g, TRACTION_MARGIN * g_spin
             B, P = ball_surface(model, w, j, n), np.eye(3) - np.outer(n, n)
             normal = np.outer(n @ B, n @ B)
             friction += g * B.T @ P @ B
@@ -191,7 +196,7 @@ def ball_blocks(model, w, gamma):
         A[np.ix_(rows[:3], rows[:3])] += to_v @ w.squeeze[:, :, j] @ to_v
         A_stiff[ball] += friction * (gamma * rate[j] > STIFF_LIMIT)
         if coupled:
-            n, g = w.n_i[:, j], w.g_i[j]
+            n, g = w.n_i[:, j], TRACTION_MARGIN * w.g_i[j]
             B, B_race, P = ball_surface(model, w, j, n), race_surface(model, w, j, n), np.eye(3) - np.outer(n, n)
             A[np.ix_(rows, RING)] -= g * B.T @ P @ B_race
             A[np.ix_(RING, rows)] -= g * B_race.T @ P @ B
@@ -250,6 +255,29 @@ def masked_jacobian(model, t, y, w, gamma):
         kept.axial,
         kept.shear,
     )
+
+
+def ring_wrench(model, w, gamma, delta):
+    """Adds to the wrench of the race contacts on the ring in w what the solve's result delta adds to their forces on the
+    balls: it becomes the wrench that moved them.
+    """
+    sliced, V = model.p.scene.traction == Traction.SLICED, delta[RING] * ring_coupled(model, w, gamma)
+    for j in range(Z):
+        n, v, axes = w.n_i[:, j], delta[BALL[:, j]], race_surface(model, w, j, w.n_i[:, j])[:, :3].T
+        slip = ball_surface(model, w, j, n) @ v - race_surface(model, w, j, n) @ V
+        approach = n @ (v[:3] * [1.0, 1.0, w.r[j]])
+        stiffness = 1.5 * w.Q_i[j] / max(w.delta_i[j], APPROACH_FLOOR) * (w.delta_i[j] > 0.0)
+        rate = model.p.bearing.lambda_ * w.Q_i[j] + gamma * stiffness
+        force = TRACTION_MARGIN * w.g_i[j] * (slip - n * (n @ slip)) + rate * approach * n
+        moment = sliced * TRACTION_MARGIN * w.g_spin_i[j] * (n @ v[3:]) * n
+        place = np.array([w.x[j], w.r[j], 0.0]) + model.d.R[j] * n - axes.T @ w.ring.x[:, 0]
+        w.ring.F = w.ring.F + (axes @ force)[:, None]
+        w.ring.M = w.ring.M + (axes @ (moment + np.cross(place, force)))[:, None]
+
+
+def exchange_at(w):
+    """What the shaft gives by the forces on the ring in w: torque [N.m], power [W]."""
+    return np.array([friction_torque(w)[0], shaft_power(w)[0]])
 
 
 # ----------------------------------------------------------------------------------------------------------------- step
@@ -332,6 +360,8 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     power = cage_bent_solve(model, gamma, w, cage, residual[CAGE], delta[CAGE])
     end.film, b.A_stiff[CAGE, CAGE] = cage_film_matrices(w), cage_matrices(model, w, gamma)[0]
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + power
+    ring_wrench(model, w, gamma, delta)
+    end.exchange = exchange_at(w)
     cage_finish(model, gamma, cage, y, end)
     delta -= removed  # from here on delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
@@ -361,7 +391,7 @@ def verlet_evaluate(model, t, y):
     """VerletState at y, without a history: f without the part that the cage advances by itself, and that part."""
     w = Work()
     state = VerletState(y, rhs(model, t, y, w))
-    state.cage = cage_split(model, y, w, state.f)
+    state.cage, state.exchange = cage_split(model, y, w, state.f), exchange_at(w)
     return state
 
 

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{b5a63b05-dba1-4958-9c3f-fbc81d1d1d0d}"  // digest of the table
+#define MODEL_GUID "{0f8cb7e9-995a-c303-ff59-fe242640d20f}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -378,7 +378,7 @@ typedef struct {
     struct {
         scalar Z;  // [1] Number of balls (build-time constant)
         scalar energy;  // [J] Kinetic energy of balls and cage in the frame, and elastic energy of all contacts
-        scalar friction_torque;  // [N.m] Torque that the shaft must supply about X
+        scalar friction_torque;  // [N.m] Torque that the shaft must supply about X; mean over the communication step
         scalar power_loss;  // [W] Power dissipated in contacts, films, drag and joints
         scalar energy_residual;  // [J] Energy now - energy at start - bearing.energy_change - net work since: 0 but for the errors of the integration and of the work's own integral
         scalar energy_change;  // [J] Energy that changes of parameters have added to the bearing since the start; negative: released, as by a rivet that breaks
@@ -428,7 +428,7 @@ typedef struct {
         scalar R_z;  // [N] Force of the bearing's contacts and films on the shaft along Z
         scalar R_My;  // [N.m] Moment of the bearing's contacts and films on the shaft about Y, at the inner ring's centre
         scalar R_Mz;  // [N.m] Moment of the bearing's contacts and films on the shaft about Z, at the inner ring's centre
-        scalar power;  // [W] Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring
+        scalar power;  // [W] Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring; mean over the communication step
     } shaft;
     struct {
         scalar power;  // [W] Power of gravity and of the frame's inertia forces into balls and cage

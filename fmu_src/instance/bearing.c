@@ -374,7 +374,7 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     memcpy(&s->p_now, &s->p, sizeof s->p);
     s->frame_angle = s->ring_angle[0] = s->ring_angle[1] = 0.0;
     s->history = (MotionHistory){.steps = 0};
-    s->integrator.t = t_start;
+    s->integrator.t = s->integrator.since = t_start;
     s->integrator.h = FIRST_STEP;
     ball_turn_start(&s->p, &s->integrator.now.turn);
     derive(b);
@@ -494,6 +494,7 @@ PartStatus part_step(Bearing *b, double t_end)
                                        s->u[0].shaft.omega + frame_omega);
     const double most = most_steps(b, t_end - t_begin);
     s->force_peak = 0.0;
+    s->integrator.sum = (Exchange){.torque = 0.0}, s->integrator.since = t_begin;
     for (int k = 0; k < Z; k++) s->head_peak[k] = s->mid_peak[k] = 0.0;
     b->current = 0;
     b->evaluated = false;

@@ -64,7 +64,7 @@ static void fill_ring(const Evaluation *at, Outputs *out)
     out->housing.u_y = outer->outer_x[1], out->housing.a_y = outer->outer_a[1];
     out->housing.u_z = outer->outer_x[2], out->housing.a_z = outer->outer_a[2];
     ring_tilts(outer->outer_beta, outer->outer_gamma, &out->housing.u_tilt_y, &out->housing.u_tilt_z);
-    out->bearing.friction_torque = -dot3(w->ring.M, w->ring.a);
+    out->bearing.friction_torque = friction_torque(w);
 }
 
 // Film thickness / roughness at mean speed U and load Q, 0 without contact.
@@ -223,9 +223,7 @@ static void fill_energy(const Evaluation *at, Outputs *out)
     const Work *w = at->w;
     out->loss.modes = w->elastic.dissipated;
     out->loss.joints = ball_array_sum(w->joint_dissipated) + w->two_half.dissipated;
-    out->bearing.power_loss = ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated;
-    out->bearing.power_loss += out->loss.joints;
-    out->bearing.power_loss += out->loss.modes;
+    out->bearing.power_loss = power_loss(w) + ball_array_sum(w->joint_dissipated);
     out->loss.races = ball_array_sum(w->race_dissipated);
     out->loss.inlet = ball_array_sum(w->inlet_dissipated);
     out->loss.spin = ball_array_sum(w->spin_dissipated);

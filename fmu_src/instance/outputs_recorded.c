@@ -117,10 +117,18 @@ static void fill_constant(Bearing *b)
     b->out.bearing.Z = Z;
 }
 
+// Time that the integrals over the communication step cover [s]; 0 before the first one, where outputs are those of the
+// start.
+static double covered(const IntegratorState *i)
+{
+    return fmax(i->t - i->since, 0.0);
+}
+
 void outputs_fill(Bearing *b, OutputGroup group)
 {
     const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
                             &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
+    const IntegratorState *i = &b->s.integrator;
     switch (group) {
     case GROUP_CONSTANT: fill_constant(b); return;
     case GROUP_PEAK: fill_peak(b); return;
@@ -133,9 +141,13 @@ void outputs_fill(Bearing *b, OutputGroup group)
         b->out.bearing.energy_residual -= b->s.energy_start;
         b->out.bearing.energy_residual -= b->s.energy_change;
         b->out.bearing.energy_change = b->s.energy_change;
+        if (covered(i) > 0.0) b->out.shaft.power = i->sum.power / covered(i);
+        return;
+    case GROUP_RING:
+        outputs_evaluate(&now, group, &b->out);
+        if (covered(i) > 0.0) b->out.bearing.friction_torque = i->sum.torque / covered(i);
         return;
     case GROUP_STATE:
-    case GROUP_RING:
     case GROUP_POSE:
     case GROUP_BALL:
     case GROUP_CAGE:

@@ -20,6 +20,7 @@
 #define verlet_evaluate FOR_ISA(verlet_evaluate)
 #define verlet_step FOR_ISA(verlet_step)
 #define implicit_spring_power FOR_ISA(implicit_spring_power)
+#define implicit_ring_wrench FOR_ISA(implicit_ring_wrench)
 #define implicit_solve FOR_ISA(implicit_solve)
 #define implicit_stiff_part FOR_ISA(implicit_stiff_part)
 #define half_path_rows FOR_ISA(half_path_rows)

@@ -383,6 +383,11 @@ typedef struct {
     double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
 } Housing;
 
+// What the shaft gives: torque about its axis [N.m] and power [W], or their integrals over time.
+typedef struct {
+    double torque, power;
+} Exchange;
+
 // All that the right-hand side needs beside time and state.
 typedef struct {
     const Parameters *p;  // at the present temperatures (temperature.h)

@@ -5,6 +5,7 @@
 // forces.
 #pragma once
 
+#include "cage/cage.h"
 #include "physics/frame.h"
 #include "physics/outer_ring.h"
 
@@ -55,6 +56,34 @@ static inline scalar shaft_power(const Work *w)
 {
     return -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega);
 }
+
+// Power dissipated in contacts, films, drag and by damping; the joints' friction is beside it (cage_losses).
+static inline scalar power_loss(const Work *w)
+{
+    return ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated +
+           cage_losses(w);
+}
+
+// Torque of the shaft about its axis.
+static inline scalar friction_torque(const Work *w)
+{
+    return -dot3(w->ring.M, w->ring.a);
+}
+
+#ifndef DUAL
+// What the shaft gives by the forces on the ring in w.
+static inline Exchange exchange_at(const Work *w)
+{
+    return (Exchange){friction_torque(w), shaft_power(w)};
+}
+
+// Adds what it gives over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
+static inline void exchange_add(double h, const Exchange *from, const Exchange *to, Exchange *sum)
+{
+    sum->torque += 0.5 * h * (from->torque + to->torque);
+    sum->power += 0.5 * h * (from->power + to->power);
+}
+#endif
 
 // Power of the housing into balls and cage.
 static inline scalar housing_power(const Model *model, const Work *w)

@@ -36,9 +36,7 @@ static __attribute__((noinline)) scalar motion_power(const Model *model, const W
 // Net power into balls and cage: by the rings' motions, the frame and growth, less what is dissipated.
 static scalar net_power(const Model *model, const Work *w, const scalar *y_dot)
 {
-    scalar power =
-        shaft_power(w) - ball_array_sum(w->dissipated) - w->cage_dissipated - w->ring_drag_dissipated;
-    power -= cage_losses(w);
+    scalar power = shaft_power(w) - power_loss(w);
     power += land_growth_power(model, w, y_dot);
     const RingLoad *load = model->ring_load;
     if (scalar_value(load->omega_dot) != 0.0 || scalar_value(load->frame_omega_dot) != 0.0)

@@ -5,8 +5,8 @@
 // that the contact resists:
 //
 //   contact                 relative velocity B v                        coefficient C
-//   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = |traction|/|slip|
-//   race, spin (sliced)     omega.n                                      g_spin = moment/spin
+//   race, traction          slip v + omega x R n - u, u of the race      g (1 - n n^T), g = 1.4 |traction|/|slip|
+//   race, spin (sliced)     omega.n                                      g_spin = 1.4 moment/spin
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
 //   pocket, oil             v.m of the ball by itself                    D
@@ -32,6 +32,7 @@
 #include "cage/cage.h"
 #include "numbers/elimination.h"
 #include "numbers/octet.h"
+#include "numbers/vec.h"
 #include "physics/rotor.h"
 
 // ---- balls ------------------------------------------------------------------------------------------------
@@ -39,6 +40,10 @@
 // gamma A of a ball from which its accelerations are damped: there the trapezoidal rule's amplification
 // factor (1 - z)/(1 + z) is -1/3, and overshoot begins to matter.
 static const double STIFF_LIMIT = 2.0;
+
+// Traction's rates g in A / the secants |traction|/|slip| of the evaluation.  At a predictor on the flat branch of the law the
+// secant is below the slope on the way back, and too small a rate rings (docs/method.md).
+static const double TRACTION_MARGIN = 1.4;
 
 // Least approach in the stiffness 3 Q/(2 delta) [m]: no division by 0.
 static const double APPROACH_FLOOR = 1e-12;
@@ -152,11 +157,12 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
         normal_i = normal_term(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
         normal_e = normal_term(model, gamma, wide_load(&w->Q_e[j]), wide_load(&w->delta_e[j]));
     }
-    add_contact(gamma * wide_load(&w->g_i[j]), normal_i, R, n_i, W);
-    add_contact(gamma * wide_load(&w->g_e[j]), normal_e, R, n_e, W);
+    const double g = gamma * TRACTION_MARGIN;
+    add_contact(g * wide_load(&w->g_i[j]), normal_i, R, n_i, W);
+    add_contact(g * wide_load(&w->g_e[j]), normal_e, R, n_e, W);
     if (model->p->scene.traction == TRACTION_SLICED) {
-        add_spin(gamma * wide_load(&w->g_spin_i[j]), n_i, W);
-        add_spin(gamma * wide_load(&w->g_spin_e[j]), n_e, W);
+        add_spin(g * wide_load(&w->g_spin_i[j]), n_i, W);
+        add_spin(g * wide_load(&w->g_spin_e[j]), n_e, W);
     }
 
     // Films in the pockets.
@@ -229,7 +235,7 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
                           const wide x[BLOCK], Coupling *c)
 {
     const wide n[3] = {wide_load(&w->n_ix[j]), wide_load(&w->n_ir[j]), wide_load(&w->n_it[j])};
-    const wide g = gamma * wide_load(&w->g_i[j]), g_R = g * wide_load(&model->d->R[j]);
+    const wide g = gamma * TRACTION_MARGIN * wide_load(&w->g_i[j]), g_R = g * wide_load(&model->d->R[j]);
     const wide r = wide_load(&w->r[j]), zero = wide_set(0.0);
 
     // Columns of G: force gamma g (1 - n n^T) e_k and moment gamma g R n x e_k.
@@ -458,6 +464,47 @@ void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *s
 
     // The cage, which A and K do not couple with the rest.
     cage_solve(model, w, gamma, step, v);
+}
+
+void implicit_ring_wrench(const Model *model, double gamma, const double *delta, Work *w)
+{
+    const bool sliced = model->p->scene.traction == TRACTION_SLICED;
+    double v_ring[3] = {0.0},
+           turn[3] = {0.0};  // stay 0 where the balls' equations have the ring's predicted velocities
+    ball_array rows[BLOCK], change[6];
+    if (ring_coupled(model, w, gamma)) {
+        const double *V = &delta[Y_RING_V_X];
+        memcpy(v_ring, V, sizeof v_ring);
+        turn[1] = V[3], turn[2] = V[4];
+    }
+    load_balls(delta, rows);
+    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+        const wide c = wide_load(&w->cos_theta[j]), s = wide_load(&w->sin_theta[j]);
+        const vec n = vec_load(&w->n_ix[j], &w->n_ir[j], &w->n_it[j]);
+        const vec arm = vec_scale(wide_load(&model->d->R[j]), n);
+        const vec v = {wide_load(&rows[0][j]), wide_load(&rows[1][j]),
+                       wide_load(&rows[2][j]) * wide_load(&w->r[j])};
+        const vec omega = vec_load(&rows[3][j], &rows[4][j], &rows[5][j]);
+        const vec ball = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+        const vec place = vec_add(vec_sub(ball, vec_local(w->ring.x, c, s)), arm);
+
+        // change of the slip, and what resists it, on the ring
+        const vec race =
+            vec_add(vec_local(v_ring, c, s), vec_cross(vec_local(turn, c, s), vec_add(ball, arm)));
+        const vec slip = vec_across(vec_sub(vec_add(v, vec_cross(omega, arm)), race), n);
+        const wide normal = normal_term(model, gamma, wide_load(&w->Q_i[j]), wide_load(&w->delta_i[j]));
+        const vec F = vec_axpy(normal * (1.0 / gamma) * vec_dot(v, n), n,
+                               vec_scale(TRACTION_MARGIN * wide_load(&w->g_i[j]), slip));
+        const wide spin =
+            sliced ? TRACTION_MARGIN * wide_load(&w->g_spin_i[j]) * vec_dot(omega, n) : wide_set(0.0);
+        const vec M = vec_axpy(spin, n, vec_cross(place, F));
+        vec_to_global(F, c, s, &change[0][j], &change[1][j], &change[2][j]);
+        vec_to_global(M, c, s, &change[3][j], &change[4][j], &change[5][j]);
+    }
+    for (int i = 0; i < 3; i++) {
+        w->ring.F[i] += ball_array_sum(change[i]);
+        w->ring.M[i] += ball_array_sum(change[3 + i]);
+    }
 }
 
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)

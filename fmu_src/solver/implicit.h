@@ -11,6 +11,10 @@
 // (cage_shear).  v has the rows of the state vector; only velocities are read and written.
 void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v);
 
+// The wrench of the race contacts on the ring in w becomes the one that moved the balls in a step: that of the evaluation and
+// what the solve's result delta adds to the forces on the balls.
+void implicit_ring_wrench(const Model *model, double gamma, const double *delta, Work *w);
+
 // gamma v.M K v of the balls [W] with the stiffness K of the races' normal forces.
 double implicit_spring_power(const Work *w, double gamma, const double *v);
 

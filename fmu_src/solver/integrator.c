@@ -19,6 +19,7 @@
 #include "numbers/elementary.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
+#include "physics/powers.h"
 #include "physics/race_surface.h"
 #include "solver/bearing_step.h"
 #include "solver/state_vector.h"
@@ -218,6 +219,7 @@ static int verlet_accepted(sunrealtype t, N_Vector y, void *user)
     if (in->warming_up) return 0;
     VerletState *const before = in->now;
     in->now = in->next, in->next = before;
+    exchange_add(in->now->h, &before->exchange, &in->now->exchange, &in->s->sum);
     in->s->t = t;
     in->s->steps += 1.0;
     in->hook(in->context, in->now->h, in->w);
@@ -373,9 +375,10 @@ void integrator_evaluate(Integrator *in)
 {
     IntegratorState *s = in->s;
     if (s->f_is_current) return;
-    if (in->model->p->solver.method == METHOD_EXPLICIT)
+    if (in->model->p->solver.method == METHOD_EXPLICIT) {
         in->kernels->rhs(in->model, s->t, s->now.y, s->now.f, in->w);
-    else
+        s->now.exchange = exchange_at(in->w);
+    } else
         in->kernels->verlet_evaluate(in->model, s->t, &s->now, in->w);
     s->rhs_evals += 1.0;
     s->f_is_current = 1;
@@ -497,6 +500,9 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
             break;
         }
         const double h = stepping_accept(s, t, state_vector_data(in->y));
+        const Exchange before = s->now.exchange;
+        s->now.exchange = exchange_at(in->w);
+        exchange_add(h, &before, &s->now.exchange, &s->sum);
         ARKodeGetCurrentStep(in->arkode, &h_next);
         in->hook(in->context, h, in->w);
     }
@@ -580,7 +586,11 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 
     fine &= cage_memory_is_valid(&s->now.cage, p);
 
-    // Films, switch and counters.
+    // What the shaft gives; films, switch and counters.
+    const double LARGEST_EXCHANGE = 1e30;
+    fine &= values_are_within(&s->now.exchange.torque, 2, LARGEST_EXCHANGE) &&
+            values_are_within(&s->sum.torque, 2, LARGEST_EXCHANGE) &&
+            values_are_within(&s->since, 1, LARGEST_TIME);
     fine &=
         values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
     fine &= s->f_is_current == 0 || s->f_is_current == 1;

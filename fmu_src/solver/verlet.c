@@ -20,6 +20,7 @@
 #include "physics/ball_turn.h"
 #include "physics/housing.h"
 #include "physics/land_bent.h"
+#include "physics/powers.h"
 #include "physics/rhs.h"
 #include "physics/ring_load.h"
 #include "solver/implicit.h"
@@ -216,6 +217,7 @@ static void housing_correct(double gamma, const Housing *from, Housing *to)
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
     rhs_now(model, t, now, w);
+    now->exchange = exchange_at(w);
     cage_split(model, now->y, w, now->f, &now->cage);
 }
 
@@ -249,6 +251,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     implicit_solve(model, w, gamma, &cage, delta);
     to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
     if (lands_bend(model)) to->f[Y_WORK] += bent_arrive(gamma, cage.bent, w);
+    implicit_ring_wrench(model, gamma, delta, w);
+    to->exchange = exchange_at(w);
     remember_films(w, to);
 
     // The limiter is given back: from here on delta is v_{n+1} - v_n - h a_n.
