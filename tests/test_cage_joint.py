@@ -80,7 +80,9 @@ def test_pull_curve(core):
     gap, k_hole = 6e-6, np.interp(-6e-6, JOINT["hole_fit"], JOINT["k_hole"])
     dragged = np.minimum(capacity + K_SLIP * (u[1:] - capacity / K_T), 2.0 * capacity)
     law = np.minimum(K_T * u[1:], dragged) + k_hole * np.maximum(u[1:] - gap, 0.0)
-    np.testing.assert_allclose(force, law, rtol=1e-4)  # observed 3e-5: the plates' force by the table of the joint's law
+    np.testing.assert_allclose(
+        force, law, rtol=1e-4
+    )  # observed 3e-5: the plates' force by the table of the joint's law
     at = lambda place: force[np.searchsorted(u[1:], place)]
     assert at(5.9e-6) == pytest.approx(2.0 * capacity, rel=1e-4)
     assert at(8.9e-6) - at(6.5e-6) == pytest.approx(k_hole * 2.4e-6, rel=1e-3)

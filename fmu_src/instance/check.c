@@ -239,9 +239,10 @@ static bool check_ribbon(Bearing *b)
         fine = false;
     }
     if (!ribbon && p->cage.guidance == CAGE_GUIDANCE_BALLS) {
-        bearing_log(b, LOG_ERROR,
-                    "cage.guidance = balls: pockets with radial axes, of a machined cage (cage.shape), do not "
-                    "carry it radially; outer (1) is allowed");
+        bearing_log(
+            b, LOG_ERROR,
+            "cage.guidance = balls: pockets with radial axes, of a machined cage (cage.shape), do not "
+            "carry it radially; outer (1) is allowed");
         return false;
     }
     if (!ribbon || !fine) return fine;

@@ -60,8 +60,7 @@ static inline scalar shaft_power(const Work *w)
 // Power dissipated in contacts, films, drag and by damping; the joints' friction is beside it (cage_losses).
 static inline scalar power_loss(const Work *w)
 {
-    return ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated +
-           cage_losses(w);
+    return ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated + cage_losses(w);
 }
 
 // Torque of the shaft about its axis.

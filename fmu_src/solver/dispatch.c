@@ -24,7 +24,8 @@
     extern const VectorOps vector_ops_##isa, vector_ops_all_##isa
 #define KERNELS_2(isa)                                                                              \
     ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_all_##isa, \
-               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, cage_slide_##isa, rivet_rom_stress_##isa})
+               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, cage_slide_##isa,        \
+               rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 

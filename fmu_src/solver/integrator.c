@@ -303,7 +303,8 @@ static bool create_explicit(Integrator *in)
     in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
     return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
            explicit_table(in->arkode) == ARK_SUCCESS &&
-           ARKodeSetPostprocessStepFn(in->arkode, explicit_accepted) == ARK_SUCCESS && warm_up(in, in->arkode, in->y);
+           ARKodeSetPostprocessStepFn(in->arkode, explicit_accepted) == ARK_SUCCESS &&
+           warm_up(in, in->arkode, in->y);
 }
 
 static bool create_bearing(Integrator *in)

@@ -138,7 +138,8 @@ INLINE void load_friction(const scalar *rows, FrictionStates *z)
     }
 }
 
-INLINE Held hold_packet(const JointStiffness *k_in, wide C_plates, wide C_heads, const FrictionStates *z, int k)
+INLINE Held hold_packet(const JointStiffness *k_in, wide C_plates, wide C_heads, const FrictionStates *z,
+                        int k)
 {
     const wide joint[2] = {wide_load(&z->row[JOINT][k]), wide_load(&z->row[JOINT + 1][k])};
     const wide head[2] = {wide_load(&z->row[HEAD][k]), wide_load(&z->row[HEAD + 1][k])};
@@ -154,8 +155,8 @@ void cage_joint_follow(double h, const double *v_y, const double *v_z, double *y
     }
 }
 
-double cage_joint_slide(const Model *model, const JointStiffness *k_in, const double *T, const double *N_plate,
-                        double *y, JointStep *step)
+double cage_joint_slide(const Model *model, const JointStiffness *k_in, const double *T,
+                        const double *N_plate, double *y, JointStep *step)
 {
     const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
     FrictionStates z, z_0;
@@ -240,7 +241,8 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
         const wide by_heads = sliding_power(C_heads, H_y, H_z, v_y, v_z);
         const wide by_plates = sliding_power(C_plates, on.plates[0], on.plates[1], v_y, v_z);
         const wide heads_slide = wide_select(wide_above(by_heads, 0.0), wide_set(1.0), wide_set(part));
-        wide_store(&w->joint_dissipated[k], wide_select(wide_above(by_plates, 0.0), by_heads, zero) + heads_slide * by_plates);
+        wide_store(&w->joint_dissipated[k],
+                   wide_select(wide_above(by_plates, 0.0), by_heads, zero) + heads_slide * by_plates);
         wide_store(&w->plate_held[k], on.held_plates);
         wide_store(&w->head_held[k], on.held_heads);
 
