@@ -190,7 +190,7 @@ def test_surfaces_and_housing(folder, eight, cage, balls):
 def test_random_scenes(folder, eight, seeds):
     results = {seed: differing(folder, eight, *scene(seed)) for seed in seeds}
     assert not {seed: names[:4] for seed, names in results.items() if names}
-    assert sum(names is not None for names in results.values()) > len(seeds) / 2
+    assert sum(names is not None for names in results.values()) > len(seeds) / 3  # others are refused at the start
 
 
 @X86

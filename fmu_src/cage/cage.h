@@ -174,9 +174,19 @@ scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 
 // Power that the halves' vibrations and the damping between rigid halves lose [W].  What friction loses is no function of
 // a state: it is the work of a step's slip (cage_correct).
+INLINE scalar cage_vibrations_lose(const Work *w)
+{
+    return w->elastic.dissipated;
+}
+
+INLINE scalar cage_joints_damp(const Work *w)
+{
+    return w->two_half.dissipated;
+}
+
 INLINE scalar cage_losses(const Work *w)
 {
-    return w->elastic.dissipated + w->two_half.dissipated;
+    return cage_vibrations_lose(w) + cage_joints_damp(w);
 }
 
 // Motions of half h at the rivets by its modes, in the rivets' frames [m].

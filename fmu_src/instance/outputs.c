@@ -221,8 +221,8 @@ static void fill_stress(const Evaluation *at, Outputs *out)
 static void fill_energy(const Evaluation *at, Outputs *out)
 {
     const Work *w = at->w;
-    out->loss.modes = w->elastic.dissipated;
-    out->loss.joints = ball_array_sum(w->joint_dissipated) + w->two_half.dissipated;
+    out->loss.modes = cage_vibrations_lose(w);
+    out->loss.joints = ball_array_sum(w->joint_dissipated) + cage_joints_damp(w);
     out->bearing.power_loss = power_loss(w) + ball_array_sum(w->joint_dissipated);
     out->loss.races = ball_array_sum(w->race_dissipated);
     out->loss.inlet = ball_array_sum(w->inlet_dissipated);
