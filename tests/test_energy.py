@@ -197,10 +197,10 @@ def test_lossless_energy_converges(core, record_property):
 
 @pytest.mark.c_only
 @pytest.mark.parametrize(
-    ("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 5e-4)]
+    ("method", "order_of_error", "largest"), [(Method.EXPLICIT, 1.0, 1e-5), (Method.VERLET, 2.0 / 3.0, 7e-4)]
 )
 def test_energy_balance_of_a_run(core, method, order_of_error, largest, record_property):
-    """The working point for 10 ms dissipates 2.3 J; the balance closes to 1e-5 of it at 1e-4, by Verlet to 5e-4 at
+    """The working point for 10 ms dissipates 2.3 J; the balance closes to 1e-5 of it at 1e-4, by Verlet to 5.1e-4 at
     4e-5.
 
     Observed by Verlet 3.3e-4 and 3.2e-4 with either cage, of which the first millisecond, in which the start settles,

@@ -491,7 +491,7 @@ def test_another_point_than_the_last_one_reached_is_refused(folder, start, by):
 def test_a_step_that_is_lost_in_the_rounding_of_time_is_refused(folder):
     slave = Slave(folder).initialize(start=1.7e9)
     assert slave.call("DoStep", 1.7e9, 1e-8, 1) == ERROR
-    assert "lost in the rounding" in slave.messages[-1][2]
+    assert "communicationStepSize = 1e-08 s is not allowed" in slave.messages[-1][2]
 
 
 # ---------------------------------------------------------------------------------------------- failures, statuses, log

@@ -176,10 +176,6 @@ def check_ribbon(p):
             none = "0 is allowed, a machined cage (cage.shape) has no such size"
             require(value == 0.0, f"cage.{name} = {value} m: {none}")
     if not ribbon:
-        loose = (
-            "pockets with radial axes, of a machined cage (cage.shape), do not carry it radially; outer (1) is allowed"
-        )
-        require(p.cage.guidance != variables.CageGuidance.BALLS, f"cage.guidance = balls: {loose}")
         return
     guided = "a ribbon cage has no land on the outer ring; balls (2) is allowed"
     require(p.cage.guidance == variables.CageGuidance.BALLS, f"cage.guidance = outer: {guided}")

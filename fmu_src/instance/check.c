@@ -238,13 +238,6 @@ static bool check_ribbon(Bearing *b)
                            : "0 is allowed, a machined cage (cage.shape) has no such size");
         fine = false;
     }
-    if (!ribbon && p->cage.guidance == CAGE_GUIDANCE_BALLS) {
-        bearing_log(
-            b, LOG_ERROR,
-            "cage.guidance = balls: pockets with radial axes, of a machined cage (cage.shape), do not "
-            "carry it radially; outer (1) is allowed");
-        return false;
-    }
     if (!ribbon || !fine) return fine;
 
     const double radius = 0.5 * (p->bearing.D + p->cage.pocket_clearance), depth = p->cage.pocket_depth;
