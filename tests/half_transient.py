@@ -5,7 +5,7 @@ At each complex frequency s one pitch with the stiffness (1 + b s) K + s^2 M is 
 waves of the ring follow from them, and the pads are held: transfer functions from the pockets to the joints, as
 rivet_model/impacts.py has them from modes.
 
-    PYTHONPATH=. python tests/half_transient.py      # prints the tables over the number of modes of docs/rivet.md; 15 minutes of one core
+    PYTHONPATH=. python tests/half_transient.py      # prints tables over the number of modes; 15 minutes of one core
 """
 
 from functools import cached_property
