@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{0f8cb7e9-995a-c303-ff59-fe242640d20f}"
+MODEL_GUID = "{7e82c1c5-1f76-4110-e486-2ff0252e087e}"
 Z = 9
 
 
