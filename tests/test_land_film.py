@@ -112,15 +112,20 @@ def reynolds(e, v, omega):
     )
 
 
+def drawn(rng):
+    """Eccentricity, velocity [2] and speed of a land at random, in SI."""
+    angle = rng.uniform(0, 2 * np.pi)
+    e = C * rng.uniform(0.05, 0.95) * np.array([np.cos(angle), np.sin(angle)])
+    return e, rng.uniform(-0.1, 0.1, 2), rng.uniform(-1500, 1500)
+
+
 def test_reynolds_by_quadrature(core):
     """Rotation and squeeze together in any direction: both cross terms, and the moment beside Couette's.  Differences in gap and angle: 2e-9; observed
     2e-8.
     """
     rng = np.random.default_rng(1)
     for _ in range(20):
-        angle = rng.uniform(0, 2 * np.pi)
-        e = C * rng.uniform(0.05, 0.95) * np.array([np.cos(angle), np.sin(angle)])
-        v, omega = rng.uniform(-0.1, 0.1, 2), rng.uniform(-1500, 1500)
+        e, v, omega = drawn(rng)
         _, F, M = film(core, e, v, omega)
         *expected, moment = reynolds(e, v, omega)
         assert F == pytest.approx(expected, abs=2e-7 * np.abs(expected).max())
@@ -179,9 +184,7 @@ def test_loss_of_the_film(core):
     """Couette's omega^2 - F.V of each land, whatever e, v and omega: rounding."""
     rng = np.random.default_rng(7)
     for _ in range(50):
-        angle = rng.uniform(0, 2 * np.pi)
-        e = C * rng.uniform(0.05, 0.95) * np.array([np.cos(angle), np.sin(angle)])
-        v, omega = rng.uniform(-0.1, 0.1, 2), rng.uniform(-1500, 1500)
+        e, v, omega = drawn(rng)
         m, F, _ = film(core, e, v, omega)
         V = v - 0.5 * omega * np.array([-e[1], e[0]])
         expected = 2 * (petroff(np.hypot(*e) / C) * omega**2 - F @ V)
