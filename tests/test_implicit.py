@@ -221,13 +221,13 @@ def test_a_land_rests_against_its_film(core):
 
 
 def test_a_whirling_land_is_not_held_back(core):
-    """11 g.mm of unbalance, the most that a cage can have, whirl it along its guide: films that hold back the steady acceleration too take 10 %
-    of the energy.
+    """11 g.mm of unbalance, the most that a cage can have, whirl it towards its guide: films that hold back the steady acceleration too take
+    10 % of the energy.  The pockets press it back now and then, in steps of the tolerance 1e-5 as well.
     """
-    instance, loss = Instance(core, {"cage.unbalance": 1.1e-5}), 0.0
+    instance, loss, nearest = Instance(core, {"cage.unbalance": 1.1e-5}), 0.0, 0.0
     for k in range(100):
         loss += 1e-4 * instance.step((k + 1) * 1e-4).output("bearing.power_loss")
-    growth = 4.6e-12 * 755.0**2 / 1e-4  # of the cage, in clearances at rest
-    assert instance.output("cage.eccentricity") > 0.95 * (1.0 - growth)
-    # observed 2.8e-2: vibrations between the halves, whose joints stick, that no step resolves
-    assert abs(instance.output("bearing.energy_residual")) < 4e-2 * loss
+        nearest = max(nearest, instance.output("cage.eccentricity"))
+    assert nearest > 0.85  # observed 0.90, as with the tolerance 1e-5
+    # observed 4.6e-3, most of it while the cage first comes to its guide
+    assert abs(instance.output("bearing.energy_residual")) < 1e-2 * loss
