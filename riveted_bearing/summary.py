@@ -83,7 +83,7 @@ def no_statistics(result):
 def settle_note(result):
     """A warning where the statistics begin before the bearing has settled, for slow shafts; else ""."""
     turns, settle = result.about.get("settle_turns", 0.0), result.parameters.get("start.settle", 0.0)
-    if not 0.0 < turns < SETTLED or not has_statistics(result):
+    if not 0.0 < float(f"{turns:.2g}") < SETTLED or not has_statistics(result):
         return ""
     enough = SETTLED / turns * settle
     return (
@@ -95,7 +95,7 @@ def settle_note(result):
 def count_note(result):
     """A warning where statistics rest on few revolutions of the shaft; else ""."""
     turns = result.about.get("count_turns", 0.0)
-    if not 0.0 < turns < COUNTED or not has_statistics(result):
+    if not 0.0 < float(f"{turns:.2g}") < COUNTED or not has_statistics(result):
         return ""
     return (
         f"statistics and life rest on {turns:.2g} revolutions of the shaft after start.settle; from {COUNTED:g} on they are "
