@@ -4,6 +4,7 @@ import os
 import re
 import subprocess
 import sys
+import time
 import tomllib
 import zipfile
 from pathlib import Path
@@ -146,7 +147,7 @@ def test_the_libraries_of_a_run_are_the_few(fmu):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     names = [re.match(r"[\w-]+", text)[0] for text in project["dependencies"]]
     assert names == ["fmpy", "numpy", "typer", "rich"]
-    full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["full"]}
+    full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["build"]}
     assert {{"skfem": "scikit-fem", "distributed": "dask"}.get(name, name) for name in FULL} <= full
 
 
@@ -159,3 +160,60 @@ def test_the_cookbook_comes_with_the_program():
     refused = run_it("recipe")
     assert refused.exit_code == 2 and 'did you mean "recipes"' in refused.output
     assert "fmu_src fmus docs DESTINATION" in (ROOT / "cmake" / "fmu.cmake").read_text()
+
+
+HOOKS = """
+import sys
+sys.modules["scikit_build_core"] = None  # not installed yet
+import backend
+print(all(hasattr(backend, f"build_{kind}") for kind in ("wheel", "sdist", "editable")), hasattr(backend, "other"))
+print(backend.get_requires_for_build_editable())
+"""
+
+
+def test_pip_may_ask_for_hooks_before_it_installs_their_library():
+    """`pip install -e .` asks for build_editable first, in an environment that has nothing (PEP 660)."""
+    words = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, {str(ROOT / 'cmake')!r})\n{HOOKS}"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and done.stdout.splitlines() == ["True False", "['scikit-build-core>=0.11']"], (
+        done.stderr
+    )
+
+
+def test_every_extra_that_is_named_exists():
+    """In pages, messages and scripts."""
+    extras = set(tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"])
+    files = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/*.*py*"), *ROOT.glob("tests/*.py")]
+    files += [*ROOT.glob("riveted_bearing/**/*.py"), ROOT / "Makefile", ROOT / ".ci" / "environment"]
+    named = set()
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        for found in re.findall(r"(?:\s|\"|')\.\[([\w,]+)\]|whl\[([\w,]+)\]|\bextra\(['\"](\w+)['\"]\)", text):
+            named |= set("".join(found).split(","))
+    assert {"full", "cross", "notebook"} <= named <= extras, named - extras
+
+
+@pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="root makes a system on Linux")
+def test_the_check_on_a_bare_machine_ends_when_it_is_told_to(tmp_path):
+    """SIGTERM while a command runs that hears none: the script ends, the command and its children too."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "left").mkdir()
+    fake = tmp_path / "bin" / "debootstrap"
+    fake.write_text(
+        f"#!/bin/sh\ntrap '' TERM\ntouch {tmp_path}/begun\n(sleep 4; touch {tmp_path}/survived) &\nsleep 4\nsleep 60\n"
+    )
+    fake.chmod(0o755)
+    environment = os.environ | {"PATH": f"{tmp_path}/bin:{os.environ['PATH']}", "TMPDIR": str(tmp_path / "left")}
+    told = subprocess.Popen(["sh", ROOT / ".ci" / "bare", "13"], env=environment)
+    try:
+        end = time.monotonic() + 60.0
+        while not (tmp_path / "begun").exists() and told.poll() is None and time.monotonic() < end:
+            time.sleep(0.05)
+        if told.poll() is not None:
+            pytest.skip("this machine makes no namespaces")
+        told.terminate()
+        assert told.wait(timeout=3.0) == 1
+    finally:
+        told.kill()
+    time.sleep(4.5)
+    assert not (tmp_path / "survived").exists() and not list((tmp_path / "left").iterdir())
