@@ -15,7 +15,7 @@ from .results import write_atomically
 from .summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
-TITLE_WIDTH = 140  # characters of a line over the whole picture
+TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
 STYLE = {
     "font.size": 9,
