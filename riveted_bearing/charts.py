@@ -224,14 +224,14 @@ def section_sizes(p):
     """
     mm = {name: 1e3 * p[f"bearing.{name}"] for name in ("D", "d_m", "P_d")}
     bottom = [0.5 * mm["d_m"] + side * (0.5 * mm["D"] + 0.25 * mm["P_d"]) for side in (-1, 1)]
-    ribbon = p["cage.shape"] == "ribbon"
+    ribbon = p.get("cage.shape") == "ribbon"
     return {
         "r_i": bottom[0],
         "r_e": bottom[1],
         "shoulder_i": bottom[0] + p["bearing.h_i"] * mm["D"],
         "shoulder_e": bottom[1] - p["bearing.h_e"] * mm["D"],
-        "bore": 0.5 * (1e3 * p["ring.bore"] or mm["d_m"] - mm["D"] / 0.6),
-        "outside": 0.5 * (1e3 * p["ring.outside"] or mm["d_m"] + mm["D"] / 0.6),
+        "bore": 0.5 * (1e3 * p.get("ring.bore", 0.0) or mm["d_m"] - mm["D"] / 0.6),
+        "outside": 0.5 * (1e3 * p.get("ring.outside", 0.0) or mm["d_m"] + mm["D"] / 0.6),
         "D_o": 500.0 * p["cage.D_o"],
         "D_i": 500.0 * p["cage.D_i"],
         "half": 1e3 * (p["cage.pocket_depth"] + p["cage.sheet"]) if ribbon else 500.0 * p["cage.width"],
@@ -259,9 +259,9 @@ def section(figure, result):
         plt.Rectangle(corner, 2.0 * size["half"], height, facecolor="#e09f3e", alpha=0.5, edgecolor=FORCE, lw=1.0)
     )
     ax.add_patch(plt.Circle((0.0, 0.5 * d_m), 0.5 * D, facecolor="white", edgecolor=FORCE, lw=1.0, zorder=3))
-    ax.axhline(0.5 * d_m, color=MUTED, lw=0.7, ls="-.", zorder=4)
+    ax.plot([-1.1 * end, 1.1 * end], [0.5 * d_m] * 2, color=MUTED, lw=0.7, ls="-.", zorder=4)
     ax.text(0.0, 0.5 * d_m + 0.12 * D, f"ball {D:.5g}", ha="center", fontsize=8, zorder=5)
-    if p["cage.shape"] != "ribbon":
+    if p.get("cage.shape") != "ribbon":
         ax.plot([0.0, 0.0], [size["D_i"], size["D_o"]], color=FORCE, lw=0.6, ls=":", zorder=4)
     marks = {  # side, radius, text
         "bore": (1, size["bore"], "bore"),
@@ -273,7 +273,9 @@ def section(figure, result):
     for side, radius, text in marks.values():
         ax.plot([side * (size["half"] if side < 0 else end), side * 1.18 * end], [radius] * 2, color=FORCE, lw=0.5)
         place = "left" if side > 0 else "right"
-        ax.text(side * 1.22 * end, radius, f"{text} ø{2.0 * radius:.5g}", ha=place, va="center", fontsize=8)
+        given = text not in ("bore", "outside") or p.get(f"ring.{text}", 0.0)
+        shown = f"ø{2.0 * radius:.5g}" if given else f"≈ ø{2.0 * radius:.2g}"
+        ax.text(side * 1.22 * end, radius, f"{text} {shown}", ha=place, va="center", fontsize=8)
     low = size["bore"] - 0.16 * D
     ax.annotate(
         "", (-size["half"], low), (size["half"], low), arrowprops={"arrowstyle": "<->", "color": FORCE, "lw": 0.7}

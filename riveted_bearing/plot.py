@@ -183,7 +183,7 @@ def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
     kind = clearance_of_cage(result.parameters)
     ax.set(
-        title="Orbit of the cage's centre, seen from +X",
+        title="Orbit of the cage's centre, from +X",
         xlabel=f"y [µm]; dashed: {kind} clearance",
         ylabel="z [µm]",
         aspect="equal",
