@@ -89,7 +89,7 @@ class Case:
     rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the
     Material of each part, of a bearing file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
-    shape, from which nothing follows.
+    shape, from which nothing follows; model: the Model of a scene's case.
     """
 
     designation: str
@@ -102,6 +102,7 @@ class Case:
     materials: dict = field(default_factory=dict)
     bare: bool = False
     alone: tuple = ()
+    model: object = field(default=None, compare=False)
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -777,9 +778,8 @@ def scene_case(source, model):
     data = model.catalogue or (known[0].catalogue if known else entry.data if entry else {})
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
-    return Case(
-        name, scene.description, Z, values, data, rivet=None, origin={} if scene.source else model.origin, alone=alone
-    )
+    origin = {} if scene.source else model.origin
+    return Case(name, scene.description, Z, values, data, rivet=None, origin=origin, alone=alone, model=model)
 
 
 def flat(tree, prefix=""):

@@ -21,6 +21,7 @@
     joint.mu = 0.3
 
 A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
+Where a scene sets oil.T, parts whose temperature nobody gives have the oil's.
 """
 
 import re
@@ -44,6 +45,7 @@ SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "ch
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
+PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 DEEPEST = 50  # tables or lists in each other
 MOST_STEPS = 1e12
@@ -124,9 +126,22 @@ def load_scene(source, model, *changes):
     for where, document in changes:
         scene = apply(scene, where, document, model, folder)
     check_times(scene, " with ".join([*filter(None, [scene.source]), *(where for where, _ in changes)]))
-    return replace(
-        scene, outputs=scene.outputs or default_outputs(model), replaced=tuple(replacements(of_file, scene, model))
-    )
+    replaced = tuple(replacements(of_file, scene, model))
+    return warm(replace(scene, outputs=scene.outputs or default_outputs(model), replaced=replaced), model)
+
+
+def warm(scene, model):
+    """The scene with the oil's temperature, where it sets one, in all parts of which neither it nor the bearing's own
+    file gives another.
+    """
+    if "oil.T" not in scene.inputs:
+        return scene
+    parts = [
+        name for name in PARTS_TEMPERATURES if name not in scene.inputs and model.origin.get(name) != "yours"
+    ]
+    units = dict.fromkeys(parts, scene.units["oil.T"]) if "oil.T" in scene.units else {}
+    inputs = dict.fromkeys(parts, scene.inputs["oil.T"])
+    return replace(scene, inputs=scene.inputs | inputs, units=scene.units | units)
 
 
 def working_point(model):

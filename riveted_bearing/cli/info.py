@@ -140,7 +140,7 @@ def info_tables(case):
     state = case.equilibrium()
     return [
         ("Geometry and masses", pairs(geometry(case))),
-        *([("Oil and temperatures", pairs(oil(case)))] if case.rivet is not None else []),
+        ("Oil and temperatures", pairs(oil(case))),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {speeds_text(case.load)}", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
@@ -188,7 +188,7 @@ def geometry(case):
             "mm",
             origins(case, *(f"rivet.{name}" for name in RIVET)),
         )
-        yield from preload(case)
+    yield from preload(case)
     for part, material in case.materials.items():
         yield (
             f"material of {'the ' + part if part in ('cage', 'rivet') else part}",
@@ -206,16 +206,19 @@ def geometry(case):
 
 
 def preload(case):
-    """Preload of the rivets as given and at the cage's temperature, the latter by rule: an FMU's own table has it
-    exactly.
+    """Preload of the rivets as given and at the cage's temperature, the latter of a bearing by rule: an FMU's own table
+    has it exactly.
     """
-    from ..preload import of_geometry
+    from ..preload import of_fmu, of_geometry
 
-    given, T, thermal = case.values["joint.preload"], case.values["cage.T"], of_geometry(Geometry(**case.joint))
+    given, T = case.values["joint.preload"], case.values["cage.T"]
+    thermal = of_fmu(case.model) if case.model else of_geometry(Geometry(**case.joint))
+    if thermal is None:
+        return
     yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", origins(case, "joint.preload")
-    if abs(thermal.at(given, T) - given) > 1e-3 * given:
-        reason = f"the cage expands {'more' if thermal.rate > 0.0 else 'less'} than the rivets, {thermal.rate:+.3g} N/K"
-        yield f"preload with the cage at {T - ZERO:.4g} degC", f"some {thermal.at(given, T):.3g}", "N", reason
+    if abs(T - thermal.T_0) > 1e-6:
+        hot = f"{'' if case.model else 'some '}{thermal.at(given, T):.3g}"
+        yield f"preload with the cage at {T - ZERO:.4g} degC", hot, "N", thermal.reason
 
 
 def oil(case):
@@ -225,7 +228,7 @@ def oil(case):
     from ..oil import viscosity
 
     own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
-    start = {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
+    start = {name: start_of(case, name) for name in own if name in variables.PARAMETERS}
     T = own.pop("oil.T")
     points = ("oil.nu_1", "oil.nu_2")
     eta = viscosity(own, start, T)
@@ -252,6 +255,11 @@ def oil(case):
         "degC",
         origins(case, *names),
     )
+
+
+def start_of(case, name):
+    """Start value of a parameter in the case's FMU, if it has one, else in the variable table."""
+    return case.model.default(case.model.parameters[name]) if case.model else variables.PARAMETERS[name].start
 
 
 def origins(case, *names):
