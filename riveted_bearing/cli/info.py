@@ -225,27 +225,29 @@ def oil(case):
     """Name, value, unit and origin of oil and temperatures."""
     from bearing_model.load_ratings import reference_viscosity
 
-    from ..oil import viscosity
+    from ..oil import POINTS, largest_traction, plain, viscosity
 
     own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
     start = {name: start_of(case, name) for name in own if name in variables.PARAMETERS}
-    T = own.pop("oil.T")
-    points = ("oil.nu_1", "oil.nu_2")
-    eta = viscosity(own, start, T)
-    yield (
-        f"oil viscosity at {T - ZERO:.4g} degC",
-        f"{1e3 * eta:.4g}",
-        "mPa.s",
-        origins(case, "oil.eta"),
-    )
+    T, it = own.pop("oil.T"), plain(own)
+    at, warmer = f"at {T - ZERO:.4g} degC", T - it.T_0
+    eta, rho = viscosity(own, start, T), it.rho * (1.0 - it.expansion * warmer)
+    yield "oil", case.oil or "not named", "", "yours" if case.oil else "what is not given is that of an aviation oil"
+    yield f"oil viscosity {at}", f"{1e3 * eta:.4g}", "mPa.s", origins(case, "oil.eta")
     yield (
         "kinematic viscosity",
-        ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in points),
+        ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in POINTS),
         "mm2/s",
-        origins(case, *points),
+        source_of(case, *POINTS),
     )
+    alpha = it.alpha * math.exp(-it.alpha_T * warmer)
+    yield f"pressure-viscosity coefficient {at}", f"{1e9 * alpha:.3g}", "1/GPa", source_of(case, "oil.alpha")
+    traction = f"{largest_traction(it.A, it.B, it.C):.3f}, {-it.A:.3f}"
+    yield "traction coefficient: largest, in full sliding", traction, "", source_of(case, "oil.A")
+    yield f"oil density {at}", f"{rho:.4g}", "kg/m3", source_of(case, "oil.rho")
+    yield "roughness of ball and race", f"{1e6 * it.sigma_race:.3g}", "um", source_of(case, "oil.sigma_race")
     if omega := case.load.omega - case.load.omega_e:
-        kappa = eta / own["oil.rho"] / reference_viscosity(omega, case.bearing.d_m)
+        kappa = eta / rho / reference_viscosity(omega, case.bearing.d_m)
         speed = f"{RPM * abs(omega):,.0f} rev/min"
         yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{kappa:.3g}", "", ""
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
@@ -255,6 +257,18 @@ def oil(case):
         "degC",
         origins(case, *names),
     )
+
+
+def source_of(case, *names):
+    """Who gave these values of the oil, or where they come from."""
+    from ..oil import source_of as of_oil
+
+    given = [name for name in names if case.values[name] != variables.PARAMETERS[name].start]
+    if case.oil and (source := of_oil(case.oil, names[0])) and case.origin.get(names[0], "oil").endswith("oil"):
+        return source
+    if given or case.origin.get(names[0]) == "yours":
+        return origins(case, *names)
+    return variables.PARAMETERS[names[0]].source
 
 
 def start_of(case, name):
