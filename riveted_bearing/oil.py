@@ -27,14 +27,14 @@ TABLE = files("riveted_bearing") / "data" / "oils.toml"
 KEYS = ("kind", "grade")
 OF_PROPERTY = {  # names of a kind's properties by those of the FMU
     **dict.fromkeys(("oil.nu_1", "oil.nu_2"), "grade"),
-    **dict.fromkeys(("oil.A", "oil.B"), "friction"),
+    **dict.fromkeys(("oil.A", "oil.B", "oil.C"), "friction"),
     "oil.alpha": "alpha",
     "oil.alpha_T": "alpha_T",
     "oil.rho": "density",
     "oil.expansion": "expansion",
     "oil.k": "conductivity",
 }
-TRACTION = {name: PARAMETERS[name].start for name in ("oil.A", "oil.B")}
+TRACTION = {name: PARAMETERS[name].start for name in ("oil.A", "oil.B", "oil.C")}
 VG, OF_GRADE = "ISO VG ", 0.1  # a grade of ISO 3448 is 10 % wide to both sides
 T_DENSITY, T_40, T_100, T_JONES = 288.15, 313.15, 373.15, 311.15  # [K]
 
@@ -132,7 +132,9 @@ def named(where, written, given, start):
     kind, grade = kind_and_grade(where, written)
     name = " ".join(filter(None, (kind, grade)))
     values = start | given
-    entry = SimpleNamespace(**{key: value[0] if isinstance(value, list) else value for key, value in kinds()[kind].items()})
+    entry = SimpleNamespace(
+        **{key: value[0] if isinstance(value, list) else value for key, value in kinds()[kind].items()}
+    )
     found = density_of(entry, values["oil.T_0"])
     points = points_of(where, written, kind, grade, given, values | found | given)
     values |= points | found | given
@@ -150,7 +152,9 @@ def kind_and_grade(where, written):
     kind, grade = table.get("kind"), table.get("grade", "")
     allowed = ", ".join(kinds())
     if not isinstance(kind, str) or isinstance(grade, bool) or not isinstance(grade, str | int):
-        raise refusal(where, "oil", written, f'a kind with its grade is needed, as "mineral ISO VG 32"; kinds: {allowed}')
+        raise refusal(
+            where, "oil", written, f'a kind with its grade is needed, as "mineral ISO VG 32"; kinds: {allowed}'
+        )
     words = kind.replace(",", " ").split()
     found = [name for word in words for name in kinds() if word.lower() == name.lower()]
     if not found:
@@ -217,7 +221,9 @@ def viscosity_at_40(where, kind, name, given, values):
     there = np.array([float(Oil(1e-6 * low, T_40, 1e-6 * at_100(table, low), T_100).nu(T)) for low in all_40])
     if not there[0] <= nu <= there[-1]:
         low, high = (f"{1e6 * value:.3g}" for value in (there[0], there[-1]))
-        reason = f"{low} to {high} mm2/s at {T - 273.15:.4g} degC are those of {kind} oils; else give oil.nu_1 and oil.nu_2"
+        reason = (
+            f"{low} to {high} mm2/s at {T - 273.15:.4g} degC are those of {kind} oils; else give oil.nu_1 and oil.nu_2"
+        )
         raise refusal(where, name, given[name], reason)
     return float(np.exp(np.interp(np.log(nu), np.log(there), np.log(all_40))))
 
@@ -250,9 +256,9 @@ def pressure_of(entry, values):
 
 
 def traction_of(entry):
-    """oil.A and oil.B: the traction law of the variable table, scaled to the kind's friction in full sliding."""
+    """The traction law of the variable table, scaled to the kind's friction in full sliding."""
     share = entry.friction / -TRACTION["oil.A"]
-    return {name: share * value for name, value in TRACTION.items()}
+    return TRACTION | {name: share * TRACTION[name] for name in ("oil.A", "oil.B")}
 
 
 def largest_traction(A, B, C):

@@ -138,9 +138,7 @@ def warm(scene, model):
     """
     if "oil.T" not in scene.inputs:
         return scene
-    parts = [
-        name for name in PARTS_TEMPERATURES if name not in scene.inputs and model.origin.get(name) != "yours"
-    ]
+    parts = [name for name in PARTS_TEMPERATURES if name not in scene.inputs and model.origin.get(name) != "yours"]
     units = dict.fromkeys(parts, scene.units["oil.T"]) if "oil.T" in scene.units else {}
     inputs = dict.fromkeys(parts, scene.inputs["oil.T"])
     return replace(scene, inputs=scene.inputs | inputs, units=scene.units | units)
@@ -176,7 +174,12 @@ def replacements(of_file, scene, model):
         value, own = getattr(given, "value", given), model.default((model.parameters | model.inputs)[name])
         there, here = (in_words(model, name, one, scene.units.get(name)) for one in (value, own))
         of_oil = of_file.oil and name in OF_PROPERTY
-        if there != here and not of_oil and not name.startswith(SIMULATED) and (scene.parameters | scene.inputs)[name] is given:
+        if (
+            there != here
+            and not of_oil
+            and not name.startswith(SIMULATED)
+            and (scene.parameters | scene.inputs)[name] is given
+        ):
             yield f"{name} {there} for {here}"
 
 
