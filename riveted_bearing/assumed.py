@@ -77,8 +77,7 @@ def effects():
     own = {name: Effect(*entry) for name, entry in variables.ASSUMPTIONS.items()}
     rows = csv.DictReader(RULES.read_text(encoding="utf-8").splitlines()[1:])
     by_rule = {
-        row["name"]: Effect(*(float(row[key]) for key in ("low", "high", "stress")), row["source"])
-        for row in rows
+        row["name"]: Effect(*(float(row[key]) for key in ("low", "high", "stress")), row["source"]) for row in rows
     }
     return own, {name: effect for name, effect in by_rule.items() if name in own or effect.stress >= MATTERS}
 

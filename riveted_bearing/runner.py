@@ -164,8 +164,8 @@ def turns_between(model, scene, start, end):
 def changes_in_words(scene):
     """Parameters that change in the run, by the time."""
     found = {}
-    for at, values in scene.changes:
-        found.setdefault(f"{at:.9g} s", {}).update(values)
+    for at, changed in scene.changes:
+        found.setdefault(f"{at:.9g} s", {}).update(changed)
     return found
 
 

@@ -367,7 +367,13 @@ def names_of(result):
 
 
 CLEARANCES = {"cage.pocket_clearance", "cage.guide_clearance"}
-OF_4109 = {"oil.A", "oil.B", "oil.C", "oil.alpha", "oil.rho"}  # stay those of an aviation oil if only a viscosity is given
+OF_4109 = {
+    "oil.A",
+    "oil.B",
+    "oil.C",
+    "oil.alpha",
+    "oil.rho",
+}  # stay those of an aviation oil if only a viscosity is given
 
 
 def test_assumed_is_what_nobody_gave(model, warm):
@@ -404,7 +410,11 @@ def test_clearances_of_the_bearings_own_file_are_not_assumed(model):
     )
     ranges = set(assumed_ranges(given))
     assert ranges == OF_4109 - {"oil.alpha"} | {
-        "cage.guide_clearance", "joint.preload", "joint.fit", "oil.eta", "oil.rho_mix"
+        "cage.guide_clearance",
+        "joint.preload",
+        "joint.fit",
+        "oil.eta",
+        "oil.rho_mix",
     }
 
 

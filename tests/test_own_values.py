@@ -455,7 +455,9 @@ def parts_of(case):
     return SimpleNamespace(**{name[4:]: value for name, value in case.values.items() if name.startswith("oil.")})
 
 
-@pytest.mark.parametrize(("kind", "index", "in_table"), [("mineral", 95.0, "100"), ("PAO", 140.0, "68"), ("ester", 140.0, "68")])
+@pytest.mark.parametrize(
+    ("kind", "index", "in_table"), [("mineral", 95.0, "100"), ("PAO", 140.0, "68"), ("ester", 140.0, "68")]
+)
 def test_a_grade_is_its_viscosity_at_40_degrees(tmp_path, kind, index, in_table):
     """ISO 3448; all grades of a kind have one viscosity index, here by ASTM D2270 from 9 to 12 mm2/s at 100 degC."""
     for grade, nu_100 in oils.kinds()[kind]["grades"].items():
