@@ -215,8 +215,10 @@ def preload(case):
     thermal = of_fmu(case.model) if case.model else of_geometry(Geometry(**case.joint))
     if thermal is None:
         return
-    yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", origins(case, "joint.preload")
-    if abs(T - thermal.T_0) > 1e-6:
+    warm, origin = abs(T - thermal.T_0) > 1e-6, origins(case, "joint.preload")
+    reason = origin if warm else ", ".join(filter(None, (origin, "the cage has this temperature")))
+    yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", reason
+    if warm:
         hot = f"{'' if case.model else 'some '}{thermal.at(given, T):.3g}"
         yield f"preload with the cage at {T - ZERO:.4g} degC", hot, "N", thermal.reason
 
