@@ -135,10 +135,14 @@ def named(where, written, given, start):
     entry = SimpleNamespace(
         **{key: value[0] if isinstance(value, list) else value for key, value in kinds()[kind].items()}
     )
-    found = density_of(entry, values["oil.T_0"])
-    points = points_of(where, written, kind, grade, given, values | found | given)
-    values |= points | found | given
-    found |= points | pressure_of(entry, values) | traction_of(entry)
+    found = traction_of(entry) | density_of(entry, values["oil.T_0"])
+    try:
+        found |= points_of(where, written, kind, grade, given, values | found | given)
+        found |= pressure_of(entry, values | found | given)
+    except UserError:
+        raise
+    except ValueError as problem:  # of Oil
+        raise UserError(f"{where}: oil.nu_1, oil.nu_2: {problem}") from None
     return name, {key: float(f"{value:.6g}") for key, value in found.items() if key not in given}
 
 

@@ -520,6 +520,7 @@ def test_a_kind_with_one_viscosity_has_the_slope_of_its_grades(tmp_path):
         ('oil = "mineral 32"', 'oil.nu_1 = "50 mm2/s"', ["50 mm2/s at 40 degC", "leave the grade"]),
         ('oil = "aviation"', 'oil.nu_1 = "30 mm2/s"', ["oil.nu_2", "one point is no oil"]),
         ('oil = "PAO"', 'oil.eta = "1 mPa.s"', ["oil.eta", "those of PAO oils"]),
+        ('oil = "mineral"', "oil.nu_1 = 5e-6\noil.nu_2 = 32e-6", ["oil.nu_1, oil.nu_2", "fall with temperature"]),
         ("", 'oil = "mineral 32"', ["above all sections"]),
     ],
 )
