@@ -395,6 +395,12 @@ def test_assumed_is_what_nobody_gave(model, warm):
 def test_a_named_oil_is_not_assumed(model, tmp_path):
     path = tmp_path / "pao.toml"
     path.write_text('oil = "PAO 68"\n')
+    done = CliRunner().invoke(
+        program, ["run", "--set", "oil=PAO 68", "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
+    )
+    assert done.exit_code == 0 and "PAO ISO VG 68, " in done.output
+    refused = CliRunner().invoke(program, ["run", "--set", "oil=PAOO 68", "--t-end", "1 ms"])
+    assert refused.exit_code and 'did you mean "PAO"' in refused.output
     found = run(path, t_end=2e-4)
     assert names_of(found) == CLEARANCES | {"oil.rho_mix", "oil.sigma_race", "oil.T", "cage.T"}
     assert found.about["basis"]["oil"].startswith("PAO ISO VG 68, ")
