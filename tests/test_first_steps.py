@@ -9,15 +9,19 @@ import tomllib
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from bearing_model.generated.variables import ESSENTIALS
+from rivet_model.half_modes import default_count
 from riveted_bearing import __version__, run
 from riveted_bearing.cli import program
 from riveted_bearing.cli.terminal import FULL
 from riveted_bearing.fmu import Model
+from riveted_bearing.results import Result
 from riveted_bearing.scene import load_scene
+from riveted_bearing.summary import settle_note
 from riveted_bearing.variable_list import essentials, matching
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -217,3 +221,20 @@ def test_the_check_on_a_bare_machine_ends_when_it_is_told_to(tmp_path):
         told.kill()
     time.sleep(4.5)
     assert not (tmp_path / "survived").exists() and not list((tmp_path / "left").iterdir())
+
+
+@pytest.mark.parametrize(("turns", "told"), [(9.0, True), (9.97, False), (10.0 - 1e-12, False)])
+def test_ten_revolutions_are_ten(turns, told):
+    """What rounds to the number that the note asks for is not told to reach it."""
+    parameters = {"start.settle": 0.05}
+    late = Result(
+        {"time": np.array([0.0, 1.0])}, {}, parameters, about={"settle_turns": turns, "count_turns": 2 * turns}
+    )
+    assert ("leaves out 10 revolutions" in settle_note(late)) == told
+
+
+def test_help_says_what_the_program_does():
+    """Five modes a ball; two numbers behind --band."""
+    modes = CliRunner().invoke(program, ["build", "--help"], env={"COLUMNS": "200"}, terminal_width=200).output
+    assert default_count(8) == default_count(9) == 40 and "about 5 a ball, 40 for 8 or 9" in " ".join(modes.split())
+    assert "LOW HIGH" in CliRunner().invoke(program, ["spectrum", "--help"], terminal_width=200).output
