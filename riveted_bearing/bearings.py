@@ -3,7 +3,7 @@ simulation.
 
     designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8
-    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
+    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0, C_u, minimum_load [N]
     [parameters]          # start values of the FMU made from this file
     bearing.D = "19.05 mm"
     [cage]                # optional, like [rings], [balls] and [rivet]: material by name or as a table, single properties (materials.py)
@@ -28,7 +28,7 @@ from pathlib import Path
 import numpy as np
 
 from bearing_model.generated import variables
-from bearing_model.load_ratings import dynamic_rating, static_rating
+from bearing_model.load_ratings import dynamic_rating, reference_viscosity, static_rating
 from bearing_model.physics.derived import ball_elasticity, default_table
 from bearing_model.physics.parameters import Values
 from bearing_model.physics.ring_fit import ring_fit_of
@@ -48,6 +48,7 @@ LARGEST_RIVET = 1.0  # m
 KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
 BOUNDARY = ("bore", "outside_diameter", "width")
 CATALOGUE = (*BOUNDARY, "C", "C_0")
+OF_MAKERS = ("C_u", "minimum_load")  # further forces of a catalogue, by rule where they are missing
 # a bearing's own
 CAGE_SIZES = (
     "Z",
@@ -89,7 +90,8 @@ class Case:
     rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the
     Material of each part, of a bearing file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
-    shape, from which nothing follows.
+    shape, from which nothing follows; oil: start values oil.* of its FMU, empty for those of the variable table;
+    cleanliness: of the oil, as of raceways.cleanliness_of, None if nobody gave one.
     """
 
     designation: str
@@ -102,6 +104,8 @@ class Case:
     materials: dict = field(default_factory=dict)
     bare: bool = False
     alone: tuple = ()
+    oil: dict = field(default_factory=dict)
+    cleanliness: object = None
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -157,6 +161,20 @@ class Case:
         return Load(**given, k_tilt=self.values["ring.k_tilt"] if mode == "supported" else 0.0)
 
     @property
+    def viscosity(self):
+        """Viscosity of the oil at its temperature [Pa.s]; ValueError if its two points make no oil."""
+        start = self.oil or {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
+        return oil.viscosity({name: self.value(name) for name in start}, start, self.value("oil.T"))
+
+    @property
+    def kappa(self):
+        """Viscosity ratio nu/nu_1 of ISO 281, nan at rest."""
+        omega = self.load.omega - self.load.omega_e
+        if not omega:
+            return math.nan
+        return self.viscosity / self.value("oil.rho") / reference_viscosity(omega, self.values["bearing.d_m"])
+
+    @property
     def joint(self):
         """Dimensions of rivet and cage for rivet_model.geometry.Geometry."""
         v = self.values
@@ -179,10 +197,11 @@ class Case:
         return self.solved(self.load, "exact")
 
     def standard_equilibrium(self):
-        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if
-        there is none.
+        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces at its speeds;
+        UserError if there is none.
         """
-        return self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
+        at_rest = self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
+        return replace(at_rest, load=self.load)
 
     def solved(self, load, kinematics):
         """The QuasiStatic under a load; UserError if there is none."""
@@ -620,7 +639,7 @@ def unit_of(name):
     group, _, key = name.partition(".")
     if group == "rivet":
         return rivet_unit(key)
-    return "N" if key in ("C", "C_0") else "m"
+    return "m" if key in BOUNDARY else "N"
 
 
 def rivet_unit(key):
@@ -662,10 +681,10 @@ def clearance_class(path, name, given, data, entry):
 def catalogue_values(path, section):
     """Keys and SI values of the catalogue's data, each checked."""
     for key, value in section.items():
-        if key not in CATALOGUE:
-            raise unknown(path, "catalogue key", key, (*CATALOGUE, "clearance"))
+        if key not in (*CATALOGUE, *OF_MAKERS):
+            raise unknown(path, "catalogue key", key, (*CATALOGUE, *OF_MAKERS, "clearance"))
         try:
-            yield key, positive(value, unit_scales("N" if key in ("C", "C_0") else "m"))
+            yield key, positive(value, unit_scales("m" if key in BOUNDARY else "N"))
         except UserError as problem:
             raise refusal(path, f"catalogue.{key}", value, problem) from None
 
@@ -777,9 +796,9 @@ def scene_case(source, model):
     data = model.catalogue or (known[0].catalogue if known else entry.data if entry else {})
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
-    return Case(
-        name, scene.description, Z, values, data, rivet=None, origin={} if scene.source else model.origin, alone=alone
-    )
+    own_oil = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
+    origin = {} if scene.source else model.origin
+    return Case(name, scene.description, Z, values, data, rivet=None, origin=origin, alone=alone, oil=own_oil)
 
 
 def flat(tree, prefix=""):

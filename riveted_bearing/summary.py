@@ -171,6 +171,15 @@ def life_is_known(result):
     return result.summary.get("rivet.table_kind", 0) != 3
 
 
+def static_and_swing(values, place):
+    """Stress of the rivets' heads ("head") or middles ("mid") in two parts: the largest mean of a rivet, and the largest
+    distance of a 99.9 % quantile from its own mean; values: stat.* by name.  Fatigue follows the second one.
+    """
+    kinds = (f"stat.rivet_{place}_{kind}[" for kind in ("mean", "p999"))
+    mean, p999 = (np.array([values[name] for name in values if name.startswith(kind)], float) for kind in kinds)
+    return mean.max(axis=0), (p999 - mean).max(axis=0)
+
+
 def rivet_rows(result):
     """Head and middle stress [MPa] of each rivet over every internal step, as (k, Row of the head, Row of the middle)."""
     count = sum(name.startswith("stat.rivet_head_mean[") for name in result.summary)

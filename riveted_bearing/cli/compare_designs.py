@@ -54,8 +54,9 @@ def compare_designs(
 
 def print_comparison(found, hours_text):
     """Lives, ratios and what differs."""
-    from ..duty.designs import ends_of, ratio_text, verdict
+    from ..duty.designs import ends_of, parts_text, ratio_text, verdict
     from ..duty.page import interval_text
+    from ..raceways import card
 
     table = Table(
         "design",
@@ -63,6 +64,8 @@ def print_comparison(found, hours_text):
         Column(f"{100 * found.confidence:g} % interval", justify="right"),
         "fails first",
         Column("life/first", justify="right"),
+        "its static + swing [MPa]",
+        Column("raceways, L_10mr", justify="right"),
         "",
         box=None,
         pad_edge=False,
@@ -74,6 +77,8 @@ def print_comparison(found, hours_text):
             interval_text(*ends_of(outcome)),
             outcome.place,
             ratio_text(outcome.life),
+            parts_text(outcome),
+            card(outcome.raceways)[0],
             verdict(outcome),
         )
     console.print(table)

@@ -13,6 +13,8 @@ from bearing_model.generated.variables import INPUTS
 
 from ..errors import UserError
 from ..life import fatigue_law, fatigue_law_at
+from ..raceways import finite
+from ..raceways import record as raceway_record
 from ..results import write_atomically
 from ..sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
 from .confidence import Estimate, until_sure
@@ -334,6 +336,7 @@ def record(life):
         "low_h": finite(life.low),
         "high_h": finite(found.high),
         "confidence": mission.settings["confidence"],
+        "raceways": raceway_record(mission.raceways()),
         "points": [
             {
                 "share": float(share.get(i, 0.0)),
@@ -345,11 +348,6 @@ def record(life):
         ],
         "rivets": [{"head_per_h": float(head), "middle_per_h": float(middle)} for head, middle in rivets],
     }
-
-
-def finite(hours):
-    """A number of hours, None for infinity."""
-    return float(hours) if math.isfinite(hours) else None
 
 
 def check_folder(folder, mission, remedy):

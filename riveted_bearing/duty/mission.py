@@ -45,12 +45,15 @@ max_seeds = 32
 seed = 1                             # first start.seed, common to all points
 skip = 0.01                          # share of the damage that rare points may have and yet be left out by a bound; 0: none left out
 rivets = "each"                      # or "alike": every rivet takes every place in turn, so that rates are means over the rivets
+cleanliness = "normal"               # of the oil, for the raceways' life: see ../raceways.py; default: normal, assumed
 [sn]                                 # see sn.py; default: the FMU's law and its own count
 [tolerance]                          # see tolerances.py
 """
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +63,7 @@ from ..basis import basis, loads, speeds
 from ..errors import UserError, unknown
 from ..file_kinds import check_keys
 from ..life import fatigue_law
+from ..raceways import Raceways, cleanliness_of, of_parts, slip_warning
 from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
 from ..sweep import beside, count_of, key_of
 from ..tables import Wanted, read
@@ -99,6 +103,7 @@ LIFE = {
     "seed": 1,
     "skip": 0.01,
     "rivets": "each",
+    "cleanliness": None,
 }
 HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
@@ -142,7 +147,7 @@ class Case:
 class Mission:
     """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
     whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file;
-    slow: sentences on points at which the shaft turns too few times.
+    slow: sentences on points at which the shaft turns too few times; raceways(): the Raceways.
     """
 
     name: str
@@ -159,11 +164,13 @@ class Mission:
     fmu: str = ""
     fmu_sha256: str = ""
     slow: tuple = ()
+    raceways: Callable = field(default=Raceways, repr=False, compare=False)
 
     @property
     def warnings(self):
         """What the user has to know of the parts before the runs: sentences."""
-        return (*(text for part in self.parts for text in part.warnings), *self.slow)
+        of_parts = (text for part in self.parts for text in part.warnings)
+        return (*of_parts, *self.slow, *slip_warning(self.raceways()))
 
 
 def load_mission(path, model):
@@ -204,6 +211,7 @@ def plan_mission(name, document, model, path):
         str(model.path.resolve()),
         model.digest,
         tuple(slow_warnings(parts, model)),
+        cache(lambda: of_parts(model, parts, settings["cleanliness"])),
     )
 
 
@@ -252,6 +260,11 @@ def life_settings(path, section):
         raise refusal(path, "life.min_seeds", settings["min_seeds"], f"{bounds} is allowed")
     if settings["rivets"] not in RIVETS:
         raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
+    if (written := settings["cleanliness"]) is not None:
+        try:
+            settings["cleanliness"] = cleanliness_of(written)
+        except UserError as problem:
+            raise refusal(path, "life.cleanliness", written, problem) from None
     return settings
 
 

@@ -11,7 +11,8 @@ from ..errors import UserError
 from ..results import make_folder, write_atomically
 from ..scene import leaves, section_of
 from ..units import hours_text
-from .assess import Life, finite, write_record
+from ..raceways import finite
+from .assess import Life, write_record
 from .mission import changed_points, plan_mission, tables
 from .page import ends_of, interval_text
 

@@ -9,6 +9,7 @@ from scipy.stats import t as student
 from .. import charts
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
+from ..raceways import card
 from ..report import figure
 from ..results import write_atomically
 from ..summary import RPM
@@ -47,8 +48,9 @@ def share_text(share):
 def cards(life):
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
-    yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
+    yield "Life of the rivets", hours_text(found.life), f"{life.place} · Miner's sum 1"
     yield f"{100 * settings['confidence']:g} % interval", interval_text(*ends_of(life)), width_text(life)
+    yield "Life of the raceways", *card(life.mission.raceways())
     yield "Mission", *mission_text(life)
     yield (
         "Runs",
