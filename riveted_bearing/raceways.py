@@ -102,7 +102,7 @@ def cleanliness_of(value):
     from bearing_model.load_ratings import CLEANLINESS
 
     try:
-        value = float(value)
+        value = float(value) if not isinstance(value, bool) else math.nan
     except (TypeError, ValueError):
         pass
     else:

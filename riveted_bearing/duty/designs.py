@@ -28,7 +28,7 @@ from ..results import write_atomically
 from ..scene import in_words, leaves, read_toml, section_of
 from ..summary import static_and_swing
 from ..sweep import columns_of
-from ..units import hours_text
+from ..units import LONGEST, hours_text
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission, tables
@@ -385,7 +385,12 @@ def verdict(outcome):
         return "the same"
     if not ratio.differs:
         return "no difference that the runs show"
-    return ("lives longer" if ratio.ratio > 1.0 else "lives shorter") + against_stress(outcome)
+    both = (
+        f", both {hours_text(outcome.estimate.life)}"
+        if min(outcome.estimate.life, outcome.estimate.life / ratio.ratio) > LONGEST
+        else ""
+    )
+    return ("lives longer" if ratio.ratio > 1.0 else "lives shorter") + both + against_stress(outcome)
 
 
 def record(found):
@@ -435,13 +440,25 @@ def write_record(found, folder):
 
 
 def life_chart(fig, found):
-    """Life of each design with its interval."""
+    """Life of each design with its interval; in words beyond LONGEST."""
     ax = fig.subplots()
+    told = [outcome for outcome in found.outcomes if outcome.estimate.life <= LONGEST]
     for k, outcome in enumerate(found.outcomes):
-        if math.isfinite(life := outcome.estimate.life):
-            ax.plot(shown_ends(outcome), [k, k], color=COLOURS[k % len(COLOURS)], lw=3, solid_capstyle="butt")
-            ax.plot(life, k, "o", color=COLOURS[k % len(COLOURS)], ms=7)
-    ends = [x for outcome in found.outcomes for x in shown_ends(outcome) if math.isfinite(x)]
+        colour = COLOURS[k % len(COLOURS)]
+        if outcome in told:
+            ax.plot(shown_ends(outcome), [k, k], color=colour, lw=3, solid_capstyle="butt")
+            ax.plot(outcome.estimate.life, k, "o", color=colour, ms=7)
+        else:
+            ax.text(
+                0.98,
+                k,
+                f"{hours_text(outcome.estimate.life)} →",
+                transform=ax.get_yaxis_transform(),
+                ha="right",
+                va="center",
+                color=colour,
+            )
+    ends = [x for outcome in told for x in shown_ends(outcome) if math.isfinite(x)]
     ax.set_xscale("log")
     if ends and max(ends) < 10.0 * min(ends):
         ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])

@@ -99,7 +99,9 @@ def open_text(ends):
 
 
 def width_text(life):
-    """How wide the interval is, or which of its ends are open and what closes them."""
+    """How wide the interval is, or which of its ends are open and what closes them; nothing of one beyond LONGEST."""
+    if life.low > LONGEST:
+        return "longer than a life can be told"
     if ends := open_ends(*ends_of(life)):
         return open_text(ends)
     return f"half-width {percent(life.estimate.half_width)} of life"
@@ -150,8 +152,9 @@ def rate_at_place(life, i):
 def life_chart(fig, life):
     """How likely each life is by the scatter of the runs, the interval shaded."""
     ax, found = fig.subplots(), life.estimate
-    if not math.isfinite(found.life):
-        ax.text(0.5, 0.5, "no damage", ha="center", transform=ax.transAxes)
+    if found.life > LONGEST:
+        ax.text(0.5, 0.5, endless_text(found.life), ha="center", transform=ax.transAxes)
+        ax.set(xticks=[], yticks=[])
         return
     beyond = min(max(BEYOND * found.half_width, math.log(found.life / life.low)), BEYOND * math.log(OPEN)) or 0.1
     hours, likely = life_density(found, beyond)
@@ -167,6 +170,13 @@ def life_chart(fig, life):
         ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
         ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def endless_text(life):
+    """Why there is no scatter to draw of a life beyond LONGEST [h]."""
+    if not math.isfinite(life):
+        return "no damage"
+    return f"{hours_text(life)}: the S–N curve is not known\nfor so many cycles, so that its scatter says nothing"
 
 
 def life_density(found, beyond):

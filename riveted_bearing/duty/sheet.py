@@ -30,7 +30,8 @@ from ..in_run import alone_note, change_lines
 from ..life import CHANNELS, cycle_damages, fatigue_law_at
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
-from ..raceways import Raceways, life_text, of_result as raceways_of
+from ..raceways import Raceways, life_text
+from ..raceways import of_result as raceways_of
 from ..report import curve, figure
 from ..runner import simulate
 from ..summary import (
