@@ -782,7 +782,11 @@ def scene_case(source, model):
 
     An FMU holds no dimensions of its rivets.
     """
-    scene = load_scene(source, model)
+    return case_at(load_scene(source, model), model)
+
+
+def case_at(scene, model):
+    """The Case of a Scene at its start."""
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
     Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)

@@ -17,6 +17,7 @@ from .interrupts import held_interrupts
 from .origin import not_given
 from .record import Record
 from .results import Result
+from .scene import own_names
 from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
@@ -184,6 +185,7 @@ def provenance(model, scene, end):
         },
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
+        "set": own_names(scene, model),
         "ruled": sorted(ruled_names(model)),
         "rivet": model.rivet,
         "not_given": not_given(

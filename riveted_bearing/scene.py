@@ -47,6 +47,7 @@ COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 DEEPEST = 50  # tables or lists in each other
 MOST_STEPS = 1e12
+ALWAYS = {"scene.statistics": "on"}  # unless a scene sets it
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
@@ -109,7 +110,7 @@ def load_scene(source, model, *changes):
     scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
-    start = Scene(parameters={"scene.statistics": "on"})
+    start = Scene(parameters=ALWAYS)
     if source is None:
         settle = model.default(model.parameters["start.settle"])
         start = replace(start, t_end=max(start.t_end, 2.0 * settle))
@@ -135,6 +136,14 @@ def working_point(model):
         f"{name.removeprefix('shaft.')} {in_words(model, name)}" for name in ("shaft.F_y", "shaft.F_x", "shaft.omega")
     ]
     return f"own working point of {model.path.name}, {', '.join(shown)}"
+
+
+def own_names(scene, model):
+    """Names of the parameters and inputs that a scene sets otherwise than its FMU, without `start` of load_scene."""
+    found = [
+        n for n, value in scene.parameters.items() if value != model.default(model.parameters[n]) and n not in ALWAYS
+    ]
+    return found + [n for n, history in scene.inputs.items() if np.any(history.value != model.default(model.inputs[n]))]
 
 
 def in_words(model, name, value=None, symbol=None):

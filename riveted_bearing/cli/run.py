@@ -49,6 +49,7 @@ def run(
         with simulation_progress(plan) as progress:
             result = simulate(model, plan, progress)
         print_summary(result)
+        print_without_effect(model, plan, result)
         paths = [write_result(result, target)]
         if plot and is_there("matplotlib", "the picture"):
             from ..plot import plot_result
@@ -70,6 +71,18 @@ def run(
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
+
+
+def print_without_effect(model, scene, result):
+    """What the scene sets without effect; of a run that was interrupted nothing."""
+    from ..effects import all_figures, in_words, without_effect
+
+    if result.stopped and result.stopped.startswith("interrupted"):
+        return
+    cost = result.summary["wall_time"]
+    idle, until = without_effect(model, scene, result.about["set"], whole=all_figures(result), cost=cost)
+    if idle:
+        console.print(escape(in_words(idle, until)), soft_wrap=True)
 
 
 def is_there(library, what):

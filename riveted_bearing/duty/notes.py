@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from .. import raceways
+from ..effects import in_words
 from ..units import hours_text
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
@@ -92,6 +93,8 @@ def notes(life, runs, scatter=None):
             f"{WIDE:g} times that at the mean values. Compare with twice the bins."
         )
     sentences += raceways.sentences(mission.raceways())
+    if idle := mission.idle():
+        sentences.append(f"{in_words(idle)}.")
     if "sn" in mission.document:
         sentences.append(
             f"Damage by the S-N curve of [sn] from rainflow matrices of the communication points; with the FMU's own law these matrices find "

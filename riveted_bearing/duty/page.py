@@ -100,7 +100,7 @@ def open_text(ends):
 
 def width_text(life):
     """How wide the interval is, or which of its ends are open and what closes them; nothing of one beyond LONGEST."""
-    if life.low > LONGEST:
+    if min(life.low, life.estimate.life) > LONGEST:
         return "longer than a life can be told"
     if ends := open_ends(*ends_of(life)):
         return open_text(ends)
