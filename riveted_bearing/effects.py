@@ -10,6 +10,7 @@ import numpy as np
 
 from .errors import UserError
 from .runner import simulate
+from .scene import ALWAYS
 
 FIRST = 5  # communication steps
 COUNTED = 0.01  # s after start.settle
@@ -25,9 +26,10 @@ def all_figures(result):
 
 def without(scene, name):
     """The Scene without one of its parameters or inputs."""
+    always = {n: value for n, value in ALWAYS.items() if n == name}
     return replace(
         scene,
-        parameters={n: value for n, value in scene.parameters.items() if n != name},
+        parameters={n: value for n, value in scene.parameters.items() if n != name} | always,
         inputs={n: history for n, history in scene.inputs.items() if n != name},
     )
 

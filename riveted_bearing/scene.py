@@ -139,10 +139,9 @@ def working_point(model):
 
 
 def own_names(scene, model):
-    """Names of the parameters and inputs that a scene sets otherwise than its FMU, without `start` of load_scene."""
-    found = [
-        n for n, value in scene.parameters.items() if value != model.default(model.parameters[n]) and n not in ALWAYS
-    ]
+    """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene."""
+    own = {name: model.default(model.parameters[name]) for name in scene.parameters} | ALWAYS
+    found = [name for name, value in scene.parameters.items() if value != own[name]]
     return found + [n for n, history in scene.inputs.items() if np.any(history.value != model.default(model.inputs[n]))]
 
 
