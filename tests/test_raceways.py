@@ -307,7 +307,7 @@ def test_designs_tell_static_stress_from_swing(life, static, swing, words):
     text = designs.verdict(outcome)
     assert text.startswith("lives longer" if life > 1.0 else "lives shorter")
     assert (words in text) if words else "static" not in text
-    assert designs.parts_text(outcome) == f"200 ({static:g}) + 50 ({swing:g})"
+    assert designs.parts_text(outcome) == f"200 ({static:g}) + 50 ({swing:g}) MPa"
 
 
 def test_a_life_beyond_telling_has_no_bell():

@@ -141,7 +141,8 @@ def test_life(model, name, tmp_path):
         pytest.skip("refused in a mission")
     outputs = outputs_of(model)
     scene, _ = scenes(model, name)
-    document = SHORT | {"parameters": {n: v for n, v in scene.parameters.items() if n not in FORCED}}
+    parameters = {n: v for n, v in scene.parameters.items() if n not in FORCED}
+    document = {"simulation": {"t_end": scene.t_end}, "parameters": parameters}
     document["inputs"] = {n: float(history(0.0)) for n, history in scene.inputs.items()}
     mission = plan_mission("walk", document | {"point": [{"hours": 1}]}, model, tmp_path / "walk.toml")
 

@@ -52,11 +52,22 @@ def compare_designs(
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
+def other_figures(found):
+    """Static stress and swing where the first rivet fails, and the raceways' life, design by design."""
+    from ..duty.designs import parts_text
+    from ..raceways import card
+
+    heads = "where it fails: static + swing", "raceways"
+    table = Table("design", *(Column(head, justify="right") for head in heads), "", box=None, pad_edge=False)
+    for outcome in found.outcomes:
+        table.add_row(escape(outcome.design.name), parts_text(outcome), *map(escape, card(outcome.raceways)))
+    return table
+
+
 def print_comparison(found, hours_text):
     """Lives, ratios and what differs."""
-    from ..duty.designs import ends_of, parts_text, ratio_text, verdict
+    from ..duty.designs import ends_of, ratio_text, verdict
     from ..duty.page import interval_text
-    from ..raceways import card
 
     table = Table(
         "design",
@@ -64,8 +75,6 @@ def print_comparison(found, hours_text):
         Column(f"{100 * found.confidence:g} % interval", justify="right"),
         "fails first",
         Column("life/first", justify="right"),
-        "its static + swing [MPa]",
-        Column("raceways, L_10mr", justify="right"),
         "",
         box=None,
         pad_edge=False,
@@ -77,11 +86,10 @@ def print_comparison(found, hours_text):
             interval_text(*ends_of(outcome)),
             outcome.place,
             ratio_text(outcome.life),
-            parts_text(outcome),
-            card(outcome.raceways)[0],
             verdict(outcome),
         )
     console.print(table)
+    console.print(other_figures(found))
     differ = Table("differs", *(escape(outcome.design.name) for outcome in found.outcomes), box=None, pad_edge=False)
     for name, texts in found.differences[:MOST_DIFFERENCES]:
         differ.add_row(escape(name), *map(escape, texts))

@@ -22,7 +22,7 @@ from ..errors import UserError, refusal, unknown
 from ..fmu import Model
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING
-from ..raceways import Raceways, finite, life_text
+from ..raceways import Raceways, card, finite
 from ..raceways import record as raceway_record
 from ..results import write_atomically
 from ..scene import in_words, leaves, read_toml, section_of
@@ -221,12 +221,16 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
 
 
 def warnings_of(all_runs, outcomes):
-    """Sentences on the designs' events, matrices and intervals of life."""
+    """Sentences on the designs' events, matrices and intervals of life, of several designs once."""
+    found = {}
     for runs, outcome in zip(all_runs, outcomes, strict=True):
         texts = [*runs.mission.warnings, *matrix_warnings(runs)]
         if ends := open_ends(*ends_of(outcome)):
             texts.append(f"the interval of life is {open_text(ends)}")
-        yield from (f"{outcome.design.name}: {text}" for text in texts)
+        for text in texts:
+            found.setdefault(text, []).append(outcome.design.name)
+    for text, names in found.items():
+        yield f"{'all designs' if len(names) == len(outcomes) else '; '.join(names)}: {text}"
 
 
 def rested_on(missions):
@@ -362,7 +366,7 @@ def parts_text(outcome):
     texts = (
         f"{1e-6 * mean:.3g}" + (f" ({ratio.ratio:.2g})" if ratio else "") for mean, ratio in parts_of_stress(outcome)
     )
-    return " + ".join(texts)
+    return f"{' + '.join(texts)} MPa"
 
 
 def against_stress(outcome):
@@ -508,7 +512,7 @@ def write_page(found, path):
         found=found,
         responses=RESPONSES,
         hours_text=hours_text,
-        raceway_text=life_text,
+        raceway_card=card,
         interval_text=lambda outcome: interval_text(*ends_of(outcome)),
         ratio_text=ratio_text,
         verdict=verdict,
