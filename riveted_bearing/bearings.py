@@ -36,7 +36,7 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling
+from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling, seats
 from .errors import UserError, is_file, unknown
 from .file_kinds import OF_BEARINGS, check_keys
 from .origin import EXAMPLE, SOURCE
@@ -369,9 +369,8 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     play = numbers.pop("clearance", None)
     data = dict(catalogue_values(path, numbers))
     check_boundary(path, document, data, entry)
-    given = dict(
-        start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), variables.PARAMETERS)
-    )
+    tree = with_seats(path, plain_names(section_of(path, document, "parameters")), data, entry)
+    given = dict(start_values(path, "parameters", tree, variables.PARAMETERS))
     if play is not None:
         given |= clearance_class(path, play, given, data, entry)
     if entry is None and own != "shipped":
@@ -676,6 +675,24 @@ def clearance_class(path, name, given, data, entry):
         limit = f"the classes are of bores up to {catalogue.UP_TO[-1]} mm; give bearing.P_d"
         raise refusal(path, "catalogue.clearance", name, limit)
     return {"bearing.P_d": P_d}
+
+
+def with_seats(path, tree, data, entry):
+    """Parameters of a bearing file with the seats that it gives by tolerance classes as numbers [m]."""
+    found = dict(tree)
+    for name, value in flat(tree):
+        if not seats.is_class(name, value):
+            continue
+        which, (group, _, key) = seats.SEATS[name][0], name.partition(".")
+        size = data.get(which, getattr(entry, which, None))
+        if size is None:
+            raise refusal(path, f"parameters.{name}", value, f"it needs catalogue.{which}")
+        try:
+            own = {key: seats.interference(name, value, size)}
+        except UserError as problem:
+            raise refusal(path, f"parameters.{name}", value, problem) from None
+        found = {n: v for n, v in found.items() if n != name} | {group: found.get(group, {}) | own}
+    return found
 
 
 def catalogue_values(path, section):

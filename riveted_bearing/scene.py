@@ -32,7 +32,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import tables
+from . import seats, tables
 from .errors import UserError, is_file, refusal, shortlist, unknown
 from .file_kinds import check_keys
 from .oil import check_given, merged
@@ -343,6 +343,8 @@ def leaves(tree, names, prefix=""):
 
 def parameter_value(value, variable, model):
     """A parameter's value checked; UserError for another material than that of the FMU's cage."""
+    if seats.is_class(variable.name, value):
+        return seats.interference(variable.name, value, seat_of(model, seats.SEATS[variable.name][0]))
     found, own = model.parameter_value(value, variable), model.default(variable)
     if variable.name == "cage.material" and found != own:
         raise UserError(
@@ -350,6 +352,13 @@ def parameter_value(value, variable, model):
             f"for {found} build an FMU from a bearing file with [cage] material"
         )
     return found
+
+
+def seat_of(model, which):
+    """Bore or outside diameter of an FMU's bearing [m], by the rule of ring.bore and ring.outside where nothing has it."""
+    given = model.default(model.parameters["ring.bore" if which == "bore" else "ring.outside"])
+    d_m, D = (model.default(model.parameters[f"bearing.{name}"]) for name in ("d_m", "D"))
+    return model.catalogue.get(which) or given or d_m + (-1.0 if which == "bore" else 1.0) * D / 0.6
 
 
 SURFACE = ("file", "angle", "angle_unit", "height", "unit")
