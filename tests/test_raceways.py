@@ -26,7 +26,7 @@ from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.fmu import Model
 from riveted_bearing.runner import simulate, turns
 from riveted_bearing.scene import History, load_scene
-from riveted_bearing.summary import speed_note, static_and_swing
+from riveted_bearing.summary import count_note, settle_note, speed_note, static_and_swing
 
 TURN = 2.0 * math.pi
 
@@ -340,3 +340,14 @@ def test_revolutions_end_with_the_run(model):
         0.5 * top / 0.3 * end**2 / TURN, rel=1e-9
     )
     assert speed_note(result) == ""
+
+
+@pytest.mark.parametrize(("turns", "told"), [(10.0 * (1.0 - 1e-12), False), (9.99, True), (0.0, False)])
+def test_ten_revolutions_are_ten(turns, told):
+    """12,000 rev/min over 0.05 s are 10 revolutions less a few last digits."""
+    result = SimpleNamespace(
+        about={"settle_turns": turns, "count_turns": turns},
+        parameters={"start.settle": 0.05},
+        data={"time": [0.0, 0.1]},
+    )
+    assert bool(settle_note(result)) == bool(count_note(result)) == told
