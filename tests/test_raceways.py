@@ -21,6 +21,7 @@ from bearing_model.load_ratings import (
 from riveted_bearing import UserError, raceways
 from riveted_bearing.bearings import bearing_case
 from riveted_bearing.cli import program
+from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, page, sheet
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.fmu import Model
@@ -308,6 +309,13 @@ def test_designs_tell_static_stress_from_swing(life, static, swing, words):
     assert text.startswith("lives longer" if life > 1.0 else "lives shorter")
     assert (words in text) if words else "static" not in text
     assert designs.parts_text(outcome) == f"200 ({static:g}) + 50 ({swing:g}) MPa"
+
+
+@pytest.mark.parametrize(
+    ("now", "apart"), [((2e8, 4e7), True), ((1.03e8, 4e7), False), ((2e8, 6e7), False), ((9e7, 6e7), True)]
+)
+def test_an_optimum_tells_static_stress_from_swing(now, apart):
+    assert go_apart(np.array([1e8, 5e7]), np.array(now)) == apart
 
 
 def test_a_life_beyond_telling_has_no_bell():

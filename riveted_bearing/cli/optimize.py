@@ -85,13 +85,14 @@ def print_optimum(found, present, parts=None):
     from ..design.optimize import criterion
 
     study = found.study
-    heads = map(titled, (*study.box.names, *study.responses, *(PARTS if parts is not None else ())))
+    missing = [] if parts is None else [name for name in PARTS if name not in study.responses]
+    heads = map(titled, (*study.box.names, *study.responses, *missing))
     table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
     rows = [("", found.points[i], *of) for i, *of in zip(found.candidates, found.means, found.errors, strict=True)]
     for place, row in enumerate([*rows, ("present design", present, *found.present)]):
         best = place == found.best
         title, *rest = row
-        stress = [] if parts is None else map("{:.4g}".format, 1e-6 * parts[place])
+        stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.4g}" for name in missing]
         table.add_row("recommended" if best else title, *cells(study, *rest), *stress, style="bold" if best else None)
     console.print(table)
     text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
@@ -100,12 +101,20 @@ def print_optimum(found, present, parts=None):
     )
     if found.best is not None:
         console.print(f"recommended: {escape(criterion(study))}", soft_wrap=True)
-    if found.best is not None and parts is not None and np.prod(parts[found.best] - parts[-1]) < 0.0:
+    if found.best is not None and parts is not None and go_apart(parts[-1], parts[found.best]):
         was, now = ([shown(name, value) for name, value in zip(PARTS, row)] for row in (parts[-1], parts[found.best]))
         changes = ", ".join(f"{name} {a} to {b}" for name, a, b in zip(PARTS, was, now))
         console.print(
             f"[yellow]note:[/] static stress and swing go apart ({changes}): damage follows the swing", soft_wrap=True
         )
+
+
+def go_apart(was, now):
+    """Whether static stress and swing (arrays) change in opposite directions, the first one by more than APART."""
+    from ..duty.designs import APART
+
+    static, swing = np.log(now / was)
+    return static * swing < 0.0 and abs(static) > np.log(APART)
 
 
 def cells(study, point, mean, error):
