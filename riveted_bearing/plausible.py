@@ -40,12 +40,17 @@ def doubts(case):
             given, usual = case.catalogue[name], share * case.catalogue["C"]
             if abs(math.log(given / usual)) > math.log(apart):
                 yield f"{name} = {given:.4g} N: bearings of this C have some {usual:.3g} N"
+    yield from odd_materials(values, case.materials)
+    yield from fast(abs(values["shaft.omega"] - values.get("housing.omega", 0.0)), values["bearing.d_m"])
+
+
+def odd_materials(values, materials=()):
+    """Sentences on properties of materials by a bearing file's Material of each part, else by parameters."""
     for part, where in PARTS.items():
-        material = case.materials.get(part)
+        material = dict(materials).get(part)
         own = {} if material is None else {key: material.values[key] for key in material.given}
         named = {key: f"{part}.{key}" for key in own} or where.parameters
         yield from odd_solid(part, named, own or {key: values.get(name) for key, name in where.parameters.items()})
-    yield from fast(abs(values["shaft.omega"] - values.get("housing.omega", 0.0)), values["bearing.d_m"])
 
 
 def odd_solid(part, names, properties):

@@ -38,20 +38,15 @@ def run(
     plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
 ):
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
-    from ..bearings import case_at
     from ..fmu import Model
-    from ..plausible import doubts
+    from ..plausible import odd_materials
     from ..runner import simulate
-    from ..scene import own_names
 
     model = Model(fmu)
     target = result_path(scene or model.path, out, format or lean_format(out))
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
-    for text in doubts(case_at(plan, model)):
-        if text.partition(" ")[0] in own_names(plan, model) and not text.startswith(
-            "shaft.omega"
-        ):  # speed_note tells it
-            messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+    for text in odd_materials(plan.parameters):
+        messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
     make_folder(target.parent)
     with held_interrupts():  # from the first step until its results are written
         with simulation_progress(plan) as progress:
