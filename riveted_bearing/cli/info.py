@@ -312,9 +312,10 @@ def rating_lives(case):
     if why_unrated(case) is not None:
         return
     found = rated(case)
+    kappa = "" if math.isnan(found.kappa) else f", kappa {found.kappa:.2g}"
     names = {"L_10": "rating life L_10 = (C/P)^3", "L_10r": "reference life L_10r"}
     for kind, standard in KINDS.items():
-        name = names.get(kind, f"{kind} with a_ISO, {in_words(case.cleanliness)}")
+        name = names.get(kind, f"{kind} with a_ISO, {in_words(case.cleanliness)}{kappa}")
         yield f"{name} ({standard})", *life(found.lives[kind], case.load)
 
 
