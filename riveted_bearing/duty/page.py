@@ -33,6 +33,7 @@ def write_page(life, path, notes, warnings=()):
         rows=list(part_rows(life)),
         notes=notes,
         warnings=[*life.mission.warnings, *warnings],
+        told=life.estimate.life <= LONGEST,
         charts={
             name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label)
             for name, (draw, size, label) in CHARTS.items()
