@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{7e82c1c5-1f76-4110-e486-2ff0252e087e}"  // digest of the table
+#define MODEL_GUID "{ef150508-6af7-ad4f-7e79-cbc8d2915b16}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
