@@ -154,10 +154,16 @@ def working_point(model):
 
 
 def own_names(scene, model):
-    """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene."""
+    """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene; what follows from
+    the kind or the temperature of its oil is not among them.
+    """
     own = {name: model.default(model.parameters[name]) for name in scene.parameters} | ALWAYS
-    found = [name for name, value in scene.parameters.items() if value != own[name]]
-    return found + [n for n, history in scene.inputs.items() if np.any(history.value != model.default(model.inputs[n]))]
+    of_oil, warm = OF_PROPERTY if scene.oil else (), scene.inputs.get("oil.T")
+    return [n for n, value in scene.parameters.items() if value != own[n] and n not in of_oil] + [
+        n
+        for n, history in scene.inputs.items()
+        if np.any(history.value != model.default(model.inputs[n])) and (n == "oil.T" or history is not warm)
+    ]
 
 
 def in_words(model, name, value=None, symbol=None):

@@ -118,8 +118,10 @@ def idle_settings(result, found):
     names = about.get("set", [])
     if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):
         return [], math.inf
+    model = Model(path)
     inputs = {n: History(*map(np.asarray, (of["t"], of["value"])), of["hold"]) for n, of in about["inputs"].items()}
-    parameters = {n: result.parameters[n] for n in names if n in result.parameters}
+    own = {n: model.default(v) for n, v in model.parameters.items()}
+    parameters = {n: value for n, value in result.parameters.items() if n in own and value != own[n]}
     if set(names) - {*inputs, *parameters}:
         return [], math.inf
     scene = Scene(
@@ -131,7 +133,7 @@ def idle_settings(result, found):
     )
     whole_cost = result.summary.get("wall_time", 0.0)
     return without_effect(
-        Model(path),
+        model,
         scene,
         names,
         lambda run: {name: column[settled(run)] for name, column in run.data.items()},
