@@ -248,8 +248,10 @@ class QuasiStatic:
 
     @property
     def L_10r(self):
-        """Basic reference rating life [10^6 revolutions], inf without load; the load stands still.  ISO/TS 16281:2008,
-        point contact, one row.
+        """Basic reference rating life [10^6 revolutions], inf without load.  ISO/TS 16281:2008, point contact, one row.
+
+        The load stands still: rings that turn go through it, the others stand in it; of two that stand the inner one is
+        taken to turn.
 
         The standard's own number asks for kinematics = "linear" and omega = 0, for it knows no centrifugal force.
         Q_ci, Q_ce: ball loads that give the rings the rating C.  Raises ValueError without bearing.C.
@@ -265,8 +267,8 @@ class QuasiStatic:
         )
         Q_ci = b.C / (0.407 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (10 / 3)) ** 0.3
         Q_ce = b.C / (0.389 * b.Z * math.cos(b.nominal_angle)) * (1.0 + ratio ** (-10 / 3)) ** 0.3
-        Q_ei = np.mean(self.Q_i**3) ** (1 / 3)  # the inner ring turns through the load ...
-        Q_ee = np.mean(self.Q_e ** (10 / 3)) ** 0.3  # ... the outer ring stands in it
+        p_i, p_e = (3.0 if turns else 10 / 3 for turns in (self.load.omega or not self.load.omega_e, self.load.omega_e))
+        Q_ei, Q_ee = np.mean(self.Q_i**p_i) ** (1.0 / p_i), np.mean(self.Q_e**p_e) ** (1.0 / p_e)
         failed = (Q_ei / Q_ci) ** (10 / 3) + (Q_ee / Q_ce) ** (10 / 3)
         return float(failed**-0.9) if failed > 0.0 else math.inf
 

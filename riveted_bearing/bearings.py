@@ -4,7 +4,7 @@ simulation.
     designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8
     oil = "mineral ISO VG 32"  # optional (oil.py)
-    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
+    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0, C_u, minimum_load [N]
     [parameters]          # start values of the FMU made from this file
     bearing.D = "19.05 mm"
     [cage]                # optional, like [rings], [balls] and [rivet]: material by name or as a table, single properties (materials.py)
@@ -29,7 +29,7 @@ from pathlib import Path
 import numpy as np
 
 from bearing_model.generated import variables
-from bearing_model.load_ratings import dynamic_rating, static_rating
+from bearing_model.load_ratings import dynamic_rating, reference_viscosity, static_rating
 from bearing_model.physics.derived import ball_elasticity, default_table
 from bearing_model.physics.parameters import Values
 from bearing_model.physics.ring_fit import ring_fit_of
@@ -37,7 +37,7 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
-from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling
+from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling, seats
 from .errors import UserError, is_file, unknown
 from .file_kinds import OF_BEARINGS, check_keys
 from .origin import EXAMPLE, SOURCE
@@ -49,6 +49,7 @@ LARGEST_RIVET = 1.0  # m
 KEYS = ("designation", "description", "Z", "oil", "catalogue", "parameters", *materials.PARTS, "inputs")
 BOUNDARY = ("bore", "outside_diameter", "width")
 CATALOGUE = (*BOUNDARY, "C", "C_0")
+OF_MAKERS = ("C_u", "minimum_load")  # further forces of a catalogue, by rule where they are missing
 # a bearing's own
 CAGE_SIZES = (
     "Z",
@@ -90,7 +91,8 @@ class Case:
     rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the
     Material of each part, of a bearing file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
-    shape, from which nothing follows; model: the Model of a scene's case; oil: the name of its oil, "" for none.
+    shape, from which nothing follows; model: the Model of a scene's case; oil: the name of its oil, "" for none;
+    cleanliness: of the oil, as of raceways.cleanliness_of, None if nobody gave one.
     """
 
     designation: str
@@ -105,6 +107,7 @@ class Case:
     alone: tuple = ()
     model: object = field(default=None, compare=False)
     oil: str = ""
+    cleanliness: object = None
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -160,6 +163,27 @@ class Case:
         return Load(**given, k_tilt=self.values["ring.k_tilt"] if mode == "supported" else 0.0)
 
     @property
+    def viscosity(self):
+        """Viscosity of the oil at its temperature [Pa.s]; ValueError if its two points make no oil."""
+        table = {name: v for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
+        start = {n: self.model.default(self.model.parameters[n]) if self.model else v.start for n, v in table.items()}
+        return oil.viscosity({name: self.value(name) for name in start}, start, self.value("oil.T"))
+
+    @property
+    def oil_density(self):
+        """Density of the oil at its temperature [kg/m3]."""
+        warmer = self.value("oil.T") - self.value("oil.T_0")
+        return self.value("oil.rho") * (1.0 - self.value("oil.expansion") * warmer)
+
+    @property
+    def kappa(self):
+        """Viscosity ratio nu/nu_1 of ISO 281, nan at rest."""
+        omega = self.load.omega - self.load.omega_e
+        if not omega:
+            return math.nan
+        return self.viscosity / self.oil_density / reference_viscosity(omega, self.values["bearing.d_m"])
+
+    @property
     def joint(self):
         """Dimensions of rivet and cage for rivet_model.geometry.Geometry."""
         v = self.values
@@ -182,10 +206,11 @@ class Case:
         return self.solved(self.load, "exact")
 
     def standard_equilibrium(self):
-        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces; UserError if
-        there is none.
+        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces at its speeds;
+        UserError if there is none.
         """
-        return self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
+        at_rest = self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
+        return replace(at_rest, load=self.load)
 
     def solved(self, load, kinematics):
         """The QuasiStatic under a load; UserError if there is none."""
@@ -353,9 +378,8 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     play = numbers.pop("clearance", None)
     data = dict(catalogue_values(path, numbers))
     check_boundary(path, document, data, entry)
-    given = dict(
-        start_values(path, "parameters", plain_names(section_of(path, document, "parameters")), variables.PARAMETERS)
-    )
+    tree = with_seats(path, plain_names(section_of(path, document, "parameters")), data, entry)
+    given = dict(start_values(path, "parameters", tree, variables.PARAMETERS))
     if play is not None:
         given |= clearance_class(path, play, given, data, entry)
     if entry is None and own != "shipped":
@@ -628,7 +652,7 @@ def unit_of(name):
     group, _, key = name.partition(".")
     if group == "rivet":
         return rivet_unit(key)
-    return "N" if key in ("C", "C_0") else "m"
+    return "m" if key in BOUNDARY else "N"
 
 
 def rivet_unit(key):
@@ -667,13 +691,31 @@ def clearance_class(path, name, given, data, entry):
     return {"bearing.P_d": P_d}
 
 
+def with_seats(path, tree, data, entry):
+    """Parameters of a bearing file with the seats that it gives by tolerance classes as numbers [m]."""
+    found = dict(tree)
+    for name, value in flat(tree):
+        if not seats.is_class(name, value):
+            continue
+        which, (group, _, key) = seats.SEATS[name][0], name.partition(".")
+        size = data.get(which, getattr(entry, which, None))
+        if size is None:
+            raise refusal(path, f"parameters.{name}", value, f"it needs catalogue.{which}")
+        try:
+            own = {key: seats.interference(name, value, size)}
+        except UserError as problem:
+            raise refusal(path, f"parameters.{name}", value, problem) from None
+        found = {n: v for n, v in found.items() if n != name} | {group: found.get(group, {}) | own}
+    return found
+
+
 def catalogue_values(path, section):
     """Keys and SI values of the catalogue's data, each checked."""
     for key, value in section.items():
-        if key not in CATALOGUE:
-            raise unknown(path, "catalogue key", key, (*CATALOGUE, "clearance"))
+        if key not in (*CATALOGUE, *OF_MAKERS):
+            raise unknown(path, "catalogue key", key, (*CATALOGUE, *OF_MAKERS, "clearance"))
         try:
-            yield key, positive(value, unit_scales("N" if key in ("C", "C_0") else "m"))
+            yield key, positive(value, unit_scales("m" if key in BOUNDARY else "N"))
         except UserError as problem:
             raise refusal(path, f"catalogue.{key}", value, problem) from None
 
@@ -771,7 +813,11 @@ def scene_case(source, model):
 
     An FMU holds no dimensions of its rivets.
     """
-    scene = load_scene(source, model)
+    return case_at(load_scene(source, model), model)
+
+
+def case_at(scene, model):
+    """The Case of a Scene at its start."""
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
     Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)

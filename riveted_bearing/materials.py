@@ -20,7 +20,7 @@ from bearing_model.generated import variables
 
 from .errors import UserError, unknown
 from .scene import positive, refusal
-from .units import scales_of
+from .units import scales_of, suffix, symbol_of
 
 TABLE = files("riveted_bearing") / "data" / "materials.toml"
 OWN = "own"
@@ -240,6 +240,12 @@ def property_of(path, where, key, value):
         number = positive(value, scales_of(unit, variables.UNITS[unit]))
         if key == "nu" and number >= 0.5:
             raise UserError("below 0.5 is allowed")
+        variable = variables.PARAMETERS.get(PARTS[where.partition(".")[0]].parameters.get(key))
+        if variable is not None and not (variable.min or 0.0) <= number <= (variable.max or math.inf):
+            symbol = symbol_of(value) or unit if isinstance(value, str) else unit
+            factor, offset = scales_of(unit, variables.UNITS[unit])[symbol]
+            low, high = (f"{factor * end + offset:.4g}" for end in (variable.min or 0.0, variable.max or math.inf))
+            raise UserError(f"{low} ... {high}{suffix(symbol)} is allowed")
     except UserError as problem:
         raise refusal(path, where, value, problem) from None
     return number

@@ -17,10 +17,12 @@ from fmpy.fmi1 import FMICallException
 
 from bearing_model.quasi_static import quasi_static
 
+from .bearings import case_at
+from .effects import acts, all_figures, without_effect
 from .errors import UserError
 from .fmu import Instance
 from .results import write_atomically
-from .scene import History
+from .scene import History, own_names
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
@@ -30,6 +32,7 @@ AMPLITUDE = 0.5e-6  # of the shake at the pitch radius [m]
 AZIMUTHS = 8  # of the balls within a pitch, over which the equilibrium is averaged
 LONGEST_STEP = 1e-5  # between the points of a shake [s]
 SETTLE, LENGTH = 0.006, 0.02  # of a shake [s]; its periods are whole
+FORCED = {"ring.motion": "prescribed", "scene.stress": "off", "scene.statistics": "off"}  # by a shake
 ROSS = {"x": "y", "y": "z", "z": "x"}  # its axes, z axial, by ours, x axial
 
 
@@ -90,6 +93,32 @@ def scene_at(model, scene, point):
     )
 
 
+def idle_settings(model, scene, point, speeds_given, static):
+    """Names of what a scene sets without effect on the matrices at the highest speed, a Matrices: neither on the stiffness
+    of the equilibrium nor, unless static, on the reactions of the ring that is held there.
+    """
+
+    def held(one):
+        one = scene_at(model, one, point)
+        place = dict.fromkeys((f"shaft.{name}" for name in RATES), 0.0) | {
+            f"shaft.{name}": value for name, value in zip(DIRECTIONS, point.q, strict=True)
+        }
+        histories = {name: History(np.zeros(1), np.array([value])) for name, value in place.items()}
+        return replace(one, outputs=REACTIONS, parameters=one.parameters | FORCED, inputs=one.inputs | histories)
+
+    def stiffness(one):
+        case = case_at(one, model)
+        omega = point.omega if speeds_given else case.load.omega
+        return dict(zip(("place", "K"), equilibrium(case, point.load, omega), strict=True))
+
+    short = replace(scene, t_end=min(scene.t_end, SETTLE + LENGTH))
+    idle = own_names(scene, model)
+    if not static:
+        idle, _ = without_effect(model, short, idle, all_figures, held)
+    reference = stiffness(scene) if idle else None
+    return [name for name in idle if not acts(name, scene, stiffness, reference)]
+
+
 def equilibrium(case, load, omega):
     """Place of the ring [5] and stiffness [5, 5] under the case's loads times a factor at a speed [rad/s]."""
     given = case.load
@@ -132,7 +161,7 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
     with Instance(model) as instance:
         fmu, parameters = (
             instance.fmu,
-            scene.parameters | {"ring.motion": "prescribed", "scene.stress": "off", "scene.statistics": "off"},
+            scene.parameters | FORCED,
         )
         try:
             for name, value in parameters.items():

@@ -17,6 +17,7 @@ from .interrupts import held_interrupts
 from .origin import not_given
 from .record import Record
 from .results import Result
+from .scene import own_names
 from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
@@ -48,7 +49,7 @@ def simulate(model, scene, progress=None):
         units={"time": "s"} | {name: variables[name].unit or "1" for name in scene.outputs},
         parameters=parameters,
         summary=summary,
-        about=provenance(model, scene) | vibrations(model, parameters) | ending,
+        about=provenance(model, scene, simulated) | vibrations(model, parameters) | ending,
     )
 
 
@@ -142,12 +143,12 @@ def vibrations(model, parameters):
     return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"]]}
 
 
-def turns(model, scene):
-    """Revolutions of the shaft against the housing before statistics begin, and from there to the end."""
-    settle = min(scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])), scene.t_end)
+def turns(model, scene, end):
+    """Revolutions of the shaft against the housing before statistics begin, and from there to the end of the run [s]."""
+    settle = min(scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])), end)
     return {
         "settle_turns": turns_between(model, scene, 0.0, settle),
-        "count_turns": turns_between(model, scene, settle, scene.t_end),
+        "count_turns": turns_between(model, scene, settle, end),
     }
 
 
@@ -169,13 +170,13 @@ def changes_in_words(scene):
     return found
 
 
-def provenance(model, scene):
-    """Origin of a result: scene, inputs, FMU, versions, machine, date."""
+def provenance(model, scene, end):
+    """Origin of a result that ended at a time [s]: scene, inputs, FMU, versions, machine, date."""
     return {
         "scene": scene.name,
         "description": scene.description,
         "t_end": scene.t_end,
-        **turns(model, scene),
+        **turns(model, scene, end),
         "step": scene.step,
         "inputs": {
             name: {"t": history.t.tolist(), "value": history.value.tolist(), "hold": history.hold}
@@ -184,6 +185,7 @@ def provenance(model, scene):
         },
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
+        "set": own_names(scene, model),
         "ruled": sorted(ruled_names(model)),
         "example": is_example(model),
         "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},

@@ -34,7 +34,7 @@ from pathlib import Path
 
 import numpy as np
 
-from . import tables
+from . import seats, tables
 from .errors import UserError, is_file, refusal, shortlist, unknown
 from .file_kinds import check_keys
 from .oil import OF_PROPERTY, check_given, merged, named
@@ -50,6 +50,7 @@ PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 DEEPEST = 50  # tables or lists in each other
 MOST_STEPS = 1e12
+ALWAYS = {"scene.statistics": "on"}  # unless a scene sets it
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
 
 
@@ -113,7 +114,7 @@ def load_scene(source, model, *changes):
     scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
     Returns a Scene; raises UserError naming file, key, value and what is allowed.
     """
-    start = Scene(parameters={"scene.statistics": "on"})
+    start = Scene(parameters=ALWAYS)
     if source is None:
         settle = model.default(model.parameters["start.settle"])
         start = replace(start, t_end=max(start.t_end, 2.0 * settle))
@@ -150,6 +151,19 @@ def working_point(model):
         f"{name.removeprefix('shaft.')} {in_words(model, name)}" for name in ("shaft.F_y", "shaft.F_x", "shaft.omega")
     ]
     return f"own working point of {model.path.name}, {', '.join(shown)}"
+
+
+def own_names(scene, model):
+    """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene; what follows from
+    the kind or the temperature of its oil is not among them.
+    """
+    own = {name: model.default(model.parameters[name]) for name in scene.parameters} | ALWAYS
+    of_oil, warm = OF_PROPERTY if scene.oil else (), scene.inputs.get("oil.T")
+    return [n for n, value in scene.parameters.items() if value != own[n] and n not in of_oil] + [
+        n
+        for n, history in scene.inputs.items()
+        if np.any(history.value != model.default(model.inputs[n])) and (n == "oil.T" or history is not warm)
+    ]
 
 
 def in_words(model, name, value=None, symbol=None):
@@ -361,6 +375,8 @@ def leaves(tree, names, prefix=""):
 
 def parameter_value(value, variable, model):
     """A parameter's value checked; UserError for another material than that of the FMU's cage."""
+    if seats.is_class(variable.name, value):
+        return seats.interference(variable.name, value, seat_of(model, seats.SEATS[variable.name][0]))
     found, own = model.parameter_value(value, variable), model.default(variable)
     if variable.name == "cage.material" and found != own:
         raise UserError(
@@ -368,6 +384,13 @@ def parameter_value(value, variable, model):
             f"for {found} build an FMU from a bearing file with [cage] material"
         )
     return found
+
+
+def seat_of(model, which):
+    """Bore or outside diameter of an FMU's bearing [m], by the rule of ring.bore and ring.outside where nothing has it."""
+    given = model.default(model.parameters["ring.bore" if which == "bore" else "ring.outside"])
+    d_m, D = (model.default(model.parameters[f"bearing.{name}"]) for name in ("d_m", "D"))
+    return model.catalogue.get(which) or given or d_m + (-1.0 if which == "bore" else 1.0) * D / 0.6
 
 
 SURFACE = ("file", "angle", "angle_unit", "height", "unit")

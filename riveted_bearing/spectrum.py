@@ -13,6 +13,7 @@ Amplitudes are those of sines, with a Hann window.
 
 import math
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
@@ -21,11 +22,15 @@ from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram,
 from scipy.signal.windows import hann
 
 from .animation import number_of_balls
+from .effects import without_effect
 from .errors import UserError, unknown
+from .fmu import Model
 from .results import write_atomically
+from .scene import ALWAYS, History, Scene
 from .summary import settled
 
 CHANNELS = ("housing.a_y", "housing.F_y", "ring.a_y", "ring.y")  # first of these that moves, unless one is named
+SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
 STEADY = 0.01  # relative change of the shaft's speed up to which frequencies stand for orders
 SEGMENTS = (16, 32, 64, 128, 256)  # samples of the short-time transforms
 FEWEST = 256  # samples
@@ -88,7 +93,7 @@ def spectra(result, channel=None, band=None):
     if channel not in result.data:
         raise unknown("spectrum", "channel", channel, list(result.data))
     x, rate = evenly(t, result.data[channel][rows], channel)
-    speeds = {name: speed_of(result, name, rows) for name in ("shaft.omega", "housing.omega", "cage.omega")}
+    speeds = {name: speed_of(result, name, rows) for name in SPEEDS}
     omega = speeds["shaft.omega"]
     orders = bool(np.ptp(omega) > STEADY * np.abs(omega).max())
     if orders:
@@ -103,6 +108,37 @@ def spectra(result, channel=None, band=None):
     lines = tuple(line_at(envelope_frequency, of_envelope, *line) for line in expected_lines(kinematic))
     unit = result.units.get(channel, "1")
     return Spectra(channel, unit, orders, frequency, amplitude, envelope_frequency, of_envelope, band, kinematic, lines)
+
+
+def idle_settings(result, found):
+    """Names of what the run's scene sets without effect on its Spectra, and the time [s] up to which that was seen; none
+    where the run cannot be repeated: its FMU is another one by now, or parameters or long inputs changed in it.
+    """
+    about, path = result.about, Path(result.about.get("fmu", ""))
+    names = about.get("set", [])
+    if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):
+        return [], math.inf
+    model = Model(path)
+    inputs = {n: History(*map(np.asarray, (of["t"], of["value"])), of["hold"]) for n, of in about["inputs"].items()}
+    own = {n: model.default(v) for n, v in model.parameters.items()}
+    parameters = {n: value for n, value in result.parameters.items() if n in own and value != own[n]}
+    if set(names) - {*inputs, *parameters}:
+        return [], math.inf
+    scene = Scene(
+        t_end=about["t_end"],
+        step=about["step"],
+        outputs=tuple(dict.fromkeys([found.channel, *SPEEDS])),
+        parameters=ALWAYS | parameters,
+        inputs=inputs,
+    )
+    whole_cost = result.summary.get("wall_time", 0.0)
+    return without_effect(
+        model,
+        scene,
+        names,
+        lambda run: {name: column[settled(run)] for name, column in run.data.items()},
+        cost=whole_cost,
+    )
 
 
 def default_channel(result):

@@ -11,6 +11,7 @@ RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
 FLAGS = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}  # by bit
 SETTLED = 10.0  # revolutions of the shaft that statistics should leave out
+ROUNDED = 1.0 - 1e-6  # of a number of revolutions: ten of them are ten, whatever their last digits
 TABLE_TITLE = "Stress table of the rivets: "  # in an FMU's description, before its kind and error
 COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
@@ -83,7 +84,7 @@ def no_statistics(result):
 def settle_note(result):
     """A warning where the statistics begin before the bearing has settled, for slow shafts; else ""."""
     turns, settle = result.about.get("settle_turns", 0.0), result.parameters.get("start.settle", 0.0)
-    if not 0.0 < float(f"{turns:.2g}") < SETTLED or not has_statistics(result):
+    if not 0.0 < turns < ROUNDED * SETTLED or not has_statistics(result):
         return ""
     enough = SETTLED / turns * settle
     return (
@@ -95,7 +96,7 @@ def settle_note(result):
 def count_note(result):
     """A warning where statistics rest on few revolutions of the shaft; else ""."""
     turns = result.about.get("count_turns", 0.0)
-    if not 0.0 < float(f"{turns:.2g}") < COUNTED or not has_statistics(result):
+    if not 0.0 < turns < ROUNDED * COUNTED or not has_statistics(result):
         return ""
     return (
         f"statistics and life rest on {turns:.2g} revolutions of the shaft after start.settle; from {COUNTED:g} on they are "
@@ -169,6 +170,15 @@ def eccentricity_title(parameters):
 def life_is_known(result):
     """Whether the stress is good enough to speak of a life: not from closed forms."""
     return result.summary.get("rivet.table_kind", 0) != 3
+
+
+def static_and_swing(values, place):
+    """Stress of the rivets' heads ("head") or middles ("mid") in two parts: the largest mean of a rivet, and the largest
+    distance of a 99.9 % quantile from its own mean; values: stat.* by name.  Fatigue follows the second one.
+    """
+    kinds = (f"stat.rivet_{place}_{kind}[" for kind in ("mean", "p999"))
+    mean, p999 = (np.array([values[name] for name in values if name.startswith(kind)], float) for kind in kinds)
+    return mean.max(axis=0), (p999 - mean).max(axis=0)
 
 
 def rivet_rows(result):

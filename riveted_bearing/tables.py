@@ -1,10 +1,11 @@
-"""Tables of numbers that users bring, CSV or Parquet: one reader and one convention of units for all of them.
+"""Tables of numbers that users bring, CSV, Parquet or Excel: one reader and one convention of units for all of them.
 
     time [ms];radial [kN];speed (rpm)     # a line of names; a name without a unit is SI
     0,00;2,99;3000
 
 Separator (comma, semicolon, tab, bar, spaces), decimal sign, thousands, encoding, a line of units below the names and
-lines with # in front are recognised.  Numbers come out in SI.  A fault is named with its file, row and column; rows count
+lines with # in front are recognised.  Numbers come out in SI, dates and times of day (stamps.py) as seconds since the first
+row.  A fault is named with its file, row and column; rows count
 as in an editor, those of a Parquet file from 1.
 """
 
@@ -12,13 +13,15 @@ import codecs
 import csv
 import re
 from dataclasses import dataclass, field
+from datetime import date, datetime, time, timedelta
 from itertools import islice, pairwise
 from pathlib import Path
 
 import numpy as np
 
 from .errors import UserError, extra, is_file, unknown
-from .units import is_unit, scale
+from .stamps import Stamps, is_stamp, may_turn, month_is_first, parse
+from .units import SECONDS, is_unit, scale
 
 BLOCK = 65536  # rows that are read together
 SAMPLE = 60  # rows that decide on the separator
@@ -31,8 +34,7 @@ MARKS = {
     codecs.BOM_UTF16_BE: "utf-16",
 }
 OTHERS = {
-    b"PK\x03\x04": "an Excel workbook or an archive: save the sheet as CSV",
-    b"\xd0\xcf\x11\xe0": "an Excel workbook: save the sheet as CSV",
+    b"\xd0\xcf\x11\xe0": "an old Excel workbook: save it as .xlsx or CSV",
     b"\x1f\x8b": "compressed: unpack it first",
 }
 MISSING = ("", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "#nv", "#div/0!", "#value!", "#wert!", "?", "nat")
@@ -72,8 +74,9 @@ class Table:
             with self.path.open("rb") as file:
                 start = file.read(4096)
             if other := next((what for magic, what in OTHERS.items() if start.startswith(magic)), None):
-                raise UserError(f"{path}: not a CSV or Parquet table but {other}")
-            self.source = ParquetRows(self.path) if start.startswith(b"PAR1") else TextRows(self.path, start)
+                raise UserError(f"{path}: not a CSV, Parquet or Excel table but {other}")
+            kind = next((kind for magic, kind in KINDS.items() if start.startswith(magic)), TextRows)
+            self.source = kind(self.path, start)
         except OSError as problem:
             raise UserError(f"{path}: {problem.strerror}") from None
         self.heads = self.source.heads
@@ -94,8 +97,11 @@ class Table:
         raise unknown(self.path, "column", name, [head for head in self.heads if head])
 
     def unit(self, wanted):
-        """The unit in which a Wanted column is read, "" for SI."""
-        head = self.heads[self.place(wanted.name)]
+        """The unit in which a Wanted column is read, "" for SI and for dates."""
+        place = self.place(wanted.name)
+        if self.is_timed(wanted) and self.source.is_stamped(place):
+            return ""
+        head = self.heads[place]
         own, certain = unit_of(head, wanted.scales)
         asked = wanted.unit or split_head(wanted.name)[1]
         where = f'{self.path}: column "{head}"'
@@ -112,13 +118,18 @@ class Table:
             raise UserError(f"{where}: {problem}") from None
         return unit
 
+    def is_timed(self, wanted):
+        """Whether a Wanted column may hold dates."""
+        return wanted.scales is SECONDS
+
     def blocks(self, *wanted):
         """Pieces of the Wanted columns: row numbers, and numbers in SI [n, columns]."""
         places = [self.place(one.name) for one in wanted]
+        timed = {place for place, one in zip(places, wanted, strict=True) if self.is_timed(one)}
         units = [self.unit(one) for one in wanted]
         scales = [scale(u, one.scales) if u else (1.0, 0.0) for u, one in zip(units, wanted, strict=True)]
         try:
-            for rows, columns in self.source.blocks(places):
+            for rows, columns in self.source.blocks(places, timed):
                 yield (
                     rows,
                     np.column_stack(
@@ -319,9 +330,24 @@ class TextRows:
                 )
         return "."
 
-    def blocks(self, places):
-        """Row numbers and the numbers of some columns, in pieces."""
+    def is_stamped(self, place):
+        """Whether a column begins with a date or a time of day."""
+        _, row = next(self.rows(self.separator, self.first), (0, []))
+        return place < len(row) and is_stamp(row[place])
+
+    def stamps(self, place):
+        """The Stamps of a column; UserError if its days and months may be exchanged."""
+        column = (row[place] for _, row in self.rows(self.separator, self.first) if place < len(row))
+        first = next(column, "")
+        if not may_turn(first):
+            return Stamps()
+        parts = [own for text in (first, *column) if (own := parse(text.strip())) is not None]
+        return Stamps(month_is_first(parts, f'{self.path}: column "{self.heads[place]}"'))
+
+    def blocks(self, places, timed=()):
+        """Row numbers and the numbers of some columns, in pieces; timed: places of those that may hold dates."""
         rows, count = self.rows(self.separator, self.first), len(self.heads)
+        stamps = {place: self.stamps(place) for place in timed if self.is_stamped(place)}
         while piece := list(islice(rows, BLOCK)):
             for number, row in piece:
                 if not fits(self.heads, row):
@@ -330,13 +356,21 @@ class TextRows:
                     )
             yield (
                 np.array([number for number, _ in piece]),
-                [self.numbers(place, piece) for place in places],
+                [
+                    self.seconds(stamps[place], place, piece) if place in stamps else self.numbers(place, piece)
+                    for place in places
+                ],
             )
 
     def hint(self, row):
         """Why a row may have more entries than there are names."""
         doubled = self.separator == "," and len(row) > len(self.heads)
         return ": a comma as decimal sign needs semicolons between the entries" if doubled else ""
+
+    def seconds(self, stamps, place, piece):
+        """One column of dates in a piece as seconds."""
+        entries = [(number, row[place].strip()) for number, row in piece]
+        return seconds_of(stamps, entries, self.path, self.heads[place])
 
     def numbers(self, place, piece):
         """One column of a piece as floats."""
@@ -362,6 +396,15 @@ class TextRows:
         if DIGITS.fullmatch(plain) and np.isfinite(float(plain)):
             return float(plain)
         raise entry_fault(self.path, row, self.heads[place], text)
+
+
+def seconds_of(stamps, entries, path, head):
+    """Seconds by Stamps of (row, text); UserError naming the first that is none like the ones before."""
+    parts = [parse(text) for _, text in entries]
+    for (row, text), part in zip(entries, parts, strict=True):
+        if part is None or (part[0] is None) != (parts[0][0] is None):
+            raise entry_fault(path, row, head, text, "not a date or time of day like those above")
+    return stamps.seconds(parts)
 
 
 def head_of(sample):
@@ -394,12 +437,12 @@ def named(names):
     return names[: max((k for k, name in enumerate(names, 1) if name.strip()), default=0)]
 
 
-def entry_fault(path, row, head, text):
+def entry_fault(path, row, head, text, other="not a number"):
     """The error for an entry that is no finite number."""
     text = " ".join(text.split())
     text = text if len(text) < 40 else f"{text[:37]}..."
-    what = "no value" if text.lower() in MISSING else "not a number"
-    if re.fullmatch(r"\d{1,4}[-./]\d{1,2}[-./]\d{1,4}.*|\d{1,2}:\d\d.*", text):
+    what = "no value" if text.lower() in MISSING else other
+    if other == "not a number" and re.fullmatch(r"\d{1,4}[-./]\d{1,2}[-./]\d{1,4}.*|\d{1,2}:\d\d.*", text):
         what = "a date or time of day: numbers are needed, such as the seconds since the start"
     if re.fullmatch(r"[+-]?(inf(inity)?|\d[\d.,]*e\+?\d+)", text.lower()):
         what = "not a finite number"
@@ -474,7 +517,7 @@ def decode(path, encoding):
 class ParquetRows:
     """The rows of a Parquet file; the unit of a column may stand in its field's metadata."""
 
-    def __init__(self, path):
+    def __init__(self, path, _start):
         try:
             from pyarrow import parquet
         except ImportError:
@@ -489,19 +532,69 @@ class ParquetRows:
             unit = (one.metadata or {}).get(b"unit", b"").decode(errors="replace")
             self.heads.append(f"{one.name} [{unit}]" if unit and not split_head(one.name)[1] else one.name)
 
-    def blocks(self, places):
-        """Row numbers and the numbers of some columns, in pieces."""
+    def is_stamped(self, place):
+        """Whether a column holds dates or times of day, or begins with one as text."""
+        from pyarrow import types
+
+        if types.is_temporal(kind := self.file.schema_arrow.types[place]):
+            return True
+        texts = types.is_string(kind) or types.is_large_string(kind)
+        return texts and bool(column := self.texts(place)) and is_stamp(column[0] or "")
+
+    def texts(self, place):
+        """A column of texts."""
+        return self.file.read([self.file.schema_arrow.names[place]]).column(0).to_pylist()
+
+    def stamps(self, place):
+        """The Stamps of a column of texts; of dates the first one, once it is read."""
+        from pyarrow import types
+
+        if types.is_temporal(self.file.schema_arrow.types[place]):
+            return []
+        texts = self.texts(place)
+        if not may_turn(texts[0]):
+            return Stamps()
+        parts = [own for text in texts if (own := parse((text or "").strip())) is not None]
+        return Stamps(month_is_first(parts, f'{self.path}: column "{self.heads[place]}"'))
+
+    def blocks(self, places, timed=()):
+        """Row numbers and the numbers of some columns, in pieces; timed: places of those that may hold dates."""
         first, names = 1, [self.file.schema_arrow.names[place] for place in places]
+        stamps = {place: self.stamps(place) for place in timed if self.is_stamped(place)}
         try:
             for batch in self.file.iter_batches(BLOCK, columns=names):
                 rows = np.arange(first, first + len(batch))
                 first += len(batch)
                 columns = (batch.column(batch.schema.get_field_index(name)) for name in names)
-                yield rows, [self.numbers(one, rows, self.heads[i]) for one, i in zip(columns, places, strict=True)]
+                yield (
+                    rows,
+                    [
+                        self.seconds(stamps[i], one, rows, self.heads[i])
+                        if i in stamps
+                        else self.numbers(one, rows, self.heads[i])
+                        for one, i in zip(columns, places, strict=True)
+                    ],
+                )
         except UserError:
             raise
         except Exception as problem:
             raise UserError(f"{self.path}: not a Parquet table: {one_line(problem)}") from None
+
+    def seconds(self, stamps, column, rows, head):
+        """One column of dates as seconds since the first one: Stamps of texts, else the list of the first date."""
+        from pyarrow import compute, int32, int64, types
+
+        if isinstance(stamps, Stamps):
+            entries = [(row, (text or "").strip()) for row, text in zip(rows, column.to_pylist(), strict=True)]
+            return seconds_of(stamps, entries, self.path, head)
+        if column.null_count:
+            raise entry_fault(self.path, rows[column.is_null().index(True).as_py()], head, "")
+        kind = column.type
+        whole = compute.cast(compute.cast(column, int32()) if kind.bit_width == 32 else column, int64()).to_numpy()
+        stamps[:] = stamps or [whole[0]]
+        tick = {"s": 1.0, "ms": 1e3, "us": 1e6, "ns": 1e9}[kind.unit] if not types.is_date(kind) else None
+        ticks = tick or (1.0 / 86400.0 if types.is_date32(kind) else 1e3)
+        return (whole - stamps[0]) / ticks
 
     def numbers(self, column, rows, head):
         """One column as floats."""
@@ -521,6 +614,47 @@ class ParquetRows:
             k = int(np.argmin(np.isfinite(values)))
             raise entry_fault(self.path, rows[k], head, "" if column[k].as_py() is None else f"{column[k].as_py()}")
         return values
+
+
+class SheetRows(TextRows):
+    """The rows of the first sheet with a table in an Excel workbook: its cells as texts."""
+
+    def __init__(self, path, _start):
+        try:
+            import openpyxl
+        except ImportError:
+            raise UserError(
+                f"{path}: openpyxl is not installed: {extra('full')}; a CSV table needs nothing"
+            ) from None
+        self.path, self.separator, self.decimal = path, "", "."
+        try:
+            book = openpyxl.load_workbook(path, read_only=True, data_only=True)
+            sheets = [list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets]
+        except Exception as problem:  # openpyxl has many
+            raise UserError(f"{path}: not an Excel workbook (.xlsx): {one_line(problem)}") from None
+        for sheet in sheets:
+            self.cells = [(number, [cell_text(cell) for cell in row]) for number, row in enumerate(sheet, 1)]
+            faults, self.first, self.heads = head_of(list(islice(self.rows(), SAMPLE)))
+            if faults <= 1.0:
+                return
+        raise UserError(f"{path}: no sheet with a line of names and rows of numbers")
+
+    def rows(self, _separator="", first=1):
+        """Row numbers and entries from the row `first` on, without empty ones."""
+        yield from ((number, row) for number, row in self.cells if number >= first and any(row) and row[0][:1] != "#")
+
+
+def cell_text(cell):
+    """A cell as the text that a CSV table would have."""
+    if isinstance(cell, timedelta):
+        seconds = cell.total_seconds()
+        return f"{int(seconds // 3600)}:{int(seconds // 60 % 60):02}:{seconds % 60:09.6f}"
+    if isinstance(cell, datetime | date | time):
+        return cell.isoformat()
+    return "" if cell is None else repr(cell) if isinstance(cell, float) else str(cell).strip()
+
+
+KINDS = {b"PAR1": ParquetRows, b"PK\x03\x04": SheetRows}  # by the first bytes of a file
 
 
 def one_line(problem):

@@ -214,7 +214,7 @@ def test_what_a_scene_gives_does_not_follow_by_rule(fmu, monkeypatch):
     scene = load_scene(
         None, model, ("--set", {"parameters": {"joint": {"preload": "30 N"}}, "inputs": {"shaft": {"F_y": "1 kN"}}})
     )
-    assert provenance(model, scene)["not_given"] == {"by rule": "joint (fit)"}
+    assert provenance(model, scene, scene.t_end)["not_given"] == {"by rule": "joint (fit)"}
 
 
 def test_entries_of_arrays_have_meaning_and_unit():

@@ -3,6 +3,8 @@
 import math
 import random
 import tomllib
+from datetime import datetime, timedelta
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -200,7 +202,14 @@ def test_ways_of_writing(text, base, expected, tmp_path):
         (b"time;n\n0;1,500\n1;2,750\n", ["row 2", '"1,500"', "a thousand"]),
         (b"time,T_C\n0,20\n1,30\n", ['"T_C"', 'is "C" its unit?']),
         (b"0,1\n1,2\n2,3\n", ["row 1", "names"]),
-        (b"PK\x03\x04\0\0", ["Excel workbook"]),
+        (b"PK\x03\x04\0\0", ["openpyxl" if find_spec("openpyxl") is None else "not an Excel workbook"]),
+        (b"\xd0\xcf\x11\xe0\0\0", ["an old Excel workbook"]),
+        (b"time,n\n12:00,1\n12:01,2\n13,3\n", ["row 4", '"13"', "like those above"]),
+        (b"time,n\n2024-05-01 12:00,1\n12:01,2\n", ["row 3", "like those above"]),
+        (b"time,n\n01/02/2024,1\n02/02/2024,2\n05/06/2024,2\n", ["either order", "2024-05-31"]),
+        (b"time,n\n13/02/2024,1\n02/14/2024,2\n", ["change their order"]),
+        (b"time,n\n12:00:01,1\n12:00:00,2\n", ["row 3", "must increase"]),
+        (b"time,n\n0,12:00:01\n1,12:00:02\n", ["row 2", "a date or time of day"]),
         (b"\xff\xfet\0,\0n\0\n\0\x00", ["UTF-16", "row 2"]),
         (b"\x01\x02\0\0binary", ["no text"]),
         (b"", ["not a CSV table"]),
@@ -263,3 +272,87 @@ def test_gaps_are_those_of_a_record_and_can_be_allowed(tmp_path):
     with pytest.raises(UserError, match=r"row 7: a gap of 200 s"):
         read_with([0, 1, 2, 3, 4, 204, 205], gap=100.0)
     assert len(read_with([0, 0.1, 0.11, 5.0, 5.001, 60.0, 61.0])[0]) == 7  # points of no fixed rate
+
+
+FORMATS = {  # of strftime, as loggers write: whether the date is in it
+    "%Y-%m-%dT%H:%M:%S.%fZ": True,
+    "%Y-%m-%d %H:%M:%S.%f": True,
+    "%Y/%m/%d %H:%M:%S": True,
+    "%Y%m%dT%H%M%S": True,
+    "%d.%m.%Y %H:%M:%S": True,
+    "%d/%m/%Y %H:%M:%S": True,
+    "%m/%d/%Y %I:%M:%S %p": True,
+    "%d-%b-%Y %H:%M:%S": True,
+    "%d.%m.%y %H:%M:%S": True,
+    "%H:%M:%S.%f": False,
+    "%H:%M:%S": False,
+    "%I:%M:%S %p": False,
+}
+
+
+@pytest.mark.parametrize("form", FORMATS)
+def test_dates_are_seconds_since_the_first_row(form, tmp_path):
+    """Ten records a format, from 20 minutes before midnight of days in all months: what Python's datetime makes of the times."""
+    rng = random.Random(f"dates {form}")
+    for _ in range(10):
+        start = datetime(2024, rng.randint(1, 12), rng.randint(1, 28), 23, 40, rng.randint(0, 59))
+        step = rng.choice((1, 10, 60)) if "%f" not in form else rng.choice((0.125, 0.5))
+        seconds = step * np.arange(rng.choice((30, 300)))
+        separator = rng.choice([";", "\t"] if "," in form else [",", ";", "\t"])
+        head = rng.choice(("time", "time [s]", "time (HH:MM:SS)", "time [UTC]"))
+        rows = ((start + timedelta(seconds=float(t))).strftime(form) + f"{separator}{k}" for k, t in enumerate(seconds))
+        (tmp_path / "rig.csv").write_text("\n".join([f"{head}{separator}n", *rows]))
+        t, n = Table(tmp_path / "rig.csv").series(Wanted("time", SECONDS), Wanted("n", scales("N")))
+        np.testing.assert_allclose(t, seconds, rtol=0.0, atol=1e-5)
+        assert n[-1] == len(seconds) - 1
+
+
+@pytest.mark.parametrize(
+    ("texts", "expected"),
+    [
+        (["2024-03-31T01:30:00+01:00", "2024-03-31T03:30:00+02:00"], [0.0, 3600.0]),  # the clocks of Europe go on
+        (["99:59:59", "100:00:01,5"], [0.0, 2.5]),
+        (["00:58.5", "01:01.0"], [0.0, 2.5]),
+        (["1 Feb 2024 12:00", "1 Mar 2024 12:00"], [0.0, 29 * 86400.0]),
+        (["30/04/2024", "01/05/2024"], [0.0, 86400.0]),  # the order of a later row tells
+        (["01/05/2024 23:59:59", "02/05/2024 00:00:00"], [0.0, 1.0]),  # a second, not a month
+    ],
+)
+def test_ways_of_writing_dates(texts, expected, tmp_path):
+    (tmp_path / "rig.csv").write_text("time;n\n" + "".join(f"{text};1\n" for text in texts))
+    assert read(tmp_path / "rig.csv", Wanted("time", SECONDS))[0].tolist() == expected
+
+
+def test_long_records_with_dates_are_read_in_pieces(tmp_path):
+    """Over two midnights and two pieces: one reference for all of them."""
+    count = 140_000
+    clock = (f"{k // 3600 % 24:02}:{k // 60 % 60:02}:{k % 60:02};1" for k in range(80_000, 80_000 + count))
+    (tmp_path / "rig.csv").write_text("time;n\n" + "\n".join(clock))
+    t, _ = Table(tmp_path / "rig.csv").series(Wanted("time", SECONDS), Wanted("n", scales("N")))
+    np.testing.assert_array_equal(t, np.arange(count))
+
+
+def test_dates_in_parquet_and_excel(tmp_path):
+    """Dates by their types, as pandas and Excel have them, and as texts."""
+    pa, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    start, expected = datetime(2024, 5, 1, 23, 59, 58), np.array([0.0, 0.5, 3.0])
+    stamps = [start + timedelta(seconds=float(t)) for t in expected]
+    columns = [pa.array(stamps, pa.timestamp(unit)) for unit in ("ms", "us", "ns")]
+    columns += [pa.array([f"{stamp:%d.%m.%Y %H:%M:%S.%f}" for stamp in stamps])]
+    for column in columns:
+        parquet.write_table(pa.table({"time": column, "n [rpm]": [60, 60, 90]}), tmp_path / "rig.parquet")
+        t, n = read(tmp_path / "rig.parquet", Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
+        assert t == pytest.approx(expected, abs=1e-6) and n[-1] == pytest.approx(3 * math.pi)
+    openpyxl = pytest.importorskip("openpyxl")
+    book = openpyxl.Workbook()
+    book.active.append(["made by the rig"])
+    sheet = book.create_sheet("record")
+    for row in (["time", "n [rpm]", "note"], *([stamp, speed, None] for stamp, speed in zip(stamps, (60, 60, 90.5)))):
+        sheet.append(row)
+    book.save(tmp_path / "rig.xlsx")
+    t, n = read(tmp_path / "rig.xlsx", Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
+    assert t == pytest.approx(expected, abs=1e-3) and n[-1] == pytest.approx(90.5 / 30 * math.pi)
+    sheet["B3"] = "fast"
+    book.save(tmp_path / "rig.xlsx")
+    with pytest.raises(UserError, match='row 3, column "n .rpm.": "fast"'):
+        read(tmp_path / "rig.xlsx", Wanted("n", scales("rad/s")))

@@ -52,6 +52,18 @@ def compare_designs(
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 
 
+def other_figures(found):
+    """Static stress and swing where the first rivet fails, and the raceways' life, design by design."""
+    from ..duty.designs import parts_text
+    from ..raceways import card
+
+    heads = "where it fails: static + swing", "raceways"
+    table = Table("design", *(Column(head, justify="right") for head in heads), "", box=None, pad_edge=False)
+    for outcome in found.outcomes:
+        table.add_row(escape(outcome.design.name), parts_text(outcome), *map(escape, card(outcome.raceways)))
+    return table
+
+
 def print_comparison(found, hours_text):
     """Lives, ratios and what differs."""
     from ..duty.designs import ends_of, ratio_text, verdict
@@ -77,6 +89,7 @@ def print_comparison(found, hours_text):
             verdict(outcome),
         )
     console.print(table)
+    console.print(other_figures(found))
     differ = Table("differs", *(escape(outcome.design.name) for outcome in found.outcomes), box=None, pad_edge=False)
     for name, texts in found.differences[:MOST_DIFFERENCES]:
         differ.add_row(escape(name), *map(escape, texts))

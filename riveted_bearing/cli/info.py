@@ -16,10 +16,9 @@ from rivet_model.geometry import Geometry
 from ..errors import UserError
 from ..ribbon import is_ribbon
 from ..summary import DEG, RPM
-from .terminal import FMU, command, console, print_basis
+from .terminal import CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
 
 BOUNDARY = ("bore", "outside_diameter", "width")
-MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ZERO = 273.15  # K of 0 degC
 RIVET = ("shank_diameter", "head_diameter", "head_height", "fillet_radius")
 
@@ -51,15 +50,18 @@ def info(
             help="shape of the cage of a bearing; default: the file's, else machined", metavar="machined|ribbon"
         ),
     ] = None,
+    cleanliness: CLEANLINESS = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
     from ..basis import basis
     from ..bearings import CAGE_MEANT, EXAMPLE, case_of, is_bearing
     from ..fmu import Model
     from ..plausible import doubts
+    from ..raceways import too_little_load
     from ..scene import load_scene
 
     case, scene, model = case_of(target, fmu, cage), None, None
+    case = replace(case, cleanliness=chosen_cleanliness(cleanliness))
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
     if target is None and fmu is None:
         console.print(
@@ -84,17 +86,6 @@ def info(
         console.print(table)
     if idle := without_effect(case, given_values(case, scene, model)):
         console.print(f"\nwithout effect here: {escape(', '.join(idle))}", soft_wrap=True)
-
-
-def too_little_load(case):
-    """A sentence if the bearing turns under less than the usual minimum load, 0.01 C: balls then skid."""
-    C, load = case.bearing.C, case.load
-    P = max(math.hypot(load.F_y, load.F_z), abs(load.F_x))
-    if C and P < MINIMUM_LOAD * C and load.omega != load.omega_e:
-        yield (
-            f"the load of {P:.3g} N is less than the minimum load 0.01 C = {MINIMUM_LOAD * C:.3g} N: "
-            "balls may skid, so that frequencies and life are not those of rolling"
-        )
 
 
 def given_values(case, scene, model):
@@ -225,17 +216,13 @@ def preload(case):
 
 def oil(case):
     """Name, value, unit and origin of oil and temperatures."""
-    from bearing_model.load_ratings import reference_viscosity
-
-    from ..oil import POINTS, largest_traction, plain, viscosity
+    from ..oil import POINTS, largest_traction, plain
 
     own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
-    start = {name: start_of(case, name) for name in own if name in variables.PARAMETERS}
     T, it = own.pop("oil.T"), plain(own)
     at, warmer = f"at {T - ZERO:.4g} degC", T - it.T_0
-    eta, rho = viscosity(own, start, T), it.rho * (1.0 - it.expansion * warmer)
     yield "oil", case.oil or "not named", "", "yours" if case.oil else "what is not given is that of an aviation oil"
-    yield f"oil viscosity {at}", f"{1e3 * eta:.4g}", "mPa.s", origins(case, "oil.eta")
+    yield f"oil viscosity {at}", f"{1e3 * case.viscosity:.4g}", "mPa.s", origins(case, "oil.eta")
     yield (
         "kinematic viscosity",
         ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in POINTS),
@@ -246,12 +233,11 @@ def oil(case):
     yield f"pressure-viscosity coefficient {at}", f"{1e9 * alpha:.3g}", "1/GPa", source_of(case, "oil.alpha")
     traction = f"{largest_traction(it.A, it.B, it.C):.3f}, {-it.A:.3f}"
     yield "traction coefficient: largest, in full sliding", traction, "", source_of(case, "oil.A")
-    yield f"oil density {at}", f"{rho:.4g}", "kg/m3", source_of(case, "oil.rho")
+    yield f"oil density {at}", f"{case.oil_density:.4g}", "kg/m3", source_of(case, "oil.rho")
     yield "roughness of ball and race", f"{1e6 * it.sigma_race:.3g}", "um", source_of(case, "oil.sigma_race")
     if omega := case.load.omega - case.load.omega_e:
-        kappa = eta / rho / reference_viscosity(omega, case.bearing.d_m)
         speed = f"{RPM * abs(omega):,.0f} rev/min"
-        yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{kappa:.3g}", "", ""
+        yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{case.kappa:.3g}", "", ""
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
     yield (
         "oil, inner ring, outer ring, balls, cage",
@@ -271,11 +257,6 @@ def source_of(case, *names):
     if given or case.origin.get(names[0]) == "yours":
         return origins(case, *names)
     return variables.PARAMETERS[names[0]].source
-
-
-def start_of(case, name):
-    """Start value of a parameter in the case's FMU, if it has one, else in the variable table."""
-    return case.model.default(case.model.parameters[name]) if case.model else variables.PARAMETERS[name].start
 
 
 def origins(case, *names):
@@ -343,8 +324,22 @@ def equilibrium(case, state):
     if math.isfinite(state.pressure_safety):
         yield "safety by pressure, (4200 MPa/p_max)^3", f"{state.pressure_safety:.3g}", ""
     if case.bearing.C and math.isfinite(state.L_10r):
-        yield "reference life L_10r (ISO/TS 16281)", *life(case.standard_equilibrium().L_10r, case.load)
+        yield from rating_lives(case)
         yield "L_10r, exact kinematics, at speed", *life(state.L_10r, case.load)
+
+
+def rating_lives(case):
+    """Name, value and unit of the raceways' lives by the standards."""
+    from ..raceways import KINDS, in_words, rated, why_unrated
+
+    if why_unrated(case) is not None:
+        return
+    found = rated(case)
+    kappa = "" if math.isnan(found.kappa) else f", kappa {found.kappa:.2g}"
+    names = {"L_10": "rating life L_10 = (C/P)^3", "L_10r": "reference life L_10r"}
+    for kind, standard in KINDS.items():
+        name = names.get(kind, f"{kind} with a_ISO, {in_words(case.cleanliness)}{kappa}")
+        yield f"{name} ({standard})", *life(found.lives[kind], case.load)
 
 
 def life(L_10r, load):

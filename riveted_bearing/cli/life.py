@@ -123,7 +123,7 @@ def print_life(found, remarks, ends=()):
     console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
     print_basis(found.mission.basis)
     for title, value, remark in [*cards(found), *ends]:
-        console.print(f"{title:14} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
+        console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
     table = Table(
         "",
         "load",

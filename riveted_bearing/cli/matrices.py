@@ -11,11 +11,6 @@ from rich.table import Column, Table
 from ..results import make_folder
 from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
-UNUSED = (  # what the shake itself sets
-    *(f"shaft.{name}" for name in ("x", "y", "z", "v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")),
-    "ring.motion",
-    "scene.stress",
-)
 SPEEDS = 6  # up to that of the scene, if none is given
 
 
@@ -51,8 +46,17 @@ def matrices(
 
     from ..basis import basis
     from ..bearings import scene_case
+    from ..effects import in_words
     from ..fmu import Model
-    from ..matrices import dynamic_matrices, plot_matrices, quasi_static_matrices, scene_at, write_ross, write_table
+    from ..matrices import (
+        dynamic_matrices,
+        idle_settings,
+        plot_matrices,
+        quasi_static_matrices,
+        scene_at,
+        write_ross,
+        write_table,
+    )
     from ..scene import load_scene
     from ..units import to_si
 
@@ -78,8 +82,8 @@ def matrices(
             found = found + dynamic_matrices(model, case, plan, balanced, w, progress=progress)
     if static and frequencies:
         console.print("without effect here: --frequency, the quasi-static stiffness has none")
-    if ignored := [name for name in (*plan.parameters, *plan.inputs) if name in UNUSED]:
-        console.print(f"without effect here: {', '.join(ignored)}: the shake moves the inner ring, without stress")
+    if idle := idle_settings(model, plan, balanced[-1], bool(speeds), static):
+        console.print(f"{in_words(idle)}: the shake moves the inner ring, without stress")
     rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
     print_basis(rows)
     console.print(table(found))

@@ -3,6 +3,7 @@
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Column, Table
@@ -44,7 +45,7 @@ def optimize(
         make_folder(folder)
         found = search(plan, bench)
     print_basis(bench.basis())
-    print_optimum(found, present_values(plan.box.names, bench.scene, model))
+    print_optimum(found, present_values(plan.box.names, bench.scene, model), parts_of_stress(found, bench))
     written = write_optimum(found, folder / "optimize.json", bench.basis())
     for label, path in (("results", written), ("picture", write_picture(found, folder / "optimize.png"))):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
@@ -62,19 +63,37 @@ def present_values(names, scene, model):
     ]
 
 
-def print_optimum(found, present):
-    """The points simulated again, the recommended one marked, the present design with its values, and the criterion."""
-    from ..design.bench import titled
+def parts_of_stress(found, bench):
+    """Static stress and swing of the points simulated again and of the present design, means over the fresh seeds [n, 2]
+    [Pa]; None without statistics.  It needs no new runs.
+    """
+    from ..design.bench import PARTS
+    from ..design.optimize import fresh_seeds
+
+    if bench.scene.parameters["scene.statistics"] == "off":
+        return None
+    points, seeds = found.points[found.candidates], fresh_seeds(found.study)
+    again = bench(found.study.box.names, points, PARTS, seeds), bench([], np.zeros((1, 0)), PARTS, seeds)
+    return np.concatenate([values.mean(axis=1) for values in again])
+
+
+def print_optimum(found, present, parts=None):
+    """The points simulated again, the recommended one marked, the present design with its values, and the criterion;
+    parts: as of parts_of_stress.
+    """
+    from ..design.bench import PARTS, shown, titled
     from ..design.optimize import criterion
 
     study = found.study
-    heads = map(titled, (*study.box.names, *study.responses))
+    missing = [] if parts is None else [name for name in PARTS if name not in study.responses]
+    heads = map(titled, (*study.box.names, *study.responses, *missing))
     table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
     rows = [("", found.points[i], *of) for i, *of in zip(found.candidates, found.means, found.errors, strict=True)]
     for place, row in enumerate([*rows, ("present design", present, *found.present)]):
         best = place == found.best
         title, *rest = row
-        table.add_row("recommended" if best else title, *cells(study, *rest), style="bold" if best else None)
+        stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.4g}" for name in missing]
+        table.add_row("recommended" if best else title, *cells(study, *rest), *stress, style="bold" if best else None)
     console.print(table)
     text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
     console.print(
@@ -82,6 +101,20 @@ def print_optimum(found, present):
     )
     if found.best is not None:
         console.print(f"recommended: {escape(criterion(study))}", soft_wrap=True)
+    if found.best is not None and parts is not None and go_apart(parts[-1], parts[found.best]):
+        was, now = ([shown(name, value) for name, value in zip(PARTS, row)] for row in (parts[-1], parts[found.best]))
+        changes = ", ".join(f"{name} {a} to {b}" for name, a, b in zip(PARTS, was, now))
+        console.print(
+            f"[yellow]note:[/] static stress and swing go apart ({changes}): damage follows the swing", soft_wrap=True
+        )
+
+
+def go_apart(was, now):
+    """Whether static stress and swing (arrays) change in opposite directions, the first one by more than APART."""
+    from ..duty.designs import APART
+
+    static, swing = np.log(now / was)
+    return static * swing < 0.0 and abs(static) > np.log(APART)
 
 
 def cells(study, point, mean, error):

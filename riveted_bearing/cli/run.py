@@ -39,16 +39,20 @@ def run(
 ):
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
     from ..fmu import Model
+    from ..plausible import odd_materials
     from ..runner import simulate
 
     model = Model(fmu)
     target = result_path(scene or model.path, out, format or lean_format(out))
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
+    for text in odd_materials(plan.parameters):
+        messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
     make_folder(target.parent)
     with held_interrupts():  # from the first step until its results are written
         with simulation_progress(plan) as progress:
             result = simulate(model, plan, progress)
         print_summary(result)
+        print_without_effect(model, plan, result)
         paths = [write_result(result, target)]
         if plot and is_there("matplotlib", "the picture"):
             from ..plot import plot_result
@@ -70,6 +74,18 @@ def run(
     if result.stopped:
         messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
         raise typer.Exit(STOPPED)
+
+
+def print_without_effect(model, scene, result):
+    """What the scene sets without effect; of a run that was interrupted nothing."""
+    from ..effects import all_figures, in_words, without_effect
+
+    if result.stopped and result.stopped.startswith("interrupted"):
+        return
+    cost = result.summary["wall_time"]
+    idle, until = without_effect(model, scene, result.about["set"], whole=all_figures(result), cost=cost)
+    if idle:
+        console.print(escape(in_words(idle, until)), soft_wrap=True)
 
 
 def is_there(library, what):

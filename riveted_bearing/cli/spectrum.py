@@ -29,10 +29,12 @@ def spectrum(
     out: Annotated[Path | None, typer.Option(help="folder for the files; default: beside the result")] = None,
 ):
     """Spectrum and envelope spectrum of a run, with the lines of cage, balls and races: table, CSV and picture."""
+    from ..effects import in_words
     from ..results import make_folder, read_result
-    from ..spectrum import plot_spectra, spectra, squared, write_spectra
+    from ..spectrum import idle_settings, plot_spectra, spectra, squared, write_spectra
 
-    found = spectra(read_result(result), channel, band)
+    run = read_result(result)
+    found = spectra(run, channel, band)
     folder = out or result.parent
     make_folder(folder)
     low, high = (f"{end:.4g}" if found.orders else f"{end:,.0f}" for end in found.band)
@@ -50,6 +52,9 @@ def spectrum(
         values = f"{line.expected:,.4g}", f"{line.found:,.4g}", f"{line.amplitude:.3g}", f"{times:.1f}"
         rows.add_row(line.name, *values, "yes" if line.stands_out else "no")
     console.print(rows)
+    names, until = idle_settings(run, found)
+    if names:
+        console.print(escape(in_words(names, until)), soft_wrap=True)
     for path in (
         write_spectra(found, folder / f"{result.stem}_spectrum.csv"),
         plot_spectra(found, folder / f"{result.stem}_spectrum.png"),

@@ -9,7 +9,18 @@ from rich.markup import escape
 from ..errors import UserError
 from ..results import FORMATS, make_folder
 from .life import SHEET, write_life
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, number_or_text, print_warnings
+from .terminal import (
+    CLEANLINESS,
+    FMU,
+    SCHEDULER,
+    WORKERS,
+    chosen_cleanliness,
+    command,
+    console,
+    design_runs,
+    number_or_text,
+    print_warnings,
+)
 
 
 @command
@@ -32,6 +43,7 @@ def summary(
             help="the page to write, with runs and life beside it if results/MISSION has another FMU's; default: summary.html there, or beside the result"
         ),
     ] = None,
+    cleanliness: CLEANLINESS = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
@@ -42,13 +54,15 @@ def summary(
     from ..duty.sheet import result_sheet, write_sheet
     from ..results import read_result
 
-    hours = target_hours(target)
+    hours, clean = target_hours(target), chosen_cleanliness(cleanliness)
     decides = read_indices(sensitivity) if sensitivity else None
     if source.suffix.removeprefix(".") in FORMATS:
         result = read_result(source)
         file = fmu or Path(result.about.get("fmu", ""))
-        sheet = result_sheet(result, source, file if file.is_file() else None, hours, decides)
+        sheet = result_sheet(result, source, file if file.is_file() else None, hours, decides, clean)
         path = out or source.with_name(f"{source.stem}_summary.html")
+    elif clean is not None:
+        raise UserError(f"--cleanliness {cleanliness}: a mission has it in its file: cleanliness in [life]")
     else:
         sheet, folder = sheet_of_mission(source, fmu, hours, decides, out, scheduler, workers)
         path = out or folder / SHEET

@@ -55,6 +55,25 @@ WORKERS = Annotated[
     int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")
 ]
 
+CLEANLINESS = Annotated[
+    str | None,
+    typer.Option(
+        "--cleanliness",
+        help="of the oil, for the raceways' life: e_C, high, normal, typical, severe or an ISO 4406 code; default: normal, assumed",
+        metavar="E_C|NAME|CODE",
+    ),
+]
+
+
+def chosen_cleanliness(value):
+    """The cleanliness of the option --cleanliness, None if it was not given."""
+    from ..raceways import cleanliness_of
+
+    try:
+        return None if value is None else cleanliness_of(value)
+    except UserError as problem:
+        raise UserError(f"--cleanliness {value}: {problem}") from None
+
 
 def print_version(wanted: bool):
     """Print version, Python and platform, then end."""

@@ -9,7 +9,8 @@ asks for.
 
 Responses: damage (log10 of Miner's sum per hour at the worst place), stress (99.9 % quantile of the worst head [Pa]),
 dislocation (largest between the halves [m]), friction (mean torque [N.m]), pocket_force (RMS [N]), or the name of any
-column of a sweep's rows.
+column of a sweep's rows; static and swing part the worst head's stress (summary.static_and_swing), the
+second of which does the damage.
 """
 
 import hashlib
@@ -25,6 +26,7 @@ from ..basis import basis
 from ..duty.mission import curves
 from ..errors import UserError, unknown
 from ..scene import leaves, load_scene, refusal, section_of
+from ..summary import static_and_swing
 from ..sweep import (
     Sweep,
     beside,
@@ -44,10 +46,13 @@ COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
 COLUMNS = {
     "stress": "stat.sigma_head_p999",
+    "static": "stat.rivet_head_mean[1]",  # of all rivets
+    "swing": "stat.rivet_head_p999[1]",
     "dislocation": "max(cage.dislocation)",
     "friction": "mean(bearing.friction_torque)",
     "pocket_force": "stat.Q_c_rms",
 }
+PARTS = ("static", "swing")
 DAMAGE_UNIT = "log10 per hour"
 NO_DAMAGE = 1e-300
 
@@ -203,6 +208,8 @@ def response(path, rows, name):
         )
         hours = (rows["simulated_time"] - rows["start.settle"]) / 3600.0
         return np.log10(np.maximum(np.nanmax(np.nan_to_num(damage), axis=1) / np.maximum(hours, 1e-12), NO_DAMAGE))
+    if name in PARTS:
+        return static_and_swing(rows, "head")[PARTS.index(name)]
     column = COLUMNS.get(name, name)
     if column not in rows or not np.issubdtype(np.asarray(rows[column]).dtype, np.number):
         raise unknown(

@@ -118,13 +118,18 @@ def search(study, evaluate):
     """The Optimum; evaluate(names, points [n, d], responses, seeds=None) returns [n, seeds, m]."""
     points, values = explore(study, evaluate)
     candidates = most_promising(study, values)
-    fresh = range(study.seed + FRESH, study.seed + FRESH + study.check_seeds)
+    fresh = fresh_seeds(study)
     means, errors = mean_and_error(evaluate(study.box.names, points[candidates], study.responses, seeds=fresh))
     present = mean_and_error(evaluate([], np.zeros((1, 0)), study.responses, seeds=fresh))
     allowed = np.all(excess(study, means) <= 0.0, axis=1) & np.isfinite(means).all(axis=1)
     best = min(np.flatnonzero(allowed), key=lambda i: distance(study, means, allowed)[i]) if allowed.any() else None
     best = None if best is None else int(best)
     return Optimum(study, points, values, candidates, means, errors, best, np.array(present)[:, 0])
+
+
+def fresh_seeds(study):
+    """start.seed of the runs that the search has not seen."""
+    return range(study.seed + FRESH, study.seed + FRESH + study.check_seeds)
 
 
 def mean_and_error(values):

@@ -13,10 +13,12 @@ from bearing_model.generated.variables import INPUTS
 
 from ..errors import UserError
 from ..life import fatigue_law, fatigue_law_at
+from ..raceways import finite
+from ..raceways import record as raceway_record
 from ..results import write_atomically
 from ..sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
 from .confidence import Estimate, until_sure
-from .cycles import OUTPUTS, rainflow_columns, rainflow_fields, stored_cycles
+from .cycles import outputs_of, rainflow_columns, rainflow_fields, stored_cycles
 from .miner import Duty, part_rates
 from .mission import Mission
 from .sn import Strength, damage_of_cycles, damage_of_matrix, read_strength
@@ -68,7 +70,7 @@ class Runs:
         fmu = model.path.read_bytes()
         fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
         self.keys, scenes = {}, {}
-        outputs = tuple(name for name in model.outputs if any(matches(name, pattern) for pattern in OUTPUTS))
+        outputs = outputs_of(model)
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
                 scene = started(replace(case.scene, outputs=outputs), model, first, s)
@@ -164,12 +166,6 @@ def damages_counted(matrix, laws, own):
 def number_of_rivets(rows):
     """Number of rivets that a sweep's rows have."""
     return sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows)
-
-
-def matches(name, pattern):
-    """Whether an output has the name pattern with one star for a number."""
-    head, tail = pattern.split("*")
-    return name.startswith(head) and name.endswith(tail) and name[len(head) : len(name) - len(tail)].isdigit()
 
 
 def assess(mission, runs, progress=lambda found, target: None):
@@ -333,6 +329,7 @@ def record(life):
         "low_h": finite(life.low),
         "high_h": finite(found.high),
         "confidence": mission.settings["confidence"],
+        "raceways": raceway_record(mission.raceways()),
         "points": [
             {
                 "share": float(share.get(i, 0.0)),
@@ -344,11 +341,6 @@ def record(life):
         ],
         "rivets": [{"head_per_h": float(head), "middle_per_h": float(middle)} for head, middle in rivets],
     }
-
-
-def finite(hours):
-    """A number of hours, None for infinity."""
-    return float(hours) if math.isfinite(hours) else None
 
 
 def check_folder(folder, mission, remedy):

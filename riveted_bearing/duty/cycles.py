@@ -14,7 +14,12 @@ from ..life import CHANNELS, stress_history
 
 RANGE_STEP, MEAN_STEP, LEAST = 0.02, 1e6, 1e4  # of ln range; [Pa]; smaller ranges do no damage
 COLUMNS = ("channel", "range", "mean", "count")
-OUTPUTS = [f"rivet[*].{channel}{kind}" for channel in CHANNELS.values() for kind in ("", "_peak")]
+ENDS = tuple(f"].{channel}{kind}" for channel in CHANNELS.values() for kind in ("", "_peak"))
+
+
+def outputs_of(model):
+    """Outputs of a Model that a life needs: stress of each rivet and its peaks."""
+    return tuple(name for name in model.outputs if name.startswith("rivet[") and name.endswith(ENDS))
 
 
 def rainflow_columns(result):

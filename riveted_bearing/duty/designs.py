@@ -22,26 +22,35 @@ from ..errors import UserError, refusal, unknown
 from ..fmu import Model
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING
+from ..raceways import Raceways, card, finite
+from ..raceways import record as raceway_record
 from ..results import write_atomically
 from ..scene import in_words, leaves, read_toml, section_of
+from ..summary import static_and_swing
 from ..sweep import columns_of
-from ..units import hours_text
+from ..units import LONGEST, hours_text
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission, tables
 from .notes import matrix_warnings
 from .page import OPEN, interval_text, open_ends, open_text
 
-RESPONSES = {  # column of a run: in words
-    "stat.sigma_head_p999": "head stress, p99.9",
-    "stat.sigma_mid_p999": "middle stress, p99.9",
-    "stat.Q_c_p999": "pocket force, p99.9",
+RESPONSES = {  # column of a run, or part of the stress (summary.static_and_swing): in words, unit and its factor
+    "head_static": ("head, static", "MPa", 1e-6),
+    "head_swing": ("head, swing", "MPa", 1e-6),
+    "stat.sigma_head_p999": ("head stress, p99.9", "MPa", 1e-6),
+    "middle_static": ("middle, static", "MPa", 1e-6),
+    "middle_swing": ("middle, swing", "MPa", 1e-6),
+    "stat.sigma_mid_p999": ("middle stress, p99.9", "MPa", 1e-6),
+    "stat.Q_c_p999": ("pocket force, p99.9", "N", 1.0),
 }
+HEAD_STRESS = "stat.sigma_head_p999"
 TABLE_SOURCE = "sources/rivet_table.c"
 RECORD, PAGE = "designs.json", "designs.html"
 LINES = ("loads", "speed", "oil", "temperatures", "preload", "S-N curve", "damage")  # of basis.py
 COLOURS = (FORCE, MIDDLE, HEAD, RING, MUTED)
 SAME_INPUTS = 1e-9
+APART = 1.05  # ratio of static stresses from which on a life that goes the other way needs a word
 
 
 @dataclass(frozen=True)
@@ -73,7 +82,8 @@ class Ratio:
 @dataclass(frozen=True)
 class Outcome:
     """What was found for one design: estimate of its life, place that fails first in words, Ratio of life to the first
-    design's (None for it), and of each part means of RESPONSES with their Ratios: {part: {response: (mean, Ratio)}}.
+    design's (None for it), and of each part means of RESPONSES with their Ratios: {part: {response: (mean, Ratio)}};
+    deciding: the part with the most damage; raceways: its Raceways.
     """
 
     design: Design
@@ -81,6 +91,8 @@ class Outcome:
     place: str
     life: Ratio | None
     responses: dict = field(repr=False)
+    deciding: str = ""
+    raceways: Raceways = field(default_factory=Raceways, repr=False)
 
 
 @dataclass(frozen=True)
@@ -187,6 +199,8 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
                 }
                 for part, of_part in rows[k].items()
             },
+            max(rows[k], key=dict(zip((part.name for part in missions[k].parts), found[k].shares, strict=True)).get),
+            missions[k].raceways(),
         )
         for k, design in enumerate(designs)
     ]
@@ -207,12 +221,16 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
 
 
 def warnings_of(all_runs, outcomes):
-    """Sentences on the designs' events, matrices and intervals of life."""
+    """Sentences on the designs' events, matrices and intervals of life, of several designs once."""
+    found = {}
     for runs, outcome in zip(all_runs, outcomes, strict=True):
         texts = [*runs.mission.warnings, *matrix_warnings(runs)]
         if ends := open_ends(*ends_of(outcome)):
             texts.append(f"the interval of life is {open_text(ends)}")
-        yield from (f"{outcome.design.name}: {text}" for text in texts)
+        for text in texts:
+            found.setdefault(text, []).append(outcome.design.name)
+    for text, names in found.items():
+        yield f"{'all designs' if len(names) == len(outcomes) else '; '.join(names)}: {text}"
 
 
 def rested_on(missions):
@@ -261,7 +279,12 @@ def responses_of(runs, counts):
         name = mission.parts[mission.cases[c].part].name
         if n and name not in found:
             chosen = [places_of[runs.keys[c, s]] for s in range(n)]
-            found[name] = {response: np.asarray(rows[response], float)[chosen] for response in RESPONSES}
+            found[name] = {
+                response: np.asarray(rows[response], float)[chosen] for response in RESPONSES if response in rows
+            }
+            for place, word in (("head", "head"), ("mid", "middle")):
+                parts = (part[chosen] for part in static_and_swing(rows, place))
+                found[name] |= dict(zip((f"{word}_static", f"{word}_swing"), parts, strict=True))
     return found
 
 
@@ -330,6 +353,33 @@ def ends_of(outcome):
     return outcome.estimate.life, outcome.estimate.low, outcome.estimate.high
 
 
+def parts_of_stress(outcome):
+    """Static stress and swing of the place that fails first, at the part with the most damage: two (mean, Ratio)."""
+    place = "middle" if "middle" in outcome.place else "head"
+    return [outcome.responses[outcome.deciding][f"{place}_{part}"] for part in ("static", "swing")]
+
+
+def parts_text(outcome):
+    """These two in words, with their ratios to the first design's."""
+    if not outcome.responses:
+        return ""
+    texts = (
+        f"{1e-6 * mean:.3g}" + (f" ({ratio.ratio:.2g})" if ratio else "") for mean, ratio in parts_of_stress(outcome)
+    )
+    return f"{' + '.join(texts)} MPa"
+
+
+def against_stress(outcome):
+    """Words on a static stress that goes the other way than the life, "" if it does not."""
+    if not outcome.responses:
+        return ""
+    (_, static), (_, swing) = parts_of_stress(outcome)
+    longer = outcome.life.ratio > 1.0
+    if static.ratio > APART if longer else static.ratio < 1.0 / APART:
+        return f" at {static.ratio:.2g} times the static stress: damage follows the swing, {swing.ratio:.2g} times the first's"
+    return ""
+
+
 def verdict(outcome):
     """A sentence on a design against the first one."""
     ratio = outcome.life
@@ -339,7 +389,12 @@ def verdict(outcome):
         return "the same"
     if not ratio.differs:
         return "no difference that the runs show"
-    return "lives longer" if ratio.ratio > 1.0 else "lives shorter"
+    both = (
+        f", both {hours_text(outcome.estimate.life)}"
+        if min(outcome.estimate.life, outcome.estimate.life / ratio.ratio) > LONGEST
+        else ""
+    )
+    return ("lives longer" if ratio.ratio > 1.0 else "lives shorter") + both + against_stress(outcome)
 
 
 def record(found):
@@ -359,6 +414,7 @@ def record(found):
                 "high_h": finite(outcome.estimate.high),
                 "place": outcome.place,
                 "life_ratio": ratio_record(outcome.life),
+                "raceways": raceway_record(outcome.raceways),
                 "responses": {
                     part: {
                         name: {"mean": float(mean), "ratio": ratio_record(ratio)}
@@ -371,11 +427,6 @@ def record(found):
         ],
         "differences": [{"name": name, "values": list(texts)} for name, texts in found.differences],
     }
-
-
-def finite(value):
-    """A number, None for infinity and nan."""
-    return float(value) if math.isfinite(value) else None
 
 
 def ratio_record(ratio):
@@ -393,13 +444,25 @@ def write_record(found, folder):
 
 
 def life_chart(fig, found):
-    """Life of each design with its interval."""
+    """Life of each design with its interval; in words beyond LONGEST."""
     ax = fig.subplots()
+    told = [outcome for outcome in found.outcomes if outcome.estimate.life <= LONGEST]
     for k, outcome in enumerate(found.outcomes):
-        if math.isfinite(life := outcome.estimate.life):
-            ax.plot(shown_ends(outcome), [k, k], color=COLOURS[k % len(COLOURS)], lw=3, solid_capstyle="butt")
-            ax.plot(life, k, "o", color=COLOURS[k % len(COLOURS)], ms=7)
-    ends = [x for outcome in found.outcomes for x in shown_ends(outcome) if math.isfinite(x)]
+        colour = COLOURS[k % len(COLOURS)]
+        if outcome in told:
+            ax.plot(shown_ends(outcome), [k, k], color=colour, lw=3, solid_capstyle="butt")
+            ax.plot(outcome.estimate.life, k, "o", color=colour, ms=7)
+        else:
+            ax.text(
+                0.98,
+                k,
+                f"{hours_text(outcome.estimate.life)} →",
+                transform=ax.get_yaxis_transform(),
+                ha="right",
+                va="center",
+                color=colour,
+            )
+    ends = [x for outcome in told for x in shown_ends(outcome) if math.isfinite(x)]
     ax.set_xscale("log")
     if ends and max(ends) < 10.0 * min(ends):
         ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])
@@ -423,7 +486,7 @@ def short(name, length=26):
 
 def ratio_chart(fig, found):
     """Ratio of the head stress to the first design's, part by part."""
-    ax, response = fig.subplots(), next(iter(RESPONSES))
+    ax, response = fig.subplots(), HEAD_STRESS
     names = list(found.outcomes[0].responses)
     for k, outcome in enumerate(found.outcomes[1:], 1):
         for i, part in enumerate(names):
@@ -434,7 +497,7 @@ def ratio_chart(fig, found):
                 ax.plot(ratio.ratio, y, "o", color=COLOURS[k % len(COLOURS)], ms=5)
     ax.axvline(1.0, color=MUTED, lw=1.0, ls="--")
     ax.set_yticks(range(len(names)), [short(name) for name in names])
-    ax.set(xlabel=f"{RESPONSES[response]}, over the first design's", ylim=(len(names) - 0.5, -0.5))
+    ax.set(xlabel=f"{RESPONSES[response][0]}, over the first design's", ylim=(len(names) - 0.5, -0.5))
     ax.grid(axis="y", visible=False)
 
 
@@ -448,12 +511,8 @@ def write_page(found, path):
         "designs.html",
         found=found,
         responses=RESPONSES,
-        units={
-            "stat.sigma_head_p999": (1e-6, "MPa"),
-            "stat.sigma_mid_p999": (1e-6, "MPa"),
-            "stat.Q_c_p999": (1.0, "N"),
-        },
         hours_text=hours_text,
+        raceway_card=card,
         interval_text=lambda outcome: interval_text(*ends_of(outcome)),
         ratio_text=ratio_text,
         verdict=verdict,

@@ -45,25 +45,32 @@ max_seeds = 32
 seed = 1                             # first start.seed, common to all points
 skip = 0.01                          # share of the damage that rare points may have and yet be left out by a bound; 0: none left out
 rivets = "each"                      # or "alike": every rivet takes every place in turn, so that rates are means over the rivets
+cleanliness = "normal"               # of the oil, for the raceways' life: see ../raceways.py; default: normal, assumed
 [sn]                                 # see sn.py; default: the FMU's law and its own count
 [tolerance]                          # see tolerances.py
 """
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
 
 from ..assumed import given_names
 from ..basis import basis, loads, speeds
+from ..bearings import case_at
+from ..effects import acts, without_effect
 from ..errors import UserError, unknown
 from ..file_kinds import check_keys
 from ..life import fatigue_law
-from ..scene import Scene, leaves, load_scene, read_toml, refusal, section_of
+from ..raceways import Raceways, cleanliness_of, of_parts, rated, slip_warning, why_unrated
+from ..scene import Scene, leaves, load_scene, own_names, read_toml, refusal, section_of
 from ..sweep import beside, count_of, key_of
 from ..tables import Wanted, read
 from ..units import SECONDS, scale, to_si
+from .cycles import outputs_of
 from .history import binned
 from .miner import Duty
 from .slow import slow_warnings
@@ -99,11 +106,13 @@ LIFE = {
     "seed": 1,
     "skip": 0.01,
     "rivets": "each",
+    "cleanliness": None,
 }
 HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
 ROUNDED = 0.011  # by how much shares may miss 1, as three of 0.33 do
 RIVETS = ("each", "alike")
+MOST_TRIED = 8  # parts in which a setting without effect in one is tried
 MOST_CLASSES = 100_000  # of a record
 PRELOAD = "joint.preload"
 FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
@@ -142,7 +151,8 @@ class Case:
 class Mission:
     """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
     whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file;
-    slow: sentences on points at which the shaft turns too few times.
+    slow: sentences on points at which the shaft turns too few times; raceways(): the Raceways; idle(): names of settings
+    without effect.
     """
 
     name: str
@@ -159,11 +169,14 @@ class Mission:
     fmu: str = ""
     fmu_sha256: str = ""
     slow: tuple = ()
+    raceways: Callable = field(default=Raceways, repr=False, compare=False)
+    idle: Callable = field(default=tuple, repr=False, compare=False)
 
     @property
     def warnings(self):
         """What the user has to know of the parts before the runs: sentences."""
-        return (*(text for part in self.parts for text in part.warnings), *self.slow)
+        of_parts = (text for part in self.parts for text in part.warnings)
+        return (*of_parts, *self.slow, *slip_warning(self.raceways()))
 
 
 def load_mission(path, model):
@@ -204,7 +217,41 @@ def plan_mission(name, document, model, path):
         str(model.path.resolve()),
         model.digest,
         tuple(slow_warnings(parts, model)),
+        cache(lambda: of_parts(model, parts, settings["cleanliness"])),
+        cache(lambda: idle_settings(model, parts)),
     )
+
+
+def idle_settings(model, parts):
+    """Names of what the scenes of simulated parts set without effect on stress, damage and raceways in any of them; of many
+    parts the MOST_TRIED with the most hours or counts.
+    """
+    tried = sorted((part for part in parts if part.scene is not None), key=lambda part: -part.weight)[:MOST_TRIED]
+    idle = {name: True for part in tried for name in own_names(part.scene, model) if name not in FORCED}
+
+    def prepared(scene):  # seeds are the life's own
+        return replace(scene, outputs=outputs_of(model), parameters=scene.parameters | {"start.seed": 1})
+
+    for part in tried:
+        names = [name for name in own_names(part.scene, model) if idle.get(name)]
+        left, _ = without_effect(model, part.scene, names, stress_figures, prepared)
+        if left and not part.event:
+            rated_at = partial(raceway_figures, model)
+            reference = rated_at(part.scene)
+            left = [name for name in left if not acts(name, part.scene, rated_at, reference)]
+        idle |= {name: name in left for name in names}
+    return tuple(name for name, still in idle.items() if still)
+
+
+def stress_figures(result):
+    """Stress and damage of a Result."""
+    return result.data | {name: value for name, value in result.summary.items() if ".damage_" in name}
+
+
+def raceway_figures(model, scene):
+    """Lives of the raceways in a Scene at its start; of a bearing that is not rated none."""
+    case = case_at(scene, model)
+    return {} if why_unrated(case) is not None else rated(case).lives
 
 
 def curves(path, document, scenes, model):
@@ -252,6 +299,11 @@ def life_settings(path, section):
         raise refusal(path, "life.min_seeds", settings["min_seeds"], bounds)
     if settings["rivets"] not in RIVETS:
         raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
+    if (written := settings["cleanliness"]) is not None:
+        try:
+            settings["cleanliness"] = cleanliness_of(written)
+        except UserError as problem:
+            raise refusal(path, "life.cleanliness", written, problem) from None
     return settings
 
 

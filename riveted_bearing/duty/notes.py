@@ -6,6 +6,8 @@ import math
 
 import numpy as np
 
+from .. import raceways
+from ..effects import in_words
 from ..units import hours_text
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
@@ -90,6 +92,9 @@ def notes(life, runs, scatter=None):
             f"The classes of the record are wide: inside {', '.join(wide)} the damage rate changes so much that its mean is taken as more than "
             f"{WIDE:g} times that at the mean values. Compare with twice the bins."
         )
+    sentences += raceways.sentences(mission.raceways())
+    if idle := mission.idle():
+        sentences.append(f"{in_words(idle)}.")
     if "sn" in mission.document:
         sentences.append(
             f"Damage by the S-N curve of [sn] from rainflow matrices of the communication points; with the FMU's own law these matrices find "

@@ -8,10 +8,11 @@ import json
 from dataclasses import dataclass
 
 from ..errors import UserError
+from ..raceways import finite
 from ..results import make_folder, write_atomically
 from ..scene import leaves, section_of
 from ..units import hours_text
-from .assess import Life, finite, write_record
+from .assess import Life, write_record
 from .mission import changed_points, plan_mission, tables
 from .page import ends_of, interval_text
 

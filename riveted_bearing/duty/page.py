@@ -9,6 +9,7 @@ from scipy.stats import t as student
 from .. import charts
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
+from ..raceways import card
 from ..report import figure
 from ..results import write_atomically
 from ..summary import RPM
@@ -32,6 +33,7 @@ def write_page(life, path, notes, warnings=()):
         rows=list(part_rows(life)),
         notes=notes,
         warnings=[*life.mission.warnings, *warnings],
+        told=life.estimate.life <= LONGEST,
         charts={
             name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label)
             for name, (draw, size, label) in CHARTS.items()
@@ -47,8 +49,9 @@ def share_text(share):
 def cards(life):
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
-    yield "Life", hours_text(found.life), f"{life.place} · Miner's sum 1"
+    yield "Life of the rivets", hours_text(found.life), f"{life.place} · Miner's sum 1"
     yield f"{100 * settings['confidence']:g} % interval", interval_text(*ends_of(life)), width_text(life)
+    yield "Life of the raceways", *card(life.mission.raceways())
     yield "Mission", *mission_text(life)
     yield (
         "Runs",
@@ -97,7 +100,9 @@ def open_text(ends):
 
 
 def width_text(life):
-    """How wide the interval is, or which of its ends are open and what closes them."""
+    """How wide the interval is, or which of its ends are open and what closes them; nothing of one beyond LONGEST."""
+    if min(life.low, life.estimate.life) > LONGEST:
+        return "longer than a life can be told"
     if ends := open_ends(*ends_of(life)):
         return open_text(ends)
     return f"half-width {percent(life.estimate.half_width)} of life"
@@ -148,8 +153,9 @@ def rate_at_place(life, i):
 def life_chart(fig, life):
     """How likely each life is by the scatter of the runs, the interval shaded."""
     ax, found = fig.subplots(), life.estimate
-    if not math.isfinite(found.life):
-        ax.text(0.5, 0.5, "no damage", ha="center", transform=ax.transAxes)
+    if found.life > LONGEST:
+        ax.text(0.5, 0.5, endless_text(found.life), ha="center", transform=ax.transAxes)
+        ax.set(xticks=[], yticks=[])
         return
     beyond = min(max(BEYOND * found.half_width, math.log(found.life / life.low)), BEYOND * math.log(OPEN)) or 0.1
     hours, likely = life_density(found, beyond)
@@ -165,6 +171,13 @@ def life_chart(fig, life):
         ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
         ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+
+
+def endless_text(life):
+    """Why there is no scatter to draw of a life beyond LONGEST [h]."""
+    if not math.isfinite(life):
+        return "no damage"
+    return f"{hours_text(life)}: the S–N curve is not known\nfor so many cycles, so that its scatter says nothing"
 
 
 def life_density(found, beyond):

@@ -4,7 +4,7 @@ worst rivet, and digests of all files.
 A mission is judged by its runs and, for peaks, pressures and films, by one more run of each point and event, with the
 seed whose run had the largest damage.  A result of `run` is judged as if it went on like that.  Utilisation is
 
-    life                  target/life
+    life                  target/life, of the rivets and of the raceways
     fatigue, per place    1/x; with all stresses x times as large (preload's share included) the place just reaches the
                           target.  Without a target: largest amplitude over that of the S-N curve's knee
     contact pressure      largest pressure over bearing.p_limit
@@ -25,10 +25,13 @@ from .. import charts
 from ..assumed import assumed_rows, measured_in
 from ..design.bench import display_of
 from ..errors import UserError, shortlist
+from ..fmu import Model
 from ..in_run import alone_note, change_lines
 from ..life import CHANNELS, cycle_damages, fatigue_law_at
 from ..pages import save_page
 from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
+from ..raceways import Raceways, life_text
+from ..raceways import of_result as raceways_of
 from ..report import curve, figure
 from ..runner import simulate
 from ..summary import (
@@ -50,11 +53,12 @@ from .sn import damage_of_matrix
 from .starts import started
 
 MIXED = 1.0  # film over roughness: below it asperities carry
+SLIP = 0.1  # of the cage's speed: beyond it balls skid
 SCALES = (0.05, 20.0)  # of stress, between which the target is looked for
 HALVINGS = 12  # of the logarithm of their ratio: to 0.15 % of stress
 OF_PLACE = ("Head, fatigue", "Middle, fatigue")
-MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 6, 3, 5, 4, 2
-LINES, CHARACTERS = 11, 90  # of all texts of the basis together; of a line
+MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 8, 3, 5, 4, 2
+LINES, CHARACTERS = 9, 90  # of all texts of the basis together; of a line
 
 STATES = {"good": "✓", "bad": "✗", "open": "?", "": ""}
 LIMITS = {  # event.* -> in words
@@ -88,7 +92,7 @@ class Evidence:
     life, low, high [h], None where nothing is known (untold: why not), with place and interval in words; scaled(x): shortest lives [h] of
     heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
     [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
-    one that decides; rivet: number of the one that fails first.
+    one that decides; rivet: number of the one that fails first; raceways: their Raceways.
     """
 
     life: float | None
@@ -104,6 +108,7 @@ class Evidence:
     rivet: int
     damage: tuple  # of each rivet in the worst part, at the worse of its places; by it `rivet` is the first to fail
     untold: str = ""
+    raceways: Raceways = field(default_factory=Raceways, repr=False)
 
 
 @dataclass(frozen=True)
@@ -167,6 +172,7 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         mission.parts[worst].name,
         rivet,
         worse_places(of_rivets),
+        raceways=mission.raceways(),
     )
 
 
@@ -249,8 +255,8 @@ def knees_of(strength, laws):
     return (None if strength.table is not None else strength.factor * strength.law.sigma_D,) * 2
 
 
-def of_result(result, name):
-    """Evidence of one run that is taken to go on as it did."""
+def of_result(result, name, raceways):
+    """Evidence of one run that is taken to go on as it did, with its Raceways."""
     if not has_statistics(result) or result.parameters.get("scene.stress") == "off":
         raise UserError(f"{name}: no stress after start.settle: a summary needs a longer run, with stress")
     if not columns(result, "rivet[", "].sigma_head"):
@@ -289,6 +295,7 @@ def of_result(result, name):
         k + 1,
         worse_places(damage),
         untold,
+        raceways,
     )
 
 
@@ -304,20 +311,38 @@ def why_no_life(result):
 
 
 def judged(evidence, target):
-    """State, headline and reason; target: hours or None."""
+    """State, headline and reason, of rivets and raceways together; target: hours or None."""
     if evidence.life is None:
         return "open", "No life can be told", evidence.untold
-    life = hours_text(evidence.life)
+    found, life = evidence.raceways, hours_text(evidence.life)
+    of_raceways = f"raceways {life_text(found)}"
     if target is None:
-        return "", f"Life {life}", "no target was given (--target)"
-    wanted, low, high = (hours_text(x) for x in (target, evidence.low or evidence.life, evidence.high or evidence.life))
+        return "", f"Life of the rivets {life}", f"{of_raceways}; no target was given (--target)"
+    wanted = hours_text(target)
+    state, reason = rivets_judged(evidence, target)
+    states = [state, *([] if found.untold else [raceways_judged(found, target)])]
+    worst = next(each for each in ("bad", "open", "good") if each in states)
+    verdict = {"bad": f"Misses the target of {wanted}", "open": f"Target of {wanted} not safe"}
+    meets = f"{'Rivets meet' if found.untold else 'Meets'} the target of {wanted}"
+    return worst, verdict.get(worst, meets), f"rivets {reason}; {of_raceways}"
+
+
+def rivets_judged(evidence, target):
+    """State and reason of the rivets against a target [h]."""
+    life, low, high = (
+        hours_text(x) for x in (evidence.life, evidence.low or evidence.life, evidence.high or evidence.life)
+    )
     if evidence.life < target:
         sure = evidence.high is not None and evidence.high < target
-        reason = f"even the upper end of the interval, {high}, is below it" if sure else f"life {life}"
-        return "bad", f"Misses the target of {wanted}", reason
+        return "bad", f"{life}, even the upper end of the interval, {high}, is below it" if sure else life
     if evidence.low is not None and evidence.low < target:
-        return "open", f"Target of {wanted} not safe", f"life {life}, but the interval begins at {low}"
-    return "good", f"Meets the target of {wanted}", f"life {life}" + (f", at least {low}" if evidence.low else "")
+        return "open", f"{life}, but the interval begins at {low}"
+    return "good", life + (f", at least {low}" if evidence.low else "")
+
+
+def raceways_judged(found, target):
+    """State of Raceways against a target [h]: open where it hangs on an assumed cleanliness."""
+    return "good" if min(found.lives) >= target else "bad" if max(found.lives) < target else "open"
 
 
 def reserve(evidence, place, target):
@@ -338,7 +363,7 @@ def checks(evidence, target):
     """The lines of the verdict."""
     if evidence.life is not None:
         use = target / evidence.life if target and math.isfinite(evidence.life) and evidence.life > 0.0 else None
-        state, _, _ = judged(evidence, target)
+        state = rivets_judged(evidence, target)[0] if target else ""
         yield Check(
             "First rivet to fail",
             f"{hours_text(evidence.life)} ({evidence.interval}), {evidence.place}",
@@ -348,6 +373,7 @@ def checks(evidence, target):
         )
     for place, title in enumerate(OF_PLACE):
         yield fatigue_check(evidence, place, title, target)
+    yield from raceway_checks(evidence, target)
     yield from pressure_checks(evidence.results)
     yield from film_checks(evidence.results)
 
@@ -369,6 +395,33 @@ def fatigue_check(evidence, place, title, target):
         f"S–N curve's knee {1e-6 * evidence.knees[place]:.3g} MPa",
         evidence.amplitudes[place] / evidence.knees[place],
     )
+
+
+def raceway_checks(evidence, target):
+    """Life of the raceways, and their least load with the cage's slip."""
+    found = evidence.raceways
+    if found.untold:
+        return
+    lives = found.lives
+    yield Check(
+        "Raceways",
+        life_text(found),
+        f"at least {hours_text(target)}" if target else "",
+        target / min(lives) if target else None,
+        raceways_judged(found, target) if target else "",
+    )
+    if math.isfinite(least := found.least_load):
+        slips = [slip for result in evidence.results.values() if (slip := mean_slip(result)) is not None]
+        slip = f", cage slip up to {100.0 * max(slips):.2g} %" if slips else ""
+        state = "good" if least >= 1.0 and max(slips, default=0.0) <= SLIP else "open"
+        allowed = f"minimum load; slip {100.0 * SLIP:.0f} %"
+        yield Check("Load, slip", f"{least:.3g} times the minimum load{slip}", allowed, None, state)
+
+
+def mean_slip(result):
+    """Mean slip of the cage after settling, None if it was not recorded."""
+    slip = result.data.get("cage.slip_ratio")
+    return None if slip is None else abs(float(slip[settled(result)].mean()))
 
 
 def pressure_checks(results):
@@ -601,13 +654,14 @@ def write_sheet(sheet, path):
     )
 
 
-def result_sheet(result, path, fmu=None, target=None, decides=None):
-    """The Sheet of a file of results; fmu: path of the FMU for its digest, None if it is not there."""
+def result_sheet(result, path, fmu=None, target=None, decides=None, cleanliness=None):
+    """The Sheet of a file of results; fmu: path of the FMU for its digest and ratings, None if it is not there."""
     about = result.about
     basis = dict(about.get("basis", {}))
     if "S-N curve" not in basis:
         basis["S-N curve"] = curve(result)
-    evidence, changed = of_result(result, path), "; ".join(change_lines(result))
+    raceways = raceways_of(Model(fmu) if fmu else None, result, cleanliness)
+    evidence, changed = of_result(result, path, raceways), "; ".join(change_lines(result))
     if changed:
         changed = f"Changed {changed}"
     return make_sheet(

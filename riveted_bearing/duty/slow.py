@@ -2,7 +2,7 @@
 
 from ..errors import shortlist
 from ..runner import turns
-from ..summary import COUNTED, SETTLED
+from ..summary import COUNTED, ROUNDED, SETTLED
 
 KINDS = {  # of turns(): revolutions wanted, what happens with fewer, and the key that makes more
     "settle_turns": (SETTLED, "damage begins to count after", "parameters.start.settle"),
@@ -14,9 +14,13 @@ def slow_warnings(parts, model):
     """Sentences on the simulated points with few revolutions, a shaft at rest apart: at a low speed the start of a run
     counts, or chance does.
     """
-    found = {part.name: turns(model, part.scene) for part in parts if part.scene is not None and not part.event}
+    found = {
+        part.name: turns(model, part.scene, part.scene.t_end)
+        for part in parts
+        if part.scene is not None and not part.event
+    }
     for kind, (wanted, words, key) in KINDS.items():
-        slow = {name: of[kind] for name, of in found.items() if 0.0 < of[kind] < wanted}
+        slow = {name: of[kind] for name, of in found.items() if 0.0 < of[kind] < ROUNDED * wanted}
         if slow:
             least = min(slow.values())
             yield (
