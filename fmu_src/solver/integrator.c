@@ -202,9 +202,9 @@ static double verlet_length(void *context, double left)
 // Equal steps are watched by the error that the default method would test, in parts of what it accepts at its default
 // tolerance [1], whatever the host's is.  Its mean runs over MEAN_OVER [s].  In 200 scenes drawn at random (docs/real_time.md) the
 // statistics are right where it stays below 0.5, and wrong by ten per cent and more from 1 on.  One step counts MOST_ERROR at
-// most: a load that jumps makes one error.  A step beyond DIVERGED, 50 m/s in the mean of all velocities, has left
+// most: a load that jumps makes one error.  A step beyond DIVERGED, 5 m/s in the mean of all velocities, has left
 // the range of the model.
-static const double DEFAULT_TOLERANCE = 1e-3, MEAN_OVER = 0.01, MOST_ERROR = 100.0, DIVERGED = 1e5;
+static const double DEFAULT_TOLERANCE = 1e-3, MEAN_OVER = 0.01, MOST_ERROR = 100.0, DIVERGED = 1e4;
 
 // Takes note of a fixed step's error; returns it, or infinity for a step that the run cannot go on with.
 static double watch_error(Integrator *in, double h, double error)
@@ -504,7 +504,7 @@ static double try_step(Integrator *in)
 // The error goes with the third power of the length.
 void integrator_fix_step(Integrator *in)
 {
-    const double WANTED = 0.35, AT_ONCE = 0.5;  // mean error; shortest length / the one tried before
+    const double WANTED = 0.1, AT_ONCE = 0.5;  // mean error; shortest length / the one tried before
 
     enum { TRIALS = 6 };
 
