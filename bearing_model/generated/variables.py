@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ba386f1e-9e9b-5cbe-b4aa-ac0e85da87e2}"
+MODEL_GUID = "{a8f06ddb-796a-1246-416d-f85c7516ab23}"
 Z = 9
 
 
@@ -123,7 +123,13 @@ ASSUMPTIONS = {
     "cage.pocket_clearance": (0.5, 2.0, 0.28, "0.1 to 0.4 mm are usual in a 6207"),
     "cage.guide_clearance": (0.5, 2.0, 0.21, "0.1 to 0.4 mm are usual in a 6207"),
     "oil.eta": (0.4, 2.1, 0.17, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
+    "oil.B": (0.5, 2.0, 0.06, "traction of other oils than 4109 at small slip"),
     "oil.rho_mix": (0.25, 1.3, 0.03, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
+    "oil.A": (0.75, 1.5, 0.03, "0.03 to 0.06 in full sliding; SKF: 0.04 synthetic, 0.05 mineral oils"),
+    "oil.C": (0.6, 1.5, 0.03, "traction of other oils than 4109 at large slip"),
+    "oil.rho": (0.9, 1.1, 0.02, "oils from PAO to ester, hot"),
+    "oil.alpha": (0.6, 1.6, 0.004, "oils from ester to mineral oil, hot"),
+    "oil.sigma_race": (0.25, 2.0, 0.0, "fine to usual finish; in full film the film ratio alone moves with it"),
 }
 
 # Items of enumerations that are gone: number and reason by type and name.
@@ -361,7 +367,7 @@ PARAMETERS = {
         Variable("scene.breakage", 1806, "Switch", "1", None, 1, None, None, 1, None, "Whether a rivet breaks at the end of the communication step in which its damage reaches 1", "default", False, None),
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: mean, RMS and 99.9 % quantile of force and stress within 1 % or their scatter of the limit; 99.9 % head stress in scene R 3 %, with rigid halves in F 1.2 %", False, None),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5", False, "it decides on the states and their meaning"),
-        Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed, at least 1 ns (0: derived at the start; solver.step_size shows it)", "0: derived at the start from the cage's fastest vibration and the errors of 30 ms on trial, at most a tenth of a pocket's pulse", False, "it decides on the states and their meaning"),
+        Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed, at least 1 ns (0: derived at the start; solver.step_size shows it)", "0: derived at the start from the cage's fastest vibration and the errors of 30 ms on trial; at most a tenth of a pocket's pulse", False, "it decides on the states and their meaning"),
         Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms", False, None),
         Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, 20000 with solver.method = fixed", "work limit instead of a hung host: at most 0.2 s of processor time for 0.1 ms", False, None),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default", False, "it belongs to the start"),

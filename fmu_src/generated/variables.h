@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ba386f1e-9e9b-5cbe-b4aa-ac0e85da87e2}"  // digest of the table
+#define MODEL_GUID "{a8f06ddb-796a-1246-416d-f85c7516ab23}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
