@@ -93,8 +93,8 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 // forces that are constant over a step then feed by a few per cent, without an error that shows.
 double cage_fixed_step(const Model *model)
 {
-    const double bears = model->modes ? 2.0 * model->modes->substep
-                                      : RIGID_TURN / sqrt(rigid_fastest(model->p, model->d));
+    const double bears =
+        model->modes ? 2.0 * model->modes->substep : RIGID_TURN / sqrt(rigid_fastest(model->p, model->d));
     return fmin(bears, TENTH_OF_A_PULSE);
 }
 

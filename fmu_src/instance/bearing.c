@@ -550,6 +550,12 @@ PartStatus part_step(Bearing *b, double t_end)
                     "t = %.9g s: the work limit is reached, %.0f steps since %.9g s (solver.max_steps = %d); "
                     "step size %g s",
                     s->integrator.t, most, t_begin, s->p.solver.max_steps, s->integrator.h);
+    else if (is_fixed(b))
+        bearing_log(b, LOG_ERROR,
+                    "t = %.9g s: solver.method = fixed: a step of %g s leads to no state of a bearing, after "
+                    "%g steps "
+                    "since %.9g s; a smaller solver.step may bear it (code %d)",
+                    s->integrator.t, s->integrator.h, steps, t_begin, status);
     else
         bearing_log(
             b, LOG_ERROR,
