@@ -47,7 +47,7 @@ def housing_power(model, w):
 
 
 def frame_power(model, w):
-    """Power of gravity and of the frame's inertia forces into balls and cage [W], [..., 1]."""
+    """Power of gravity and of the frame's inertia forces into balls and cage, less cage_widening [W], [..., 1]."""
     frame, d = model.ring_load, model.d
     place, v = (
         vec_to_global(value, w.cos_theta, w.sin_theta) for value in (vec(w.x, w.r, 0.0), vec(w.v_x, w.v_r, w.v_t))
@@ -55,10 +55,11 @@ def frame_power(model, w):
     power = ball_array_sum(
         d.m * vec_dot(frame_acceleration(frame, place, v), v) - d.J * frame.frame_omega_dot * w.omega_x
     )
-    for half in w.half:
+    for half, more_J in zip(w.half, w.elastic.more_J, strict=True):
         v = half.v + vec_cross(half.Omega, half.c)
         force = model.p.cage.m * frame_acceleration(frame, half.x + half.c, v)
         power = power + vec_dot(force, v) + vec_dot(frame_moment(frame, half, d.J_p, d.J_t), half.Omega)
+        power = power - more_J * frame.frame_omega_dot * (half.s + frame.frame_omega)
     return power
 
 

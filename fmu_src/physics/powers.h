@@ -101,7 +101,7 @@ static inline bool frame_has_power(const RingLoad *ring_load)
     return field || frame_turns(ring_load);
 }
 
-// Power of gravity and of the frame's inertia forces into balls and cage.
+// Power of gravity and of the frame's inertia forces into balls and cage, less cage_widening.
 static inline scalar frame_power(const Model *model, const Work *w)
 {
     const RingLoad *frame = model->ring_load;
@@ -126,6 +126,7 @@ static inline scalar frame_power(const Model *model, const Work *w)
         frame_acceleration(frame, place, v, acc);
         frame_moment(frame, half, model->d->J_p, model->d->J_t, M_f);
         power += model->p->cage.m * dot3(acc, v) + dot3(M_f, half->Omega);
+        power -= w->elastic.more_J[h] * frame->frame_omega_dot * (half->s + frame->frame_omega);
     }
     return power;
 }
