@@ -11,6 +11,7 @@
 #include "physics/housing.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
+#include "solver/escape.h"
 #include "solver/start.h"
 
 #include <stdio.h>
@@ -501,14 +502,19 @@ PartStatus part_step(Bearing *b, double t_end)
 
     // one advance for each stretch between edges of pulses; with fixed steps, in which pulses are averaged, for each step
     int status = 0;
+    char reason[256] = "";
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
         begin_trajectory(b, u, t_begin, frame_angle, ring_angle, stop);
         const long left = (long)fmax(most - (s->integrator.steps - steps_before), 1.0);
         status = integrator_advance(b->integrator, stop, left);
+        if (status == ADVANCE_ESCAPED) {
+            const Escape escape = escape_find(&b->model, &b->w);
+            escape_text(&escape, reason, sizeof reason);
+        }
         end_trajectory(b);
     }
-    if (is_fixed(b) && s->integrator.f_is_current) {  // outputs are those of the last evaluation
+    if (is_fixed(b) && status == 0 && s->integrator.f_is_current) {  // outputs are those of the last evaluation
         memcpy(b->y_dot, s->integrator.now.f, sizeof b->y_dot);
         b->evaluated = true;
     }
@@ -529,7 +535,9 @@ PartStatus part_step(Bearing *b, double t_end)
         return PART_DISCARD;
     }
     const double steps = s->integrator.steps - steps_before;
-    if (steps >= most)
+    if (*reason)
+        bearing_log(b, LOG_ERROR, "t = %.9g s: %s: the run ends", s->integrator.t, reason);
+    else if (steps >= most)
         bearing_log(b, LOG_ERROR,
                     "t = %.9g s: the work limit is reached, %.0f steps since %.9g s (solver.max_steps = %d); "
                     "step size %g s",

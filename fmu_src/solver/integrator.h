@@ -43,6 +43,9 @@ void integrator_fix_step(Integrator *integrator);
 // Number of equal steps of that method in an advance of some length [s].
 double fixed_steps(double step, double length);
 
-// Steps to t_stop under the present load of the ring, at most max_steps.  Returns 0, or a negative code of
-// ARKODE if it cannot go on; the state is then that of the last accepted step.
+// Steps to t_stop under the present load of the ring, at most max_steps.  Returns 0, ADVANCE_ESCAPED before a step that
+// would end at a state of escape.h, whose evaluation is in w, or a negative code of ARKODE if it cannot go on; the
+// state is then that of the last accepted step.
+enum { ADVANCE_ESCAPED = 1 };
+
 int integrator_advance(Integrator *integrator, double t_stop, long max_steps);
