@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{7e82c1c5-1f76-4110-e486-2ff0252e087e}"
+MODEL_GUID = "{21d810fb-ce4b-ddfa-e33c-62ead21c31df}"
 Z = 9
 
 
@@ -402,10 +402,10 @@ INPUTS = {
         Variable("housing.tilt_y_dot", 39, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of housing.tilt_y", "at rest", False, None),
         Variable("housing.tilt_z_dot", 40, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of housing.tilt_z", "at rest", False, None),
         Variable("housing.omega", 41, "Real", "rad/s", "rev/min", 0.0, -15000.0, 15000.0, 1, None, "Speed of the outer ring about X", "outer ring at rest", False, None),
-        Variable("frame.a_x", 51, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along X of the frame", "frame at rest", False, None),
-        Variable("frame.a_y", 52, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along Y of the frame", "frame at rest", False, None),
-        Variable("frame.a_z", 53, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along Z of the frame", "frame at rest", False, None),
-        Variable("frame.omega", 54, "Real", "rad/s", "rev/min", 0.0, -15000.0, 15000.0, 1, None, "Speed of the frame about an axis parallel to X, frame.radius away on -Y", "frame at rest", False, None),
+        Variable("frame.a_x", 51, "Real", "m/s2", None, 0.0, -100000.0, 100000.0, 1, None, "Acceleration of the frame's axis of rotation along X of the frame", "frame at rest", False, None),
+        Variable("frame.a_y", 52, "Real", "m/s2", None, 0.0, -100000.0, 100000.0, 1, None, "Acceleration of the frame's axis of rotation along Y of the frame", "frame at rest", False, None),
+        Variable("frame.a_z", 53, "Real", "m/s2", None, 0.0, -100000.0, 100000.0, 1, None, "Acceleration of the frame's axis of rotation along Z of the frame", "frame at rest", False, None),
+        Variable("frame.omega", 54, "Real", "rad/s", "rev/min", 0.0, -5000.0, 5000.0, 1, None, "Speed of the frame about an axis parallel to X, frame.radius away on -Y", "frame at rest", False, None),
         Variable("frame.omega_dot", 55, "Real", "rad/s2", None, 0.0, -10000000.0, 10000000.0, 1, None, "Rate of frame.omega", "frame at rest", False, None),
         Variable("oil.T", 8301, "Real", "K", "degC", 359.0006, 200.0, 600.0, 1, None, "Temperature of the oil", "where MIL-PRF-23699 oil has 6 mPa.s", False, None),
         Variable("ring.T_i", 8302, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the inner ring", "assembly temperature", False, None),
@@ -587,6 +587,7 @@ OUTPUTS = {
         Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong", None, False, None),
         Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None, False, None),
         Variable("event.cage_yield", 7021, "Real", "1", None, None, None, None, 1, "event", "1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield", None, False, None),
+        Variable("event.energy_off", 7023, "Real", "1", None, None, None, None, 1, "event", "1 if bearing.energy_residual passes 2 % of the energy lost, or power_loss is negative: the results may be wrong", None, False, None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None, False, None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None, False, None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None, False, None),
@@ -597,6 +598,7 @@ OUTPUTS = {
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None, False, None),
         Variable("event.rivet_break_onsets", 7020, "Real", "1", None, None, None, None, 1, "event", "Communication steps since the start in which a rivet broke by its damage", None, False, None),
         Variable("event.motion_lag_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Onsets of catching up with a given motion since the start", None, False, None),
+        Variable("event.energy_off_onsets", 7024, "Real", "1", None, None, None, None, 1, "event", "Onsets of an energy residual beyond 2 % of the energy lost since the start", None, False, None),
         Variable("event.cage_yield_onsets", 7022, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a ribbon cage since the start", None, False, None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None, False, None),
     )

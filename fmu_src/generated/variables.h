@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{7e82c1c5-1f76-4110-e486-2ff0252e087e}"  // digest of the table
+#define MODEL_GUID "{21d810fb-ce4b-ddfa-e33c-62ead21c31df}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -573,6 +573,7 @@ typedef struct {
         scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar cage_yield;  // [1] 1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield
+        scalar energy_off;  // [1] 1 if bearing.energy_residual passes 2 % of the energy lost, or power_loss is negative: the results may be wrong
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
@@ -583,6 +584,7 @@ typedef struct {
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
         scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
         scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
+        scalar energy_off_onsets;  // [1] Onsets of an energy residual beyond 2 % of the energy lost since the start
         scalar cage_yield_onsets;  // [1] Onsets of yield of a ribbon cage since the start
     } event;
 } Outputs;
@@ -671,4 +673,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 407 };  // time is the first
+enum { N_VARIABLES = 409 };  // time is the first

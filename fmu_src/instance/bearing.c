@@ -112,9 +112,41 @@ static bool is_fixed(const Bearing *b)
     return b->s.p.solver.method == METHOD_FIXED;
 }
 
-double fixed_length(const Bearing *b)
+// Largest length of the steps of solver.method = fixed [s], 0 for the other methods.
+static double fixed_length(const Bearing *b)
 {
     return is_fixed(b) ? b->s.integrator.h : 0.0;
+}
+
+// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
+static void evaluate(Bearing *b)
+{
+    if (b->evaluated) return;
+    const IntegratorState *i = &b->s.integrator;
+    b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
+    b->evaluated = true;
+}
+
+static Event energy_event(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    const IntegratorState *i = &s->integrator;
+    const double E = energy_total(&b->model, i->now.y, &b->w);
+    const double residual = E - i->now.y[Y_WORK] - s->energy_start - s->energy_change;
+    const EnergyBalance balance = {residual, E + cage_widened(&b->w), s->exchanged, s->lost, i->sum.lost};
+    return event_of_energy(&balance);
+}
+
+// What follows from predicted velocities is no reason to warn.
+void events_here(Bearing *b, Event now[EVENT_COUNT])
+{
+    const InstanceState *s = &b->s;
+    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->force_peak, s->head_peak, s->mid_peak, now);
+    now[EVENT_RIVET_BREAK].count = s->breakage.latest;
+    now[EVENT_ENERGY_OFF] = energy_event(b);
+    if (now[EVENT_ENERGY_OFF].count == 0 || b->evaluated) return;
+    evaluate(b);
+    now[EVENT_ENERGY_OFF] = energy_event(b);
 }
 
 // Reports the events that begin at the state just reached; w holds the results there.
@@ -122,14 +154,14 @@ static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->force_peak, s->head_peak, s->mid_peak, now);
-    now[EVENT_RIVET_BREAK].count = s->breakage.latest;
+    events_here(b, now);
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
         const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE ||
-                            kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG;
+                            kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG ||
+                            kind == EVENT_ENERGY_OFF;
         const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
@@ -280,15 +312,6 @@ static void derive(Bearing *b)
     derive_at(b, b->s.initialized ? &b->s.u_now : &b->s.u[0]);
     hold_ring_load(b);
     work_init(&b->d, &b->w);
-}
-
-// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
-static void evaluate(Bearing *b)
-{
-    if (b->evaluated) return;
-    const IntegratorState *i = &b->s.integrator;
-    b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
-    b->evaluated = true;
 }
 
 static double present_energy(Bearing *b)
@@ -514,7 +537,8 @@ PartStatus part_step(Bearing *b, double t_end)
         }
         end_trajectory(b);
     }
-    if (is_fixed(b) && status == 0 && s->integrator.f_is_current) {  // outputs are those of the last evaluation
+    if (is_fixed(b) && status == 0 &&
+        s->integrator.f_is_current) {  // outputs are those of the last evaluation
         memcpy(b->y_dot, s->integrator.now.f, sizeof b->y_dot);
         b->evaluated = true;
     }
@@ -523,6 +547,7 @@ PartStatus part_step(Bearing *b, double t_end)
     change_temperature(b, &s->u[0], &s->u_now);
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
+    s->lost += s->integrator.sum.lost, s->exchanged += s->integrator.sum.exchanged;
     if (status == 0) loosen(b);
     const bool holds = status != 0 || break_rivets(b);
     if (clocked) b->cpu_time += cpu_clock() - before;

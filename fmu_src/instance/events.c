@@ -143,6 +143,15 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
     now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
 }
 
+Event event_of_energy(const EnergyBalance *balance)
+{
+    const double OF_LOST = 0.02, OF_HELD = 0.005, OF_EXCHANGED = 0.001, residual = fabs(balance->residual);
+    if (balance->power_loss < 0.0) return (Event){1, 1, balance->power_loss, 0.0};
+    const double limit = scalar_max(OF_LOST * balance->lost,
+                                    scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged));
+    return (Event){!(residual <= limit), 0, residual, limit};
+}
+
 bool event_onset(EventState *state, EventKind kind, const Event *now)
 {
     const bool onset = now->count > 0 && !state->active[kind];
@@ -242,6 +251,17 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
             "the cage yields: a ball pushes its pocket with %.4g N, and a half of the ribbon begins to yield "
             "under %.4g N; its displacements are those of an elastic sheet",
             now->value, now->limit);
+        return;
+    case EVENT_ENERGY_OFF:
+        if (now->element == 1)
+            snprintf(text, size, "bearing.power_loss is %.4g W in the mean: the results are wrong",
+                     now->value);
+        else
+            snprintf(
+                text, size,
+                "bearing.energy_residual of %.4g J passes %.4g J, 2 %% of the energy lost: the results may "
+                "be wrong; a smaller solver.tol or solver.step may help",
+                now->value, now->limit);
         return;
     case EVENT_MOTION_LAG: motion_text(now, text, size); return;
     case EVENT_COUNT: break;

@@ -384,9 +384,10 @@ typedef struct {
     double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
 } Housing;
 
-// What the shaft gives: torque about its axis [N.m] and power [W], or their integrals over time.
+// What the shaft gives: torque about its axis [N.m], power [W] and its amount, and the power that is lost, or their
+// integrals over time.
 typedef struct {
-    double torque, power;
+    double torque, power, exchanged, lost;
 } Exchange;
 
 // All that the right-hand side needs beside time and state.

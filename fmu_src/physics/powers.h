@@ -73,7 +73,8 @@ static inline scalar friction_torque(const Work *w)
 // What the shaft gives by the forces on the ring in w.
 static inline Exchange exchange_at(const Work *w)
 {
-    return (Exchange){friction_torque(w), shaft_power(w)};
+    const double power = shaft_power(w), lost = power_loss(w) + ball_array_sum(w->joint_dissipated);
+    return (Exchange){friction_torque(w), power, fabs(power), lost};
 }
 
 // Adds what it gives over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
@@ -81,6 +82,8 @@ static inline void exchange_add(double h, const Exchange *from, const Exchange *
 {
     sum->torque += 0.5 * h * (from->torque + to->torque);
     sum->power += 0.5 * h * (from->power + to->power);
+    sum->exchanged += 0.5 * h * (from->exchanged + to->exchanged);
+    sum->lost += 0.5 * h * (from->lost + to->lost);
 }
 #endif
 

@@ -603,8 +603,9 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 
     // What the shaft gives; films, switch and counters.
     const double LARGEST_EXCHANGE = 1e30;
-    fine &= values_are_within(&s->now.exchange.torque, 2, LARGEST_EXCHANGE) &&
-            values_are_within(&s->sum.torque, 2, LARGEST_EXCHANGE) &&
+    const size_t amounts = sizeof(Exchange) / sizeof(double);
+    fine &= values_are_within(&s->now.exchange.torque, amounts, LARGEST_EXCHANGE) &&
+            values_are_within(&s->sum.torque, amounts, LARGEST_EXCHANGE) &&
             values_are_within(&s->since, 1, LARGEST_TIME);
     fine &=
         values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);

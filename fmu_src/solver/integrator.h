@@ -10,7 +10,7 @@ typedef struct {
     VerletState now;
     double h;          // step size to go on with [s]
     int f_is_current;  // now.f is dy/dt at now.y under the present load of the ring
-    Exchange sum;      // what the shaft has given since the last communication point: integrals over time
+    Exchange sum;      // exchanged and lost since the last communication point: integrals over time
     double since;      // time of that point [s]
     double steps, rhs_evals, error_tests_failed;  // counts since the start
 } IntegratorState;

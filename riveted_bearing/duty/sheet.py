@@ -65,6 +65,7 @@ LIMITS = {  # event.* -> in words
     "no_clearance": "bearing without clearance",
     "ellipse_cut": "contact ellipse over the shoulder",
     "pocket_exit": "ball outside its pocket",
+    "energy_off": "energy residual beyond 2 % of the loss",
     "land_contact": "cage's land touches the ring",
 }
 ORDINARY = ("land_contact",)  # crossed in ordinary operation: told, but no fault
