@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{21d810fb-ce4b-ddfa-e33c-62ead21c31df}"
+MODEL_GUID = "{1b585674-a5c4-e061-c255-2ad462cc15e0}"
 Z = 9
 
 
@@ -582,6 +582,7 @@ OUTPUTS = {
         Variable("event.overpressure", 7004, "Real", "1", None, None, None, None, 1, "event", "Race contacts beyond bearing.p_limit", None, False, None),
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None, False, None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None, False, None),
+        Variable("event.rivet_overload", 7025, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_mid_peak exceeds the tensile strength fatigue.sigma_m: a real rivet tears", None, False, None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None, False, None),
         Variable("event.rivet_break", 7010, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
         Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong", None, False, None),
@@ -594,6 +595,7 @@ OUTPUTS = {
         Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None, False, None),
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None, False, None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None, False, None),
+        Variable("event.rivet_overload_onsets", 7026, "Real", "1", None, None, None, None, 1, "event", "Onsets of a rivet beyond its tensile strength since the start", None, False, None),
         Variable("event.step_too_long_onsets", 7019, "Real", "1", None, None, None, None, 1, "event", "Onsets of steps that are too long since the start", None, False, None),
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None, False, None),
         Variable("event.rivet_break_onsets", 7020, "Real", "1", None, None, None, None, 1, "event", "Communication steps since the start in which a rivet broke by its damage", None, False, None),

@@ -354,6 +354,8 @@ const Variable VARIABLES[N_VARIABLES] = {
     {"event.cage_yield_onsets", "1", 7022, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.cage_yield_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"event.energy_off", "1", 7023, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.energy_off), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"event.energy_off_onsets", "1", 7024, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.energy_off_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
+    {"event.rivet_overload", "1", 7025, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.rivet_overload), 0.0, -INFINITY, INFINITY, false, NULL, 0},
+    {"event.rivet_overload_onsets", "1", 7026, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_EVENT, -1, offsetof(Outputs, event.rivet_overload_onsets), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"loss.races", "W", 8101, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.races), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"loss.inlet", "W", 8102, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.inlet), 0.0, -INFINITY, INFINITY, false, NULL, 0},
     {"loss.spin", "W", 8103, 1, TYPE_REAL, CAUSALITY_OUTPUT, GROUP_ENERGY, -1, offsetof(Outputs, loss.spin), 0.0, -INFINITY, INFINITY, false, NULL, 0},

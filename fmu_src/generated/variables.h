@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{21d810fb-ce4b-ddfa-e33c-62ead21c31df}"  // digest of the table
+#define MODEL_GUID "{1b585674-a5c4-e061-c255-2ad462cc15e0}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -568,6 +568,7 @@ typedef struct {
         scalar overpressure;  // [1] Race contacts beyond bearing.p_limit
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        scalar rivet_overload;  // [1] Rivets whose sigma_mid_peak exceeds the tensile strength fatigue.sigma_m: a real rivet tears
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
         scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong
@@ -580,6 +581,7 @@ typedef struct {
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar rivet_overload_onsets;  // [1] Onsets of a rivet beyond its tensile strength since the start
         scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
         scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
@@ -673,4 +675,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 409 };  // time is the first
+enum { N_VARIABLES = 411 };  // time is the first

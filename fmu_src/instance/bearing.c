@@ -161,7 +161,7 @@ static void report_events(Bearing *b)
         event_text(kind, &now[kind], text, sizeof text);
         const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE ||
                             kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG ||
-                            kind == EVENT_ENERGY_OFF;
+                            kind == EVENT_ENERGY_OFF || kind == EVENT_RIVET_OVERLOAD;
         const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
@@ -561,7 +561,8 @@ PartStatus part_step(Bearing *b, double t_end)
     }
     const double steps = s->integrator.steps - steps_before;
     if (*reason)
-        bearing_log(b, LOG_ERROR, "t = %.9g s: %s: the run ends", s->integrator.t, reason);
+        bearing_log(b, LOG_ERROR, "t = %.9g s: %s: the run ends%s", s->integrator.t, reason,
+                    is_fixed(b) ? "; solver.method = fixed: a shorter solver.step may hold" : "");
     else if (steps >= most)
         bearing_log(b, LOG_ERROR,
                     "t = %.9g s: the work limit is reached, %.0f steps since %.9g s (solver.max_steps = %d); "

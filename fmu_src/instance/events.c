@@ -122,9 +122,13 @@ static void steps(const Model *model, const Work *w, double step, Event *event)
     add(event, 0, step * (1.0 - 1e-9), cage_longest_step(model, film, NULL));
 }
 
-static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
+static void rivets(const Parameters *p, const double head_peak[Z], const double mid_peak[Z], Event *yield,
+                   Event *overload)
 {
-    for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+    for (int k = 0; k < Z; k++) {
+        add(yield, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+        add(overload, k, mid_peak[k], p->fatigue.sigma_m);
+    }
 }
 
 void events_now(const Model *model, const Work *w, const MotionLag *lag, double step, double force_peak,
@@ -135,7 +139,7 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
     pockets(model, w, &now[EVENT_POCKET_EXIT]);
     races(model, w, &now[EVENT_ELLIPSE_CUT], &now[EVENT_OVERPRESSURE]);
     joints(model, w, &now[EVENT_JOINT_OPEN]);
-    rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
+    rivets(model->p, head_peak, mid_peak, &now[EVENT_RIVET_YIELD], &now[EVENT_RIVET_OVERLOAD]);
     clearance(model, &now[EVENT_NO_CLEARANCE]);
     steps(model, w, step, &now[EVENT_STEP_TOO_LONG]);
     if (rivet_table.half.yield_force > 0.0)
@@ -145,7 +149,7 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
 
 Event event_of_energy(const EnergyBalance *balance)
 {
-    const double OF_LOST = 0.02, OF_HELD = 0.005, OF_EXCHANGED = 0.001, residual = fabs(balance->residual);
+    const double OF_LOST = 0.02, OF_HELD = 0.005, OF_EXCHANGED = 0.0025, residual = fabs(balance->residual);
     if (balance->power_loss < 0.0) return (Event){1, 1, balance->power_loss, 0.0};
     const double limit = scalar_max(OF_LOST * balance->lost,
                                     scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged));
@@ -229,6 +233,13 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an "
                  "elastic rivet",
                  k, now->value, now->limit);
+        return;
+    case EVENT_RIVET_OVERLOAD:
+        snprintf(
+            text, size,
+            "rivet[%d] would tear: %.4g Pa in its middle against a tensile strength (fatigue.sigma_m) of "
+            "%.4g Pa; the stress is that of an elastic rivet",
+            k, now->value, now->limit);
         return;
     case EVENT_NO_CLEARANCE:
         snprintf(text, size,

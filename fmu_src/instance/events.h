@@ -12,12 +12,13 @@
 //   no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
 //   rivet yield    sigma_head_peak or sigma_mid_peak beyond the yield stress since the last communication point;
 //                  the stress is linear elastic
+//   rivet overload sigma_mid_peak beyond the tensile strength fatigue.sigma_m: a real rivet tears
 //   rivet break    a rivet's damage has reached 1 in the last communication step (breakage.h); each is reported
 //   cage yield     the largest pocket force since the last communication point exceeds the one under which a half of a
 //                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
 //   energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained: the integration is wrong.
 //                  Errors of the start and of pulses are small beside the energy that moves: 0.5 % of that in the bearing
-//                  and 0.1 % of that which the shaft has exchanged are allowed in any case
+//                  and 0.25 % of that which the shaft has exchanged are allowed in any case
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once
@@ -37,6 +38,7 @@ typedef enum {
     EVENT_MOTION_LAG,
     EVENT_CAGE_YIELD,
     EVENT_ENERGY_OFF,
+    EVENT_RIVET_OVERLOAD,
     EVENT_COUNT
 } EventKind;
 

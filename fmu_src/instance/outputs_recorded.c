@@ -97,6 +97,7 @@ static void fill_event(Bearing *b)
     b->out.event.step_too_long = now[EVENT_STEP_TOO_LONG].count;
     b->out.event.motion_lag = now[EVENT_MOTION_LAG].count;
     b->out.event.cage_yield = now[EVENT_CAGE_YIELD].count;
+    b->out.event.rivet_overload = now[EVENT_RIVET_OVERLOAD].count;
     b->out.event.energy_off = now[EVENT_ENERGY_OFF].count;
     b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
     b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
@@ -109,6 +110,7 @@ static void fill_event(Bearing *b)
     b->out.event.step_too_long_onsets = onsets[EVENT_STEP_TOO_LONG];
     b->out.event.motion_lag_onsets = onsets[EVENT_MOTION_LAG];
     b->out.event.cage_yield_onsets = onsets[EVENT_CAGE_YIELD];
+    b->out.event.rivet_overload_onsets = onsets[EVENT_RIVET_OVERLOAD];
     b->out.event.energy_off_onsets = onsets[EVENT_ENERGY_OFF];
 }
 

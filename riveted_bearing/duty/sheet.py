@@ -60,6 +60,7 @@ STATES = {"good": "✓", "bad": "✗", "open": "?", "": ""}
 LIMITS = {  # event.* -> in words
     "overpressure": "contact pressure beyond bearing.p_limit",
     "joint_open": "plates of a joint apart",
+    "rivet_overload": "rivet beyond its tensile strength",
     "rivet_yield": "rivet beyond its yield stress",
     "cage_yield": "ribbon cage beyond its yield stress",
     "no_clearance": "bearing without clearance",
