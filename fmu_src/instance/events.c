@@ -149,7 +149,7 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
 
 Event event_of_energy(const EnergyBalance *balance)
 {
-    const double OF_LOST = 0.02, OF_HELD = 0.005, OF_EXCHANGED = 0.0025, residual = fabs(balance->residual);
+    const double OF_LOST = 0.02, OF_HELD = 0.005, OF_EXCHANGED = 0.004, residual = fabs(balance->residual);
     if (balance->power_loss < 0.0) return (Event){1, 1, balance->power_loss, 0.0};
     const double limit = scalar_max(OF_LOST * balance->lost,
                                     scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged));

@@ -18,7 +18,7 @@
 //                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
 //   energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained: the integration is wrong.
 //                  Errors of the start and of pulses are small beside the energy that moves: 0.5 % of that in the bearing
-//                  and 0.25 % of that which the shaft has exchanged are allowed in any case
+//                  and 0.4 % of that which the shaft has exchanged are allowed in any case
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once

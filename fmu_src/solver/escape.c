@@ -59,9 +59,10 @@ Escape escape_find(const Model *model, const Work *w)
 {
     double pressed;
     Escape found = cage_find(model, w);
-    if (found.kind == ESCAPE_NONE) found = contact_find(model, w, &pressed);
     if (found.kind != ESCAPE_NONE) return found;
-    return pressed > 0.125 * model->d->bar ? balls_find(model, w) : found;
+    const Escape contact = contact_find(model, w, &pressed);
+    if (pressed > 0.125 * model->d->bar) found = balls_find(model, w);
+    return found.kind != ESCAPE_NONE ? found : contact;
 }
 
 void escape_text(const Escape *escape, char *text, size_t size)
@@ -71,8 +72,8 @@ void escape_text(const Escape *escape, char *text, size_t size)
     switch (escape->kind) {
     case ESCAPE_BALLS:
         snprintf(text, size,
-                 "ball[%d] and ball[%d] overlap: their centres are %.4g m apart, at least %.4g m is possible", j,
-                 j % Z + 1, escape->value, escape->limit);
+                 "ball[%d] and ball[%d] overlap: their centres are %.4g m apart, at least %.4g m is possible",
+                 j, j % Z + 1, escape->value, escape->limit);
         return;
     case ESCAPE_CAGE:
         snprintf(text, size,
