@@ -5,7 +5,7 @@ All forces on balls and cage together accelerate them; the outer ring carries th
 balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these forces.
 """
 
-from bearing_model.cage.cage import cage_losses
+from bearing_model.cage.cage import cage_drawn, cage_losses
 from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot, vec_to_global
 from bearing_model.physics.frame import frame_acceleration, frame_moment
@@ -55,12 +55,11 @@ def frame_power(model, w):
     power = ball_array_sum(
         d.m * vec_dot(frame_acceleration(frame, place, v), v) - d.J * frame.frame_omega_dot * w.omega_x
     )
-    for half, more_J in zip(w.half, w.elastic.more_J, strict=True):
+    for half in w.half:
         v = half.v + vec_cross(half.Omega, half.c)
         force = model.p.cage.m * frame_acceleration(frame, half.x + half.c, v)
         power = power + vec_dot(force, v) + vec_dot(frame_moment(frame, half, d.J_p, d.J_t), half.Omega)
-        power = power - more_J * frame.frame_omega_dot * (half.s + frame.frame_omega)
-    return power
+    return power - cage_drawn(w, frame.frame_omega_dot)
 
 
 def loss_terms(model, w):

@@ -3,7 +3,7 @@ ends before such a state.
 
     balls    two neighbours overlap, their centres closer than R_j + R_k: only the cage holds them apart
     cage     a half's centre is farther off the outer ring's axis than the clearance of its guidance and half of its
-             section, C + (D_o - D_i)/4, where its pockets end; or along it than the pockets' and half a ball
+             section, C + (D_o - D_i)/4, where its pockets end
     contact  a ball is pressed into a race or a pocket by more than half of its radius
 """
 
@@ -24,20 +24,13 @@ def contact_find(model, w):
 
 
 def cage_find(model, w):
-    cage = model.p.cage
-    across, along = (
-        model.d.play + 0.25 * (cage.D_o - cage.D_i),
-        0.5 * (cage.pocket_clearance + model.p.bearing.D),
-    )
+    across = model.d.play + 0.25 * (model.p.cage.D_o - model.p.cage.D_i)
     for h, half in enumerate(w.half, 1):
         at, y, z = (half.x - w.outer_x)[..., 0]
         e = np.hypot(y - at * w.outer_gamma, z + at * w.outer_beta).item()
         if e > across:
             allowed = f"its clearance and (cage.D_o - cage.D_i)/4 allow {across:.4g} m"
             return f"cage half {h} leaves the bearing: it is {e:.4g} m off the outer ring's axis; {allowed}"
-        if abs(at) > along:
-            allowed = f"(bearing.D + cage.pocket_clearance)/2 = {along:.4g} m is possible"
-            return f"cage half {h} leaves the bearing: it is {abs(at):.4g} m off its place along the axis; {allowed}"
     return ""
 
 

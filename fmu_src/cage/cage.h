@@ -183,8 +183,17 @@ INLINE scalar cage_widening(const Work *w, scalar frame_omega_dot)
 {
     scalar power = 0.0;
     for (int h = 0; h < 2; h++)
-        power += w->frame_omega * (0.5 * w->elastic.more_J_dot[h] * w->frame_omega +
-                                   w->elastic.more_J[h] * frame_omega_dot);
+        power += w->frame_omega *
+                 (0.5 * w->elastic.more_J_dot[h] * w->frame_omega + w->elastic.more_J[h] * frame_omega_dot);
+    return power;
+}
+
+// Power that the frame's rate draws from what the widened halves have gained of inertia [W].
+INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
+{
+    scalar power = 0.0;
+    for (int h = 0; h < 2; h++)
+        power += w->elastic.more_J[h] * frame_omega_dot * (w->half[h].s + w->frame_omega);
     return power;
 }
 

@@ -129,7 +129,6 @@ static inline scalar frame_power(const Model *model, const Work *w)
         frame_acceleration(frame, place, v, acc);
         frame_moment(frame, half, model->d->J_p, model->d->J_t, M_f);
         power += model->p->cage.m * dot3(acc, v) + dot3(M_f, half->Omega);
-        power -= w->elastic.more_J[h] * frame->frame_omega_dot * (half->s + frame->frame_omega);
     }
-    return power;
+    return power - cage_drawn(w, frame->frame_omega_dot);
 }

@@ -30,14 +30,12 @@ static Escape cage_find(const Model *model, const Work *w)
 {
     const Parameters *p = model->p;
     const double across = model->d->play + 0.25 * (p->cage.D_o - p->cage.D_i);
-    const double along = 0.5 * (p->cage.pocket_clearance + p->bearing.D);
     for (int h = 0; h < 2; h++) {
         const double *x = w->half[h].x, at = x[0] - w->outer_x[0];
         const double e_y = x[1] - w->outer_x[1] - at * w->outer_gamma,
                      e_z = x[2] - w->outer_x[2] + at * w->outer_beta;
         const double e_2 = e_y * e_y + e_z * e_z;
         if (e_2 > across * across) return (Escape){ESCAPE_CAGE, h, sqrt(e_2), across};
-        if (fabs(at) > along) return (Escape){ESCAPE_ALONG, h, fabs(at), along};
     }
     return (Escape){ESCAPE_NONE, 0, 0.0, across};
 }
@@ -79,12 +77,6 @@ void escape_text(const Escape *escape, char *text, size_t size)
         snprintf(text, size,
                  "cage half %d leaves the bearing: it is %.4g m off the outer ring's axis; its clearance and "
                  "(cage.D_o - cage.D_i)/4 allow %.4g m",
-                 j, escape->value, escape->limit);
-        return;
-    case ESCAPE_ALONG:
-        snprintf(text, size,
-                 "cage half %d leaves the bearing: it is %.4g m off its place along the axis; (bearing.D + "
-                 "cage.pocket_clearance)/2 = %.4g m is possible",
                  j, escape->value, escape->limit);
         return;
     case ESCAPE_CONTACT:

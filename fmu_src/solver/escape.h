@@ -3,7 +3,7 @@
 //
 //   balls    two neighbours overlap, their centres closer than R_j + R_k: only the cage holds them apart
 //   cage     a half's centre is farther off the outer ring's axis than the clearance of its guidance and half of its
-//            section, C + (D_o - D_i)/4, where its pockets end; or along it than the pockets' and half a ball
+//            section, C + (D_o - D_i)/4, where its pockets end
 //   contact  a ball is pressed into a race or a pocket by more than half of its radius
 #pragma once
 
@@ -11,7 +11,7 @@
 
 #include <stddef.h>
 
-typedef enum { ESCAPE_NONE, ESCAPE_BALLS, ESCAPE_CAGE, ESCAPE_ALONG, ESCAPE_CONTACT } EscapeKind;
+typedef enum { ESCAPE_NONE, ESCAPE_BALLS, ESCAPE_CAGE, ESCAPE_CONTACT } EscapeKind;
 
 // element: of two balls the first, the half, or 4 j + 0 inner race, 1 outer race, 2 pocket of ball j.
 typedef struct {

@@ -253,6 +253,7 @@ static void report(int line, const char *function, const char *file, const char 
 {
     (void)file, (void)sun;
     const Integrator *in = user;
+    if (in->escaped) return;
     stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
