@@ -220,7 +220,7 @@ def check_guidance(p):
     slides = "its drilled pockets slide along the radius; outer (1) is allowed"
     require(
         p.cage.shape == variables.CageShape.RIBBON or p.cage.guidance != variables.CageGuidance.BALLS,
-        f"cage.guidance = balls: a machined cage (cage.shape) has no such guidance, {slides}",
+        f"cage.guidance = 2 (balls): a machined cage (cage.shape) has no such guidance, {slides}",
     )
 
 

@@ -242,7 +242,7 @@ static bool check_guidance(Bearing *b)
     bearing_log(
         b, LOG_ERROR, "%s",
         ribbon ? "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed"
-               : "cage.guidance = balls: a machined cage (cage.shape) has no such guidance, its drilled "
+               : "cage.guidance = 2 (balls): a machined cage (cage.shape) has no such guidance, its drilled "
                  "pockets slide along the radius; outer (1) is allowed");
     return false;
 }
