@@ -26,7 +26,10 @@ from riveted_bearing.duty.miner import Duty, lives, simple_duty
 from riveted_bearing.duty.mission import LIFE, plan_mission
 from riveted_bearing.duty.notes import matrix_warnings, notes
 from riveted_bearing.duty.page import life_density, write_page, write_picture
+from riveted_bearing.duty.starts import started
 from riveted_bearing.fmu import Model
+from riveted_bearing.runner import simulate
+from riveted_bearing.scene import History
 from riveted_bearing.tables import BLOCK, Wanted
 from riveted_bearing.units import SECONDS
 
@@ -647,6 +650,21 @@ def test_what_matrices_find_counts_by_the_damage_in_the_mission(model, monkeypat
         runs.per[runs.keys[c, 0]] = 3600.0
     monkeypatch.setattr("riveted_bearing.duty.assess.damages_counted", lambda found, laws, own: (found, own))
     assert runs.counted() == pytest.approx(0.7, rel=1e-5)
+
+
+def test_every_second_run_is_run_up(model):
+    """From a tenth of its speed within 20 ms, so that its halves lie apart as a machine's do; a speed that varies is the user's own."""
+    scene = mission_of(model, [(1, {})]).cases[0].scene
+    scene = replace(scene, parameters=scene.parameters | {"start.settle": 0.05}, t_end=0.07, outputs=("cage.dislocation",))
+    at_speed, run_up = (started(scene, model, 5, s) for s in (2, 3))
+    assert (at_speed.parameters["start.seed"], run_up.parameters["start.seed"]) == (7, 8)
+    assert at_speed.inputs == scene.inputs
+    speed = run_up.inputs["shaft.omega"]
+    assert speed([0.0, 0.02, 1.0]) == pytest.approx(np.array([0.1, 1.0, 1.0]) * model.default(model.inputs["shaft.omega"]))
+    apart = [simulate(model, run).data["cage.dislocation"][-200:].mean() for run in (at_speed, run_up)]
+    assert apart[1] > 2.0 * apart[0]  # observed 0.6 and 5 um
+    varies = replace(scene, inputs={"shaft.omega": History(np.array([0.0, 0.05]), np.array([500.0, 900.0]))})
+    assert started(varies, model, 5, 3).inputs == varies.inputs
 
 
 def test_matrices_that_miss_damage_are_told_with_a_step_that_finds_it(model):

@@ -20,6 +20,7 @@ from .cycles import OUTPUTS, rainflow_columns, rainflow_fields, stored_cycles
 from .miner import Duty, part_rates
 from .mission import Mission
 from .sn import Strength, damage_of_cycles, damage_of_matrix, read_strength
+from .starts import started
 
 PLACES = ("head", "mid")
 SAFETY = 10.0  # of the bound on the damage of points that are not simulated
@@ -70,9 +71,7 @@ class Runs:
         outputs = tuple(name for name in model.outputs if any(matches(name, pattern) for pattern in OUTPUTS))
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
-                scene = replace(
-                    case.scene, outputs=outputs, parameters=case.scene.parameters | {"start.seed": first + s}
-                )
+                scene = started(replace(case.scene, outputs=outputs), model, first, s)
                 self.keys[c, s] = key_of(scene, fingerprint)
                 scenes[self.keys[c, s]] = scene
         self.sweep = Sweep(

@@ -48,6 +48,7 @@ from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
 from .page import ends_of, interval_text, mission_text, part_rows, share_text
 from .sn import damage_of_matrix
+from .starts import started
 
 MIXED = 1.0  # film over roughness: below it asperities carry
 SCALES = (0.05, 20.0)  # of stress, between which the target is looked for
@@ -143,13 +144,10 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         if mission.settings["rivets"] == "each":
             damage = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
         most = np.unravel_index(np.argmax(damage), damage.shape)
-        seed = mission.settings["seed"] + int(most[0])
         if i == worst or rivet is None:
             rivet = int(most[1]) // 2 + 1
-        scene = mission.cases[c].scene
-        results[mission.parts[i].name] = simulate(
-            model, replace(scene, parameters=scene.parameters | {"start.seed": seed})
-        )
+        scene = started(mission.cases[c].scene, model, mission.settings["seed"], int(most[0]))
+        results[mission.parts[i].name] = simulate(model, scene)
     if mission.parts[worst].name not in results:  # interpolated: from the simulated part with the largest share
         worst = max((i for i, _ in chosen), key=lambda i: share[i])
     matrices = [runs.matrices[key] for key in runs.damages]
