@@ -413,6 +413,24 @@ def test_tilts_and_moments_without_effect_are_named(core, mode, inputs, said):
 
 
 @pytest.mark.c_only
+def test_a_frame_may_be_too_fast_for_its_arm(core):
+    """An arm of 0.15 m accelerates the bearing by omega^2 R and omega_dot R: 1e5 m/s2, and a little more, in C and Python."""
+    arm = {"frame.radius": 0.15}
+    for name, most in (("frame.omega", np.sqrt(1e5 / 0.15)), ("frame.omega_dot", 1e5 / 0.15)):
+        Instance(core, arm, {name: (1.0 - 1e-6) * most})
+        Model.of(arm, {name: (1.0 - 1e-6) * most})
+        for begin in (lambda inputs: Instance(core, arm, inputs), lambda inputs: Model.of(arm, inputs)):
+            with pytest.raises(
+                ValueError, match=f"{name} = .*frame.radius = 0.15 m: the bearing's centre is accelerated"
+            ):
+                begin({name: (1.0 + 1e-6) * most})
+    bearing = Instance(core, arm, {})
+    bearing.set(**{"frame.omega": 1000.0})
+    with pytest.raises(ArithmeticError, match="is accelerated by 150000 m/s2; at most 100000 m/s2 is allowed"):
+        bearing.step(1e-4)
+
+
+@pytest.mark.c_only
 def test_limits_of_motions(core):
     """A motion that would leave its range within the step is refused, as NaN is; the range is in the message."""
     for inputs, name in (

@@ -655,12 +655,16 @@ def test_what_matrices_find_counts_by_the_damage_in_the_mission(model, monkeypat
 def test_every_second_run_is_run_up(model):
     """From a tenth of its speed within 20 ms, so that its halves lie apart as a machine's do; a speed that varies is the user's own."""
     scene = mission_of(model, [(1, {})]).cases[0].scene
-    scene = replace(scene, parameters=scene.parameters | {"start.settle": 0.05}, t_end=0.07, outputs=("cage.dislocation",))
+    scene = replace(
+        scene, parameters=scene.parameters | {"start.settle": 0.05}, t_end=0.07, outputs=("cage.dislocation",)
+    )
     at_speed, run_up = (started(scene, model, 5, s) for s in (2, 3))
     assert (at_speed.parameters["start.seed"], run_up.parameters["start.seed"]) == (7, 8)
     assert at_speed.inputs == scene.inputs
     speed = run_up.inputs["shaft.omega"]
-    assert speed([0.0, 0.02, 1.0]) == pytest.approx(np.array([0.1, 1.0, 1.0]) * model.default(model.inputs["shaft.omega"]))
+    assert speed([0.0, 0.02, 1.0]) == pytest.approx(
+        np.array([0.1, 1.0, 1.0]) * model.default(model.inputs["shaft.omega"])
+    )
     apart = [simulate(model, run).data["cage.dislocation"][-200:].mean() for run in (at_speed, run_up)]
     assert apart[1] > 2.0 * apart[0]  # observed 0.6 and 5 um
     varies = replace(scene, inputs={"shaft.omega": History(np.array([0.0, 0.05]), np.array([500.0, 900.0]))})
