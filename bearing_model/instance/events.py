@@ -57,10 +57,10 @@ def ellipse_reach(model, w):
 
 def energy_off(residual, held, exchanged, lost, lost_now):
     """1 if the residual of the energy passes 2 % of the energy lost since the start, or energy is gained in the last
-    communication step, else 0.  Errors of the start and of pulses are small beside the energy that moves: 0.5 % of that in
+    communication step, else 0.  Errors of the start and of pulses are small beside the energy that moves: 1 % of that in
     the bearing and 0.4 % of that which the shaft has exchanged are allowed in any case.
     """
-    return float(lost_now < 0.0 or not abs(residual) <= max(0.02 * lost, 0.005 * held, 0.004 * exchanged))
+    return float(lost_now < 0.0 or not abs(residual) <= max(0.02 * lost, 0.01 * held, 0.004 * exchanged))
 
 
 def event_outputs(model, w):

@@ -133,7 +133,8 @@ static Event energy_event(Bearing *b)
     const IntegratorState *i = &s->integrator;
     const double E = energy_total(&b->model, i->now.y, &b->w);
     const double residual = E - i->now.y[Y_WORK] - s->energy_start - s->energy_change;
-    const EnergyBalance balance = {residual, E + cage_widened(&b->w), s->exchanged, s->lost, i->sum.lost};
+    const EnergyBalance balance = {residual, E + cage_widened(&b->w), s->exchanged, s->lost, i->sum.lost,
+                                   s->jumped};
     return event_of_energy(&balance);
 }
 
@@ -548,6 +549,7 @@ PartStatus part_step(Bearing *b, double t_end)
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
     s->lost += s->integrator.sum.lost, s->exchanged += s->integrator.sum.exchanged;
+    s->jumped += s->integrator.sum.jump;
     if (status == 0) loosen(b);
     const bool holds = status != 0 || break_rivets(b);
     if (clocked) b->cpu_time += cpu_clock() - before;

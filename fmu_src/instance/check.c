@@ -754,7 +754,8 @@ static bool check_recorded(Bearing *b, double time)
 {
     const InstanceState *s = &b->s;
     const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
-    const double sums[] = {s->energy_start, s->energy_change, s->omega_time, s->lost, s->exchanged};
+    const double sums[] = {s->energy_start, s->energy_change, s->omega_time,
+                           s->lost,         s->exchanged,     s->jumped};
     bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
                 values_are_sane(sums, sizeof sums / sizeof sums[0]);
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);

@@ -149,10 +149,10 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
 
 Event event_of_energy(const EnergyBalance *balance)
 {
-    const double OF_LOST = 0.02, OF_HELD = 0.005, OF_EXCHANGED = 0.004, residual = fabs(balance->residual);
-    if (balance->power_loss < 0.0) return (Event){1, 1, balance->power_loss, 0.0};
-    const double limit = scalar_max(OF_LOST * balance->lost,
-                                    scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged));
+    const double OF_LOST = 0.02, OF_HELD = 0.01, OF_EXCHANGED = 0.004, residual = fabs(balance->residual);
+    if (balance->lost_now < 0.0) return (Event){1, 1, balance->lost_now, 0.0};
+    const double moved = scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged);
+    const double limit = scalar_max(OF_LOST * balance->lost, moved) + balance->jumped;
     return (Event){!(residual <= limit), 0, residual, limit};
 }
 
@@ -265,8 +265,9 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
         return;
     case EVENT_ENERGY_OFF:
         if (now->element == 1)
-            snprintf(text, size, "bearing.power_loss is %.4g W in the mean: the results are wrong",
-                     now->value);
+            snprintf(text, size,
+                     "bearing.power_loss: %.4g J were lost in the last step, at least %.4g J is possible",
+                     now->value, now->limit);
         else
             snprintf(
                 text, size,

@@ -17,8 +17,9 @@
 //   cage yield     the largest pocket force since the last communication point exceeds the one under which a half of a
 //                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
 //   energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained: the integration is wrong.
-//                  Errors of the start and of pulses are small beside the energy that moves: 0.5 % of that in the bearing
-//                  and 0.4 % of that which the shaft has exchanged are allowed in any case
+//                  Errors of the start and of pulses are small beside the energy that moves: 1 % of that in the bearing
+//                  and 0.4 % of that which the shaft has exchanged are allowed in any case, beside what the trapezoidal rule
+//                  makes of powers that jump with the inputs
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once
@@ -64,9 +65,9 @@ double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 void events_now(const Model *model, const Work *w, const MotionLag *lag, double step, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 
-// Energies since the start [J] and the mean power lost in the last communication step [W].
+// Energies since the start and the one lost in the last communication step [J].
 typedef struct {
-    double residual, held, exchanged, lost, power_loss;
+    double residual, held, exchanged, lost, lost_now, jumped;
 } EnergyBalance;
 
 Event event_of_energy(const EnergyBalance *balance);

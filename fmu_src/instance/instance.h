@@ -39,6 +39,7 @@ typedef struct {
     double energy_start;     // total energy at the start [J]
     double energy_change;    // that changes of parameters have added since [J]
     double lost, exchanged;  // lost since, and exchanged with the shaft to and fro [J]
+    double jumped;           // of the work, that steps from where the inputs jump may be off [J]
     // since the last communication point: largest pocket force [N], largest stresses of each rivet [Pa]
     double force_peak, head_peak[Z], mid_peak[Z];
     // since start.settle: largest slip of a joint [m]; integrals over time of pocket contact, cage speed,

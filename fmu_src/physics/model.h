@@ -384,10 +384,10 @@ typedef struct {
     double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
 } Housing;
 
-// What the shaft gives: torque about its axis [N.m], power [W] and its amount, and the power that is lost, or their
-// integrals over time.
+// What the shaft gives: torque about its axis [N.m], power [W] and its amount; the power that is lost; by how much the net
+// power has jumped with the inputs; or their integrals over time.
 typedef struct {
-    double torque, power, exchanged, lost;
+    double torque, power, exchanged, lost, jump;
 } Exchange;
 
 // All that the right-hand side needs beside time and state.

@@ -74,7 +74,7 @@ static inline scalar friction_torque(const Work *w)
 static inline Exchange exchange_at(const Work *w)
 {
     const double power = shaft_power(w), lost = power_loss(w) + ball_array_sum(w->joint_dissipated);
-    return (Exchange){friction_torque(w), power, fabs(power), lost};
+    return (Exchange){friction_torque(w), power, fabs(power), lost, 0.0};
 }
 
 // Adds what it gives over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
@@ -84,6 +84,7 @@ static inline void exchange_add(double h, const Exchange *from, const Exchange *
     sum->power += 0.5 * h * (from->power + to->power);
     sum->exchanged += 0.5 * h * (from->exchanged + to->exchanged);
     sum->lost += 0.5 * h * (from->lost + to->lost);
+    sum->jump += h * from->jump;
 }
 #endif
 
