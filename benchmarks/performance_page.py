@@ -8,6 +8,7 @@ import re
 
 import matplotlib
 import numpy as np
+from blind import FIGURES as LIMITS
 from common import ROOT
 from records import newest_record
 
@@ -101,6 +102,55 @@ def style(family, families):
     """Colour, marker and width of a family, spare ones for an unknown family."""
     unknown = [name for name in families if name not in STYLES]
     return STYLES[family] if family in STYLES else SPARE[unknown.index(family) % len(SPARE)]
+
+
+# -------------------------------------------------------------------------------------------------------- blind scenes
+
+BLIND = {  # figure: what it is called here
+    "head_mean": "head stress, mean",
+    "head_p999": "head stress, 99.9 %",
+    "force_rms": "pocket force, RMS",
+    "force_p999": "pocket force, 99.9 %",
+    "dislocation": "largest dislocation",
+    "torque": "friction torque",
+    "land_loss": "loss of the lands",
+}
+
+
+def draw_blind(rows):
+    """Run time against error of every scene: the largest bias over its limit."""
+    figure, axis = plt.subplots(figsize=(5.2, 3.0))
+    for bearing, marker in zip(sorted({row["bearing"] for row in rows}), "os^D", strict=False):
+        own = [row["bias"] for row in rows if row["bearing"] == bearing]
+        rtf = [bias["seconds"] / bias["time"] for bias in own]
+        worst = [max(abs(bias[name]) / LIMITS[name][0] for name in BLIND) for bias in own]
+        axis.plot(rtf, np.maximum(worst, 1e-2), marker, markersize=4, alpha=0.7, label=bearing)
+    axis.axhline(1.0, color="#c0271f", linewidth=1.2)
+    axis.set(xscale="log", yscale="log", xlabel="processor time / simulated time")
+    axis.set_ylabel("largest bias / its limit")
+    axis.legend(frameon=False)
+    save(figure, "blind")
+
+
+def blind(data):
+    rows = [row for row in data["rows"] if "failed" not in row]
+    draw_blind(rows)
+    cells = [
+        [BLIND[name], f"{100 * LIMITS[name][0]:g}"]
+        + [f"{100 * data['figures'][name][key]:.2f}" for key in ("median", "p95", "worst")]
+        + [data["figures"][name]["beyond"]]
+        for name in BLIND
+    ]
+    return f"""{origin(data)}.
+
+Scenes drawn from the whole design space (`benchmarks/blind.py {data["scene_seeds"]} ...`), the default against tolerance 1e-5 on common seeds:
+{data["scenes"]} scenes, {data["beyond"]} with a bias beyond its limit and two standard errors, {data["beyond_twice"]} beyond twice the limit,
+{data["failed"]} failed. Median RTF {data["rtf"]:.2f}.
+
+{table(["absolute bias, %", "limit", "median", "95 %", "worst", "scenes beyond"], cells)}
+
+![Run time against error of every scene](performance/blind.svg)
+"""
 
 
 # ------------------------------------------------------------------------------------------------- work and precision
@@ -521,6 +571,7 @@ def main():
 Times are processor times of one core and scatter by some per cent; counts do not.
 Unless elastic halves (the default) are named, figures are of rigid halves (`two_half`), which every solver can run.
 
+{section("Error over the whole design space", "blind", blind)}
 {section("Run time against error", "work_precision", work_precision)}
 {goals()}
 

@@ -1,39 +1,52 @@
 """Values that nobody gave and that the rivets' stress moves with, and who gave the others.
 
-Effects are measured: those of the 6207's own values in fmus/variables.toml, those of values by rule in data/rules.csv,
-which benchmarks/rules.py writes with docs/rules.md.
+Ranges of the 6207's own values stand in fmus/variables.toml, those of values by rule in data/rules.csv, which
+benchmarks/rules.py writes with docs/rules.md.  The change of the stress over a range is another one in each bearing:
+that of the 6207 is said of the 6207 alone, that of the 6309 decides which values by rule are named.
 """
 
 import csv
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
 
 from bearing_model.generated import variables
 
+from .oil import name_of
 from .origin import EXAMPLE
 from .ribbon import is_guided_by_balls, is_ribbon
+from .units import suffix
 
 RULES = files("riveted_bearing") / "data" / "rules.csv"
 OF_RULES = "6309"  # in which benchmarks/rules.py measures the effects of values by rule
 OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
-MATTERS = 0.1  # change of the stress from which a value by rule is named; half of that is within the seeds' scatter
+OF_ASPERITIES = ("oil.sigma_race",)  # move no stress in full film, where the film ratio alone moves with them
+MATTERS = 0.05  # change of the 6309's stress from which a value by rule is named: below it is within the seeds' scatter
+TEMPERATURES = {  # usual range around the oil's temperature [K]
+    "oil.T": (-25.0, 35.0, "oil from 60 to 120 degC, if it has 85 degC by assumption"),
+    "cage.T": (-20.0, 25.0, "bearings that dissipate have parts 10 to 40 K apart"),
+}
 DEEPEST = 1.05  # clearance of a ribbon's pocket over that at which its sphere ends in the split
 
 
 @dataclass(frozen=True)
 class Effect:
-    """Usual range of a value as factors of it, the change of the stress over it, where the range comes from, and the
-    bearing in which the change was measured.
+    """Usual range of a value as factors of it, the change of the stress over it, and where the range comes from.
 
-    stress: change of the worst head's 99.9 % quantile, over the quantile.
+    stress: change of the worst head's 99.9 % quantile, over the quantile; None if it is not known in the bearing.
     """
 
     low: float
     high: float
-    stress: float
+    stress: float | None
     source: str
-    bearing: str
+
+    @property
+    def change(self):
+        """The change of the stress in words, "" if it is not known."""
+        if self.stress is None:
+            return ""
+        return f"{100 * self.stress:.0f} %" if self.stress >= 0.01 else "below 1 %"
 
 
 @dataclass(frozen=True)
@@ -54,43 +67,52 @@ class Assumed:
         """Value and usual range, each with its unit."""
         if self.value is None:
             return "by rule", f"{self.effect.low:g} … {self.effect.high:g} times"
-        return f"{self.value:.3g} {self.unit}", f"{self.low + 0.0:.3g} … {self.high + 0.0:.3g} {self.unit}"
+        unit = suffix(self.unit)
+        return f"{self.value:.3g}{unit}", f"{self.low + 0.0:.3g} … {self.high + 0.0:.3g}{unit}"
 
 
 @cache
 def effects():
     """Effect by name of the values of the 6207, and by name of those by rule."""
-    own = {name: Effect(*entry, EXAMPLE) for name, entry in variables.ASSUMPTIONS.items()}
+    own = {name: Effect(*entry) for name, entry in variables.ASSUMPTIONS.items()}
     rows = csv.DictReader(RULES.read_text(encoding="utf-8").splitlines()[1:])
     by_rule = {
-        row["name"]: Effect(*(float(row[key]) for key in ("low", "high", "stress")), row["source"], OF_RULES)
-        for row in rows
+        row["name"]: Effect(*(float(row[key]) for key in ("low", "high", "stress")), row["source"]) for row in rows
     }
     return own, {name: effect for name, effect in by_rule.items() if name in own or effect.stress >= MATTERS}
 
 
-def effects_of(given, ruled, parameters):
-    """Effects of the values that were neither given nor follow from others, the strongest first."""
+def effects_of(given, example, parameters):
+    """Effects of the values that were neither given nor follow from others; example: whether the bearing is the 6207,
+    else those by rule are among them, and the changes of the stress are not known.
+    """
     own, by_rule = effects()
-    found = own | {name: effect for name, effect in by_rule.items() if name in ruled}
+    found = own if example else own | by_rule
     return {
-        name: effect
+        name: effect if example else replace(effect, stress=None)
         for name, effect in sorted(found.items(), key=lambda item: -item[1].stress)
         if not is_known(name, given, parameters)
     }
 
 
 def assumed_rows(result):
-    """The Assumed of a run, the strongest first."""
+    """The Assumed of a run, in the 6207 the strongest first; temperatures last."""
     about, parameters = result.about, result.parameters
-    sizes = about.get("rivet", {})
-    for name, effect in effects_of(set(about.get("given", ())), set(about.get("ruled", ())), parameters).items():
+    sizes, given = about.get("rivet", {}), set(about.get("given", ()))
+    example = about.get("example", not (about.get("ruled") or about.get("not_given")))
+    for name, effect in effects_of(given, example, parameters).items():
         if name.startswith("rivet."):
             yield assumed(name, "mm", 1e3, sizes.get(name), effect)
         elif name in parameters:
             unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
             factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
             yield assumed(name, unit, factor, parameters[name], effect, parameters)
+    temperatures = {name: T - 273.15 for name, T in about.get("temperatures", {}).items()}
+    for name, T in temperatures.items():
+        low, high, source = TEMPERATURES[name]
+        if name not in given:
+            ends = min(T, temperatures["oil.T"] + low), max(T, temperatures["oil.T"] + high)
+            yield Assumed(name, "degC", T, *ends, Effect(low, high, None, source))
 
 
 def assumed(name, unit, factor, value, effect, parameters=None):
@@ -106,13 +128,10 @@ def ends(name, value, effect, parameters):
 
 
 def measured_in(rows):
-    """Where the effects of some Assumed were measured, in words."""
-    bearings = dict.fromkeys(row.effect.bearing for row in rows)
-    texts = {EXAMPLE: f"at the working point of the {EXAMPLE}", OF_RULES: f"in the {OF_RULES} with a machined cage"}
-    if len(bearings) < 2:
-        return "".join(texts[bearing] for bearing in bearings)
-    others = ", ".join(row.name for row in rows if row.effect.bearing == EXAMPLE)
-    return f"{texts[OF_RULES]}, of {others} {texts[EXAMPLE]}"
+    """Where the changes of the stress over the ranges of some Assumed were measured, in words."""
+    if any(row.effect.stress is not None for row in rows):
+        return f"measured at the working point of the {EXAMPLE}"
+    return "not measured in this bearing: `riveted-bearing sensitivity` does it"
 
 
 def assumed_ranges(model, scene=None):
@@ -120,11 +139,11 @@ def assumed_ranges(model, scene=None):
     values = {name: model.default(variable) for name, variable in model.parameters.items()} | (
         scene.parameters if scene else {}
     )
-    found = effects_of(given_names(model, scene), ruled_names(model), values)
+    found = effects_of(given_names(model, scene), is_example(model), values)
     return {
         name: tuple(ends(name, values[name], effect, values))
         for name, effect in found.items()
-        if name in model.parameters
+        if name in model.parameters and (name not in OF_ASPERITIES or values.get("scene.lubrication") == "mixed")
     }
 
 
@@ -164,8 +183,20 @@ def least_share(name, values):
 
 
 def given_names(model, scene=None):
-    """Names of the parameters that a scene or the bearing's own file gives."""
-    return {*(scene.parameters if scene else ()), *(name for name, origin in model.origin.items() if origin == "yours")}
+    """Names of the values that a scene or the bearing's own file gives, those of an oil that they name among them."""
+    of_file = {name for name, origin in model.origin.items() if origin == "yours" or name_of({name: origin})}
+    return of_file | {*(scene.parameters if scene else ()), *(given_inputs(scene) if scene else ())}
+
+
+def given_inputs(scene):
+    """Names of the inputs that a scene gives; parts that are as warm as its oil by rule are not among them."""
+    oil = scene.inputs.get("oil.T")
+    return {name for name, history in scene.inputs.items() if name == "oil.T" or history is not oil}
+
+
+def is_example(model):
+    """Whether an FMU is that of the 6207 as it is shipped."""
+    return model.bearing.startswith(EXAMPLE) and "yours" not in model.origin.values()
 
 
 def ruled_names(model):

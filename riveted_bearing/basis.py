@@ -91,7 +91,9 @@ def oil(model, scenes):
     """Viscosity of the oil at its temperature, and a point of it that nobody gave beside one that is given."""
     found = {viscosity(model, scene, T) for scene in scenes for T in extremes(values(model, [scene], "oil.T"))}
     alone = dict.fromkeys(text for scene in scenes for text in point_assumed(model, scene))
-    return "; ".join([f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}", *alone])
+    names = ", ".join(dict.fromkeys(filter(None, (scene.oil or oils.name_of(model.origin) for scene in scenes))))
+    words = f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}"
+    return "; ".join([f"{names}, {words}" if names else words, *alone])
 
 
 def point_assumed(model, scene):

@@ -3,6 +3,7 @@ simulation.
 
     designation = "6310"  # one of the catalogue's fills in what is not given below
     Z = 8
+    oil = "mineral ISO VG 32"  # optional (oil.py)
     [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0 [N]
     [parameters]          # start values of the FMU made from this file
     bearing.D = "19.05 mm"
@@ -45,7 +46,7 @@ from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 LARGEST_RIVET = 1.0  # m
-KEYS = ("designation", "description", "Z", "catalogue", "parameters", *materials.PARTS, "inputs")
+KEYS = ("designation", "description", "Z", "oil", "catalogue", "parameters", *materials.PARTS, "inputs")
 BOUNDARY = ("bore", "outside_diameter", "width")
 CATALOGUE = (*BOUNDARY, "C", "C_0")
 # a bearing's own
@@ -89,7 +90,7 @@ class Case:
     rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the
     Material of each part, of a bearing file's case.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
-    shape, from which nothing follows.
+    shape, from which nothing follows; model: the Model of a scene's case; oil: the name of its oil, "" for none.
     """
 
     designation: str
@@ -102,6 +103,8 @@ class Case:
     materials: dict = field(default_factory=dict)
     bare: bool = False
     alone: tuple = ()
+    model: object = field(default=None, compare=False)
+    oil: str = ""
 
     def __repr__(self):
         return f"<Case {self.designation}: {self.description or 'no description'}; Z = {self.Z}, {len(self.values)} values>"
@@ -359,8 +362,11 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
         entry = entry_of(path, designation, data, {"Z": Z} | given)
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
+    start = {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
+    oil_name, of_oil = oil.named(path, document.get("oil"), given, start)
+    given |= of_oil
     oil.check_pair(path, given, written)
-    oil.check_given(path, given, written, {name: v.start for name, v in variables.PARAMETERS.items()} | given)
+    oil.check_given(path, given, written, start | given)
     found = {
         part: materials.material_of(path, part, material_section(path, document, part), given, written)
         for part in materials.PARTS
@@ -371,6 +377,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
+    origin |= dict.fromkeys(of_oil, oil.origin_of(oil_name))
     for part in usual:
         where = materials.PARTS[part]
         origin |= dict.fromkeys((name for name in (where.named, *where.parameters.values()) if name in given), "rule")
@@ -418,6 +425,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
         origin,
         found,
         bare,
+        oil=oil_name,
     )
 
 
@@ -790,9 +798,9 @@ def scene_case(source, model):
     data = model.catalogue or (known[0].catalogue if known else entry.data if entry else {})
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
-    return Case(
-        name, scene.description, Z, values, data, rivet=None, origin={} if scene.source else model.origin, alone=alone
-    )
+    origin = {} if scene.source else model.origin
+    about = {"origin": origin, "alone": alone, "model": model, "oil": scene.oil or oil.name_of(model.origin)}
+    return Case(name, scene.description, Z, values, data, rivet=None, **about)
 
 
 def flat(tree, prefix=""):

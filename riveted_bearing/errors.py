@@ -6,6 +6,7 @@ from difflib import get_close_matches
 from pathlib import Path
 
 INSTEAD = {  # names that are near to others of another meaning: what does it
+    "oil": 'the kind of oil stands above all sections: oil = "mineral ISO VG 32"',
     "gravity.x": "gravity along the shaft is the input frame.a_x: an acceleration of the frame against it",
 }
 

@@ -4,7 +4,6 @@ k = k_stack (alpha_flange - alpha_rivet) grip (bearing_model/rivet/rivet_rom.py)
 is the temperature at which the rivets are set.
 """
 
-import math
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
@@ -15,6 +14,7 @@ from .scene import History, Scene
 PRELOAD, TEMPERATURE, OUTPUT = "joint.preload", "cage.T", "rivet[1].P"
 TRIALS = (293.15, 303.15)  # temperatures at which an FMU tells its preload [K]
 KNOWN = WeakKeyDictionary()  # the Thermal of each Model
+LEAST = 1e-4  # of a rate that is one [N/K]
 LARGE = 500.0  # preload of the trials [N]: it does not vanish
 
 
@@ -24,6 +24,13 @@ class Thermal:
 
     rate: float
     T_0: float
+
+    @property
+    def reason(self):
+        """Why the preload changes with the temperature, or that it does not, in words."""
+        if abs(self.rate) < LEAST:
+            return "the cage expands as the rivets do"
+        return f"the cage expands {'more' if self.rate > 0.0 else 'less'} than the rivets, {self.rate:+.3g} N/K"
 
     def at(self, preload, T):
         """Preload at T [N]."""
@@ -70,10 +77,8 @@ def in_words(thermal, pairs, newtons, degrees):
     given = newtons([preload for preload, _ in pairs])
     if thermal is None:
         return f"{given} as given"
-    hot = [thermal.at(*pair) for pair in pairs]
-    if all(math.isclose(P, P_0, rel_tol=1e-3, abs_tol=1e-3) for P, (P_0, _) in zip(hot, pairs, strict=True)):
-        return given
-    more = "more" if thermal.rate > 0.0 else "less"
-    reason = f"the cage expands {more} than the rivets, {thermal.rate:+.3g} N/K"
     at = degrees([T for _, T in pairs])
-    return f"{given} at {thermal.T_0 - 273.15:.4g} degC, {newtons(hot)} with the cage at {at}: {reason}"
+    set_at, hot = f"{thermal.T_0 - 273.15:.4g} degC", newtons([thermal.at(*pair) for pair in pairs])
+    if at == set_at:
+        return f"{given} at {set_at}, which the cage has"
+    return f"{given} at {set_at}, {hot} with the cage at {at}: {thermal.reason}"

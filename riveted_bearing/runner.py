@@ -10,8 +10,8 @@ from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
-from .assumed import given_names, ruled_names
-from .basis import basis
+from .assumed import TEMPERATURES, given_names, is_example, ruled_names
+from .basis import basis, values
 from .fmu import Instance
 from .interrupts import held_interrupts
 from .origin import not_given
@@ -164,8 +164,8 @@ def turns_between(model, scene, start, end):
 def changes_in_words(scene):
     """Parameters that change in the run, by the time."""
     found = {}
-    for at, values in scene.changes:
-        found.setdefault(f"{at:.9g} s", {}).update(values)
+    for at, changed in scene.changes:
+        found.setdefault(f"{at:.9g} s", {}).update(changed)
     return found
 
 
@@ -185,6 +185,8 @@ def provenance(model, scene):
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
         "ruled": sorted(ruled_names(model)),
+        "example": is_example(model),
+        "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},
         "rivet": model.rivet,
         "not_given": not_given(
             {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}

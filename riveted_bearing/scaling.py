@@ -7,7 +7,7 @@ mass, centre of mass and inertia follow from its shape and density (rivet_model/
 its share of the shaft) from bore and width; its damping keeps damping per mass and damping ratio.  If no
 load is given, the radial one is C/10 and the axial one a sixth of it; if any is given, the others are 0;
 speed: n d_m = 480,000 mm/min,
-70 % of the usual limit with grease.  Parts whose temperature is not given have that of the oil, if it is given.
+70 % of the usual limit with grease.  Parts whose temperature is not given have that of the oil.
 """
 
 import math
@@ -20,6 +20,7 @@ from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
 from . import oil, ribbon
+from .scene import PARTS_TEMPERATURES
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
 BY_BALL = ("cage.guide_clearance",)
@@ -48,7 +49,6 @@ SHAPE = {  # names of half_shape.py by those of a bearing file; half the cage's 
 }
 RIBBON = {"shape": "cage.shape", "pocket_fillet": "cage.pocket_fillet", "flange_thickness": "cage.sheet"}
 LOADS = ("shaft.F_x", "shaft.F_y", "shaft.F_z", "shaft.M_y", "shaft.M_z")
-PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 LAND = ("cage.E", "cage.nu", "bearing.E", "bearing.nu")  # of cage and rings
 INERTIA = ("cage.m", "cage.x_c", "cage.J_p", "cage.J_t")  # of one half, in the order of half_shape.Inertia
 RIVET = asdict(Geometry())
@@ -125,8 +125,8 @@ def oil_by_points(given):
 
 
 def parts_temperatures(inputs):
-    """Temperatures of rings, balls and cage by rule [K]: that of the oil, if it is given."""
-    return dict.fromkeys(PARTS_TEMPERATURES, inputs["oil.T"]) if "oil.T" in inputs else {}
+    """Temperatures of rings, balls and cage by rule [K]: that of the oil."""
+    return dict.fromkeys(PARTS_TEMPERATURES, inputs.get("oil.T", variables.INPUTS["oil.T"].start))
 
 
 def shape_of(values, rivet):

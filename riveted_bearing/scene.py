@@ -1,6 +1,7 @@
 """Scenes: what to simulate, from TOML files, checked against the FMU that is to run them.
 
     description = "..."
+    oil = "mineral ISO VG 32"         # optional (oil.py)
     [simulation]
     t_end = 0.4                       # s
     step = "0.1 ms"                   # communication step
@@ -21,6 +22,7 @@
     joint.mu = 0.3
 
 A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
+Where a scene sets oil.T, parts whose temperature nobody gives have the oil's.
 """
 
 import re
@@ -35,15 +37,16 @@ import numpy as np
 from . import tables
 from .errors import UserError, is_file, refusal, shortlist, unknown
 from .file_kinds import check_keys
-from .oil import check_given, merged
+from .oil import OF_PROPERTY, check_given, merged, named
 from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
 from .variable_list import is_like
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
-SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change")
+SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change", "oil")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
+PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 DEEPEST = 50  # tables or lists in each other
 MOST_STEPS = 1e12
@@ -83,6 +86,7 @@ class Scene:
     source: str = ""  # the scene's file, "" for the FMU's own working point
     replaced: tuple = ()  # values of its file that stand in the place of the FMU's own, in words
     units: dict = field(default_factory=dict)  # units in which values were written, by full variable name
+    oil: str = ""  # name of the oil that its file names
     changes: tuple = ()  # (time [s], {name: value}) of parameters that change in the run, in the order of time
 
     @property
@@ -124,9 +128,20 @@ def load_scene(source, model, *changes):
     for where, document in changes:
         scene = apply(scene, where, document, model, folder)
     check_times(scene, " with ".join([*filter(None, [scene.source]), *(where for where, _ in changes)]))
-    return replace(
-        scene, outputs=scene.outputs or default_outputs(model), replaced=tuple(replacements(of_file, scene, model))
-    )
+    replaced = tuple(replacements(of_file, scene, model))
+    return warm(replace(scene, outputs=scene.outputs or default_outputs(model), replaced=replaced), model)
+
+
+def warm(scene, model):
+    """The scene with the oil's temperature, where it sets one, in all parts of which neither it nor the bearing's own
+    file gives another.
+    """
+    if "oil.T" not in scene.inputs:
+        return scene
+    parts = [name for name in PARTS_TEMPERATURES if name not in scene.inputs and model.origin.get(name) != "yours"]
+    units = dict.fromkeys(parts, scene.units["oil.T"]) if "oil.T" in scene.units else {}
+    inputs = dict.fromkeys(parts, scene.inputs["oil.T"])
+    return replace(scene, inputs=scene.inputs | inputs, units=scene.units | units)
 
 
 def working_point(model):
@@ -151,12 +166,20 @@ def in_words(model, name, value=None, symbol=None):
 
 def replacements(of_file, scene, model):
     """Values of a scene's file, not changed since, in the place of the FMU's own: "shaft.F_y 2994 N for 4100 N".  How
-    to simulate does not count.
+    to simulate does not count, what follows from the kind of oil is not listed.
     """
+    if of_file.oil and of_file.oil == scene.oil:
+        yield f"oil {scene.oil} for its own"
     for name, given in (of_file.parameters | of_file.inputs).items():
         value, own = getattr(given, "value", given), model.default((model.parameters | model.inputs)[name])
         there, here = (in_words(model, name, one, scene.units.get(name)) for one in (value, own))
-        if there != here and not name.startswith(SIMULATED) and (scene.parameters | scene.inputs)[name] is given:
+        of_oil = of_file.oil and name in OF_PROPERTY
+        if (
+            there != here
+            and not of_oil
+            and not name.startswith(SIMULATED)
+            and (scene.parameters | scene.inputs)[name] is given
+        ):
             yield f"{name} {there} for {here}"
 
 
@@ -244,12 +267,15 @@ def apply(scene, where, document, model, folder):
     }
     own = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
     texts = dict(leaves(sections["parameters"], model.parameters))
+    oil, of_oil = named(where, document.get("oil"), parameters, own | scene.parameters)
+    parameters = of_oil | parameters
     check_given(where, parameters, texts, own | scene.parameters | parameters)
     return replace(
         scene,
         description=str(document.get("description", scene.description)),
         parameters=merged(scene.parameters, parameters, own),
         inputs=scene.inputs | inputs,
+        oil=oil or scene.oil,
         changes=read_changes(where, document["change"], model) if "change" in document else scene.changes,
         units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
         **read_simulation(where, sections["simulation"], model),

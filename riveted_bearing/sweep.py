@@ -67,7 +67,7 @@ SETTINGS = {
     "simulation.tolerance": {"1": (1.0, 0.0)},
 }
 SAMPLED = ("cage.dislocation", "rivet[*].sigma_head", "rivet[*].sigma_mid")  # unless simulation.outputs names others
-WORDS = ("description", "source", "replaced", "units")  # of a scene: no other run
+WORDS = ("description", "source", "replaced", "units", "oil")  # of a scene: no other run
 KINDS = {
     "mean": np.mean,
     "rms": lambda x: np.sqrt(np.mean(x**2)),

@@ -183,6 +183,7 @@ def test_changes_reach_the_fmu():
         t_end=2e-4,
         seed=5,
         parameters={"joint.preload": "30 N", "scene.traction": "sliced", "ball[3].dD": "1 um"},
+        inputs={"cage.T": "20 degC"},
         outputs=["rivet[*].P"],
     )
     assert (

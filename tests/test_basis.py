@@ -366,29 +366,62 @@ def names_of(result):
     return {row.name for row in assumed_rows(result)}
 
 
+CLEARANCES = {"cage.pocket_clearance", "cage.guide_clearance"}
+OF_4109 = {
+    "oil.A",
+    "oil.B",
+    "oil.C",
+    "oil.alpha",
+    "oil.rho",
+}  # stay those of an aviation oil if only a viscosity is given
+
+
 def test_assumed_is_what_nobody_gave(model, warm):
     """Both points of the oil give its viscosity, its flow the mixture's density; one point, or a flow of zero, does
-    not.
+    not.  Roughness moves a stress in mixed lubrication alone, so that a study of the stress leaves it out in full film.
     """
-    assert names_of(run(warm, t_end=2e-4)) == {"cage.pocket_clearance", "cage.guide_clearance", "oil.rho_mix"}
-    everything = {"cage.pocket_clearance", "cage.guide_clearance", "oil.eta", "oil.rho_mix"}
+    everything = CLEARANCES | OF_4109 | {"oil.eta", "oil.rho_mix", "oil.sigma_race", "oil.T", "cage.T"}
+    assert names_of(run(warm, t_end=2e-4)) == everything - {"oil.eta", "oil.T"}
     assert names_of(run(t_end=2e-4, parameters={"oil.nu_2": "6 mm2/s", "oil.flow": 0.0})) == everything
-    assert names_of(run(t_end=2e-4, parameters={"oil.eta": "6 mPa.s", "oil.flow": "1 L/min"})) == {
-        "cage.pocket_clearance",
-        "cage.guide_clearance",
-    }
-    assert set(assumed_ranges(model)) == everything and set(
-        assumed_ranges(model, load_scene(warm, model))
-    ) == everything - {"oil.eta"}
+    flow = run(t_end=2e-4, parameters={"oil.eta": "6 mPa.s", "oil.flow": "1 L/min"}, inputs={"cage.T": "80 degC"})
+    assert names_of(flow) == everything - {"oil.eta", "oil.rho_mix", "cage.T"}
+    factors = everything - {"oil.T", "cage.T", "oil.sigma_race"}
+    assert set(assumed_ranges(model)) == factors
+    assert set(assumed_ranges(model, load_scene(warm, model))) == factors - {"oil.eta"}
+    mixed = load_scene(None, model, ("test", {"parameters": {"scene.lubrication": "mixed"}}))
+    assert set(assumed_ranges(model, mixed)) == factors | {"oil.sigma_race"}
+
+
+def test_a_named_oil_is_not_assumed(model, tmp_path):
+    path = tmp_path / "pao.toml"
+    path.write_text('oil = "PAO 68"\n')
+    done = CliRunner().invoke(
+        program, ["run", "--set", "oil=PAO 68", "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
+    )
+    assert done.exit_code == 0 and "PAO ISO VG 68, " in done.output
+    refused = CliRunner().invoke(program, ["run", "--set", "oil=PAOO 68", "--t-end", "1 ms"])
+    assert refused.exit_code and 'did you mean "PAO"' in refused.output
+    found = run(path, t_end=2e-4)
+    assert names_of(found) == CLEARANCES | {"oil.rho_mix", "oil.sigma_race", "oil.T", "cage.T"}
+    assert found.about["basis"]["oil"].startswith("PAO ISO VG 68, ")
+    assert load_scene(path, model).replaced == ("oil PAO ISO VG 68 for its own",)
 
 
 def test_clearances_of_the_bearings_own_file_are_not_assumed(model):
     given = SimpleNamespace(
         parameters=model.parameters,
         default=model.default,
-        origin={"cage.pocket_clearance": "yours", "cage.guide_clearance": "rule"},
+        bearing="6309: own",
+        origin={"cage.pocket_clearance": "yours", "cage.guide_clearance": "rule", "oil.alpha": "PAO ISO VG 68 oil"},
     )
-    assert set(assumed_ranges(given)) == {"cage.guide_clearance", "oil.eta", "oil.rho_mix"}
+    ranges = set(assumed_ranges(given))
+    assert ranges == OF_4109 - {"oil.alpha"} | {
+        "cage.guide_clearance",
+        "joint.preload",
+        "joint.fit",
+        "oil.eta",
+        "oil.rho_mix",
+    }
 
 
 # The same bits, whether the FMU's own inputs are written out or not ---------------------------------------------------

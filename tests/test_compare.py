@@ -30,7 +30,7 @@ def found(model):
     parameters = {"scene.cage": "two_half", "solver.tol": 4e-4, "start.spacing": 0.5, "cage.pocket_clearance": 2e-5}
     return compare(
         model,
-        load_scene("demo", model, ("the test", {"inputs": inputs, "parameters": parameters})),
+        load_scene(None, model, ("the test", {"inputs": inputs, "parameters": parameters})),
         short=1e-4,
         long=0.0,
     )

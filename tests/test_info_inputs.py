@@ -17,6 +17,7 @@ ACTS |= dict.fromkeys(("housing.tilt_y", "housing.tilt_z", "shaft.tilt_y", "shaf
 ACTS |= dict.fromkeys(("housing.omega", "frame.omega", "shaft.omega"), 200.0)
 ACTS |= dict.fromkeys(("frame.a_x", "frame.a_y", "frame.a_z", "gravity.y", "gravity.z"), 900.0)
 ACTS |= dict.fromkeys(("impact.F_r", "impact.F_a", "shaft.F_x", "shaft.F_y", "shaft.F_z"), 300.0)
+COLD = dict.fromkeys(("ring.T_i", "ring.T_e", "ball.T", "cage.T"), 293.15)
 ACTS |= dict.fromkeys(("ring.T_i", "ring.T_e", "ball.T", "cage.T", "oil.T"), 330.0)
 ACTS |= {"shaft.interference": 2e-5, "housing.interference": 2e-5}
 
@@ -65,7 +66,7 @@ def test_angle_of_the_mounted_bearing():
     """6311 C3: P_d = 33 um, 2.49 um left by a fit of 40 um, cos(alpha) = 1 - P_d/(2 A); 0 with no clearance left."""
     case, angles = bearing_case("6311"), []
     for fit in (0.0, 20e-6, 40e-6, 60e-6):
-        values = case.values | {"bearing.P_d": 33e-6, "shaft.interference": fit}
+        values = case.values | COLD | {"bearing.P_d": 33e-6, "shaft.interference": fit}
         angles.append(np.degrees(replace(case, values=values).bearing.free_contact_angle()))
     assert angles == pytest.approx([12.27, 8.99, 3.36, 0.0], abs=0.01)
 

@@ -3,6 +3,7 @@ follow from what the user gave.
 """
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -21,7 +22,7 @@ from riveted_bearing.materials import PARTS, library, names_for
 from riveted_bearing.origin import not_given
 from riveted_bearing.rivet import read_table, table_of
 from riveted_bearing.rivet_heads import heads
-from riveted_bearing.scene import load_scene
+from riveted_bearing.scene import History, Scene, load_scene, shipped_scenes, warm
 
 
 def case_of(tmp_path, text, name="mine.toml"):
@@ -205,7 +206,8 @@ def test_ceramic_balls(tmp_path):
     """1/E* = sum of (1 - nu^2)/E in the dynamics and in the quasi-static model; mass by density; the load of the most
     loaded ball hardly changes.
     """
-    case, steel = case_of(tmp_path, '[balls]\nmaterial = "Si3N4"\n'), case_of(tmp_path, "")
+    cold = '[inputs]\noil.T = "20 degC"\n'
+    case, steel = case_of(tmp_path, f'[balls]\nmaterial = "Si3N4"\n{cold}'), case_of(tmp_path, cold)
     ball, ring = (library()[name] for name in ("Si3N4", "bearing steel"))
     E_star = 1.0 / sum((1.0 - entry["nu"][0] ** 2) / entry["E"][0] for entry in (ball, ring))
     p = Parameters({"ball.E": ball["E"][0], "ball.nu": ball["nu"][0]})
@@ -303,34 +305,51 @@ def test_endurance_follows_a_named_steels_other_strength(tmp_path, name):
 
 
 def test_parts_have_the_oils_temperature(tmp_path):
-    """Where the file gives the oil's alone; a part's own stands; without any the parts are at assembly temperature."""
+    """The file's or the table's; a part's own stands; the paper's bearing has the paper's, at which values are given."""
     parts = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
     hot = case_of(tmp_path, '[inputs]\noil.T = "90 degC"\nring.T_i = "110 degC"\n')
     assert [hot.values[name] for name in parts] == pytest.approx([383.15, 363.15, 363.15, 363.15])
     assert hot.origin["cage.T"] == "rule" and hot.origin["ring.T_i"] == "yours"
-    assert {case_of(tmp_path, "").values[name] for name in parts} == {293.15}
+    assert {case_of(tmp_path, "").values[name] for name in (*parts, "oil.T")} == {359.0006}
+    assert {bearing_case("6310").values[name] for name in parts} == {359.0006}
+    assert {bearing_case("6207").values[name] for name in parts} == {293.15}
 
 
-def warnings_of(**inputs):
-    model = Model()
-    with Instance(model) as instance:
-        instance.initialize(load_scene(None, model, ("the test", inputs)))
+def warnings_of(scene):
+    with Instance(Model()) as instance:
+        instance.initialize(scene)
         return [text for level, text in instance.log if level == "warning"]
 
 
 def test_oil_alone_is_said_once():
-    """A run that heats the oil and leaves the parts is told, one that heats both or neither is not."""
-    alone = warnings_of(inputs={"oil.T": 363.15})
+    """A host that heats the oil and leaves the parts is told, one that heats both or neither is not."""
+    alone = warnings_of(Scene(inputs={"oil.T": History([0.0], [363.15])}))
     assert len(alone) == 1 and all(
         word in alone[0] for word in ("oil.T = 90 degC", "cage.T = 20 degC", "clearances, preload and fit")
     )
-    assert not warnings_of(inputs={"oil.T": 363.15, "cage.T": 350.0}) and not warnings_of()
-    assert not warnings_of(inputs={"oil.T": 293.15})  # that of the parts
+    hot = dict.fromkeys(("oil.T", "cage.T"), History([0.0], [363.15]))
+    assert not warnings_of(Scene(inputs=hot)) and not warnings_of(Scene())
+    assert not warnings_of(Scene(inputs={"oil.T": History([0.0], [293.15])}))  # that of the parts
+
+
+def test_parts_of_a_scene_have_its_oils_temperature():
+    """Over time too, where neither scene nor the bearing's own file gives another; shipped scenes say theirs."""
+    model, parts = Model(), ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
+    history = {"t": [0.0, 0.1], "value": [40.0, 90.0], "unit": "degC"}
+    found = load_scene(None, model, ("test", {"inputs": {"oil.T": history, "cage.T": "70 degC"}}))
+    assert [float(found.inputs[name](0.05)) for name in parts] == pytest.approx([338.15] * 3 + [343.15])
+    assert found.units["ball.T"] == "degC" and "ball.T" not in load_scene(None, model).inputs
+    own = SimpleNamespace(origin={"ball.T": "yours", "cage.T": "rule"})
+    assert set(warm(Scene(inputs={"oil.T": history}), own).inputs) == {"oil.T", *parts} - {"ball.T"}
+    warm_scenes = {"demo", "spall"}
+    for name in shipped_scenes():
+        inputs = load_scene(name, model).inputs
+        assert {float(inputs[part](0.0)) for part in parts} == {359.0006 if name in warm_scenes else 293.15}
 
 
 def test_sizes_that_leave_the_table_behind_are_said():
     """The run takes another width of the cage, the rivet table keeps the built one: a warning names it."""
-    said = warnings_of(parameters={"cage.width": 14e-3, "cage.x_c": 4.01163e-3})
+    said = warnings_of(Scene(parameters={"cage.width": 14e-3, "cage.x_c": 4.01163e-3}))
     assert len(said) == 1 and "cage.width: more than 1 % off" in said[0] and "rivet table" in said[0]
 
 

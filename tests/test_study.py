@@ -125,8 +125,8 @@ def test_ratios_and_rises_are_paired_by_seed():
 
 
 def test_the_stress_at_rest_is_what_the_fmu_starts_with():
+    """Of parts at 20 degC, as in the paper and in its FMU, where the preload acts as given."""
     result = run(
-        "demo",
         t_end=1e-4,
         parameters={"joint.preload": 35.0, "joint.fit": "5 um", "cage.centrifugal": "off"},
         outputs=["rivet[1].sigma_head", "rivet[1].sigma_mid"],

@@ -152,7 +152,7 @@ def test_a_design_that_cannot_be_run_is_refused(tmp_path, model, text, fragments
 def test_a_row_is_what_a_single_run_gives(tmp_path, model, client):
     sweep = plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 30]")
     rows = run_sweep(sweep, tmp_path / "out", client)
-    single = run("demo", t_end=2e-3, parameters={"start.settle": 5e-4, "joint.preload": 30.0})
+    single = run(t_end=2e-3, parameters={"start.settle": 5e-4, "joint.preload": 30.0})
     assert (
         rows["run"].tolist() == [0, 1]
         and rows["joint.preload"].tolist() == [10.0, 30.0]

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{97897d4e-e463-a03b-0df2-450763a06b74}"  // digest of the table
+#define MODEL_GUID "{0ef1c84d-0a93-b3b9-2050-0758ce8856cc}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 

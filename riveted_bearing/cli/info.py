@@ -140,7 +140,7 @@ def info_tables(case):
     state = case.equilibrium()
     return [
         ("Geometry and masses", pairs(geometry(case))),
-        *([("Oil and temperatures", pairs(oil(case)))] if case.rivet is not None else []),
+        ("Oil and temperatures", pairs(oil(case))),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {speeds_text(case.load)}", frequencies(case, state)),
         (f"Quasi-static equilibrium, {load_text(case.load)}", pairs(equilibrium(case, state))),
@@ -188,7 +188,7 @@ def geometry(case):
             "mm",
             origins(case, *(f"rivet.{name}" for name in RIVET)),
         )
-        yield from preload(case)
+    yield from preload(case)
     for part, material in case.materials.items():
         yield (
             f"material of {'the ' + part if part in ('cage', 'rivet') else part}",
@@ -206,43 +206,50 @@ def geometry(case):
 
 
 def preload(case):
-    """Preload of the rivets as given and at the cage's temperature, the latter by rule: an FMU's own table has it
-    exactly.
+    """Preload of the rivets as given and at the cage's temperature, the latter of a bearing by rule: an FMU's own table
+    has it exactly.
     """
-    from ..preload import of_geometry
+    from ..preload import of_fmu, of_geometry
 
-    given, T, thermal = case.values["joint.preload"], case.values["cage.T"], of_geometry(Geometry(**case.joint))
-    yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", origins(case, "joint.preload")
-    if abs(thermal.at(given, T) - given) > 1e-3 * given:
-        reason = f"the cage expands {'more' if thermal.rate > 0.0 else 'less'} than the rivets, {thermal.rate:+.3g} N/K"
-        yield f"preload with the cage at {T - ZERO:.4g} degC", f"some {thermal.at(given, T):.3g}", "N", reason
+    given, T = case.values["joint.preload"], case.values["cage.T"]
+    thermal = of_fmu(case.model) if case.model else of_geometry(Geometry(**case.joint))
+    if thermal is None:
+        return
+    warm, origin = abs(T - thermal.T_0) > 1e-6, origins(case, "joint.preload")
+    reason = origin if warm else ", ".join(filter(None, (origin, "the cage has this temperature")))
+    yield f"preload of a rivet at {thermal.T_0 - ZERO:.4g} degC", f"{given:.4g}", "N", reason
+    if warm:
+        hot = f"{'' if case.model else 'some '}{thermal.at(given, T):.3g}"
+        yield f"preload with the cage at {T - ZERO:.4g} degC", hot, "N", thermal.reason
 
 
 def oil(case):
     """Name, value, unit and origin of oil and temperatures."""
     from bearing_model.load_ratings import reference_viscosity
 
-    from ..oil import viscosity
+    from ..oil import POINTS, largest_traction, plain, viscosity
 
     own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
-    start = {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}
-    T = own.pop("oil.T")
-    points = ("oil.nu_1", "oil.nu_2")
-    eta = viscosity(own, start, T)
-    yield (
-        f"oil viscosity at {T - ZERO:.4g} degC",
-        f"{1e3 * eta:.4g}",
-        "mPa.s",
-        origins(case, "oil.eta"),
-    )
+    start = {name: start_of(case, name) for name in own if name in variables.PARAMETERS}
+    T, it = own.pop("oil.T"), plain(own)
+    at, warmer = f"at {T - ZERO:.4g} degC", T - it.T_0
+    eta, rho = viscosity(own, start, T), it.rho * (1.0 - it.expansion * warmer)
+    yield "oil", case.oil or "not named", "", "yours" if case.oil else "what is not given is that of an aviation oil"
+    yield f"oil viscosity {at}", f"{1e3 * eta:.4g}", "mPa.s", origins(case, "oil.eta")
     yield (
         "kinematic viscosity",
-        ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in points),
+        ", ".join(f"{1e6 * own[n]:.4g} at {own[n.replace('nu', 'T')] - ZERO:.4g} degC" for n in POINTS),
         "mm2/s",
-        origins(case, *points),
+        source_of(case, *POINTS),
     )
+    alpha = it.alpha * math.exp(-it.alpha_T * warmer)
+    yield f"pressure-viscosity coefficient {at}", f"{1e9 * alpha:.3g}", "1/GPa", source_of(case, "oil.alpha")
+    traction = f"{largest_traction(it.A, it.B, it.C):.3f}, {-it.A:.3f}"
+    yield "traction coefficient: largest, in full sliding", traction, "", source_of(case, "oil.A")
+    yield f"oil density {at}", f"{rho:.4g}", "kg/m3", source_of(case, "oil.rho")
+    yield "roughness of ball and race", f"{1e6 * it.sigma_race:.3g}", "um", source_of(case, "oil.sigma_race")
     if omega := case.load.omega - case.load.omega_e:
-        kappa = eta / own["oil.rho"] / reference_viscosity(omega, case.bearing.d_m)
+        kappa = eta / rho / reference_viscosity(omega, case.bearing.d_m)
         speed = f"{RPM * abs(omega):,.0f} rev/min"
         yield f"viscosity ratio kappa at {speed} (ISO 281)", f"{kappa:.3g}", "", ""
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
@@ -252,6 +259,23 @@ def oil(case):
         "degC",
         origins(case, *names),
     )
+
+
+def source_of(case, *names):
+    """Who gave these values of the oil, or where they come from."""
+    from ..oil import source_of as of_oil
+
+    given = [name for name in names if case.values[name] != variables.PARAMETERS[name].start]
+    if case.oil and (source := of_oil(case.oil, names[0])) and case.origin.get(names[0], "oil").endswith("oil"):
+        return source
+    if given or case.origin.get(names[0]) == "yours":
+        return origins(case, *names)
+    return variables.PARAMETERS[names[0]].source
+
+
+def start_of(case, name):
+    """Start value of a parameter in the case's FMU, if it has one, else in the variable table."""
+    return case.model.default(case.model.parameters[name]) if case.model else variables.PARAMETERS[name].start
 
 
 def origins(case, *names):

@@ -199,7 +199,9 @@ def print_summary(result):
     )
     if rows := list(assumed_rows(result)):
         meant = f"usual range: change of the worst head over it, {measured_in(rows)}"
-        texts = (f"{row.name} {row.words[0]} ({row.words[1]}: {100 * row.effect.stress:.0f} %)" for row in rows)
+        texts = (
+            f"{row.name} {row.words[0]} ({': '.join(filter(None, (row.words[1], row.effect.change)))})" for row in rows
+        )
         console.print(
             f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(texts))}[/]", soft_wrap=True
         )

@@ -130,6 +130,9 @@ def changes(model, settings, seed, t_end, step):
         name, equals, value = setting.partition("=")
         if not equals:
             raise UserError(f'--set {setting}: not of the form NAME=VALUE, e.g. joint.preload="30 N"')
+        if name.strip() == "oil":
+            document["oil"] = value.strip().strip("\"'")
+            continue
         section = "inputs" if name.strip() in model.inputs else "parameters"
         document[section][name.strip()] = number_or_text(value.strip().strip("\"'"))
         if is_of_rivet(name.strip()):

@@ -439,7 +439,7 @@ def assumptions(result, decides=None):
         return tuple(rows), f"mean change of {name} over the range, by the study {decides.name}"
     rows = list(assumed_rows(result))[:MOST_ASSUMED]
     return tuple(
-        (row.name, *row.words, f"{100 * row.effect.stress:.0f} % of stress") for row in rows
+        (row.name, *row.words, f"{row.effect.change} of stress" if row.effect.change else "–") for row in rows
     ), f"change of the worst head's stress over the usual range, {measured_in(rows)}"
 
 
