@@ -42,6 +42,7 @@ SAMPLED = [
     "loss.land",
     "bearing.energy_residual",
     "event.step_too_long",
+    "event.energy_off",
 ]
 # name -> limit of the bias, floor of its denominator: values below the floor decide nothing in a design
 FIGURES = {
@@ -176,7 +177,7 @@ def measure(fmu, scene, seed, tolerance, method):
         "torque": mean["bearing.friction_torque"] * math.copysign(1.0, inputs["shaft.omega"]),
         "land_loss": mean["loss.land"],
         "residual": float(sampled["bearing.energy_residual"][-1]) / max(loss, 1e-3),
-        "flagged": float(np.max(sampled["event.step_too_long"])),
+        "flagged": float(max(np.max(sampled[f"event.{name}"]) for name in ("step_too_long", "energy_off"))),
         "evaluations": s["solver.rhs_evals"],
         "seconds": s["solver.cpu_time"],
         "time": settle + span,

@@ -437,6 +437,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     data = iso | data
     inside = "" if prefix else in_cage(designation)
     check_limits(path, document, parts, lambda name: called(name, prefix), inside)
+    check_guidance(path, values)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     return Case(
         designation,
@@ -608,6 +609,18 @@ def check_limits(path, document, parts, names=lambda name: name, inside=""):
                 )
             raise refusal(path, names(key), written.get(key, values[key]), reason)
     raise refusal(path, names(keys[0]), written.get(keys[0], values[keys[0]]), f"impossible: {broken.reason}{inside}")
+
+
+def check_guidance(path, values):
+    """UserError for a cage that its shape does not let be guided as the values say."""
+    by_balls = ribbon.is_guided_by_balls(values)
+    if by_balls != ribbon.is_ribbon(values):
+        reason = (
+            'a machined cage\'s drilled pockets slide along the radius; "outer" is allowed, or cage.shape = "ribbon"'
+            if by_balls
+            else 'a ribbon cage has no land on the outer ring; "balls" is allowed'
+        )
+        raise refusal(path, "cage.guidance", values["cage.guidance"], reason)
 
 
 def changed(parts, key, value):

@@ -8,7 +8,16 @@ from library import TWO_HALF
 from mechanics import SLICE, Instance, View, Z, pocket_loads, running_state
 from scipy.spatial.transform import Rotation
 
-from bearing_model.generated.variables import INPUTS, OUTPUTS, PARAMETERS, RingMotion, Switch, TiltMode, Traction
+from bearing_model.generated.variables import (
+    INPUTS,
+    OUTPUTS,
+    PARAMETERS,
+    CageModel,
+    RingMotion,
+    Switch,
+    TiltMode,
+    Traction,
+)
 from bearing_model.physics.derived import model_derive
 from bearing_model.physics.model import Model
 from bearing_model.physics.parameters import Inputs, Parameters
@@ -124,6 +133,39 @@ def test_power_balance(core, motion):
         w = View(core, model.work)
         moving = np.abs(w.Q_i[:9] + w.Q_e[:9]).max() * 0.1 + pocket_loads(model).max() * 20.0  # [W]
         assert rate == pytest.approx(power, abs=2e-8 * moving + 2e-6)
+
+
+def test_a_frame_that_gains_speed_finds_the_inertia_of_the_widened_cage(core):
+    """Elastic halves at one state, in a frame whose speed changes and in one whose does not: the balance of power is off by
+    the error of the joints' law alone, the same in both, to 1e-3 W of the watts that the wider halves take.
+    """
+    model = core.model({"scene.cage": CageModel.ELASTIC})
+    y, off = running_state(model, np.random.default_rng(3)), []
+    for rate in (0.0, 1e6):
+        inputs = dict.fromkeys([*RATES, *RATES.values()], 0.0) | {"frame.omega": 1000.0, "frame.omega_dot": rate}
+        model = core.model({"scene.cage": CageModel.ELASTIC}, inputs)
+        power, change = power_and_rate(model, y, inputs)
+        off.append(change - power)
+    assert 1e9 * sum(np.ravel(J)[0] for J in list(model.work.elastic.more_J)) > 1.0  # [W]
+    assert off[1] == pytest.approx(off[0], abs=1e-3)
+
+
+@pytest.mark.c_only
+def test_energy_in_a_turning_frame_is_kinetic_and_elastic(core):
+    """Elastic halves that the spin widens: their energy is above the kinetic one, and its change is the integral of the four
+    powers, with the frame's work on the widening (0.107 J without it).
+    """
+    inputs = {"shaft.omega": 0.0, "housing.omega": 500.0, "frame.omega_dot": 3e5}
+    bearing, names = Instance(core, {"scene.cage": CageModel.ELASTIC}, inputs), ("shaft", "housing", "frame")
+    rows = []
+    for n in range(1001):
+        powers = sum(numbers(bearing, f"{side}.power")[0] for side in names) - numbers(bearing, "bearing.power_loss")[0]
+        rows.append((numbers(bearing, "bearing.energy")[0], powers))
+        if n < 1000:
+            bearing.set(**{"frame.omega": 3.0 * n})
+            bearing.step((n + 1) * 1e-5)
+    E, P = np.array(rows).T
+    assert E[-1] - E[0] == pytest.approx(1e-5 * np.sum(0.5 * (P[1:] + P[:-1])), abs=0.03)
 
 
 @pytest.mark.c_only
@@ -368,6 +410,24 @@ def test_tilts_and_moments_without_effect_are_named(core, mode, inputs, said):
     instance = Instance(core, TWO_HALF | {"ring.tilt_mode": mode}, inputs).step(1e-4)
     found = [text for text in instance.messages if "no effect" in text]
     assert found == [] if said is None else len(found) == 1 and f"ring.tilt_mode is {said}" in found[0]
+
+
+@pytest.mark.c_only
+def test_a_frame_may_be_too_fast_for_its_arm(core):
+    """An arm of 0.15 m accelerates the bearing by omega^2 R and omega_dot R: 1e5 m/s2, and a little more, in C and Python."""
+    arm = {"frame.radius": 0.15}
+    for name, most in (("frame.omega", np.sqrt(1e5 / 0.15)), ("frame.omega_dot", 1e5 / 0.15)):
+        Instance(core, arm, {name: (1.0 - 1e-6) * most})
+        Model.of(arm, {name: (1.0 - 1e-6) * most})
+        for begin in (lambda inputs: Instance(core, arm, inputs), lambda inputs: Model.of(arm, inputs)):
+            with pytest.raises(
+                ValueError, match=f"{name} = .*frame.radius = 0.15 m: the bearing's centre is accelerated"
+            ):
+                begin({name: (1.0 + 1e-6) * most})
+    bearing = Instance(core, arm, {})
+    bearing.set(**{"frame.omega": 1000.0})
+    with pytest.raises(ArithmeticError, match="is accelerated by 150000 m/s2; at most 100000 m/s2 is allowed"):
+        bearing.step(1e-4)
 
 
 @pytest.mark.c_only

@@ -5,9 +5,14 @@ import pytest
 from mechanics import Instance
 from ribbon import writable
 
+from bearing_model import simulate
 from bearing_model.generated import variables
+from bearing_model.instance.events import energy_off
 from bearing_model.physics.derived import default_table
 from bearing_model.physics.hertz import hertz_contact
+from bearing_model.physics.model import Model, Work
+from bearing_model.physics.rhs import rhs
+from bearing_model.solver.escape import escape_find
 
 REST = {"shaft.omega": 0.0, "shaft.F_x": 0.0}  # nothing tilts the balls' plane
 TABLE = default_table()
@@ -20,6 +25,8 @@ KINDS = (
     "RIVET_YIELD",
     "CAGE_YIELD",
     "MOTION_LAG",
+    "ENERGY_OFF",
+    "RIVET_OVERLOAD",
 )
 NEAR = 1e-6  # relative distance from a limit, far above rounding
 
@@ -131,6 +138,114 @@ def test_cage_yields_under_the_force_of_its_table(core):
             assert sum("the cage yields" in text for text in instance.messages) == yields
     finally:
         half.yield_force = 0.0
+
+
+def test_rivets_tear_beyond_their_tensile_strength(core):
+    """The middle stress of the start just below and above the strength; the warning is given once."""
+    stress = Instance(core).output("rivet.sigma_mid_max")
+    for factor, tears in ((1.0 + NEAR, False), (1.0 - NEAR, True)):
+        instance = Instance(core, {"fatigue.sigma_m": factor * stress})
+        assert (instance.output("event.rivet_overload") > 0) == tears
+        assert sum("would tear" in text for text in instance.messages) == tears
+
+
+@pytest.mark.parametrize(
+    ("balance", "limit"),
+    [
+        ((10.0, 10.0, 100.0), 2.0),  # 2 % of what is lost
+        ((100.0, 10.0, 100.0), 2.0),
+        ((300.0, 10.0, 100.0), 3.0),  # 1 % of what the bearing holds
+        ((10.0, 1000.0, 100.0), 4.0),  # 0.4 % of what the shaft has exchanged
+        ((10.0, 10.0, 0.0), 0.1),  # at rest
+    ],
+)
+def test_energy_is_off_beyond_its_limit(core, balance, limit):
+    """Energies in J that are held, exchanged and lost; in C and Python."""
+    for sign in (-1.0, 1.0):
+        for factor, off in ((1.0 - NEAR, 0), (1.0 + NEAR, 1)):
+            residual = sign * factor * limit
+            found = core.lib.event_of_energy(core.ffi.new("EnergyBalance *", (residual, *balance, 5.0, 0.0)))
+            assert found.count == energy_off(residual, *balance, 5.0) == off
+    found = core.lib.event_of_energy(core.ffi.new("EnergyBalance *", (0.0, *balance, -1e-9, 0.0)))
+    assert found.count == energy_off(0.0, *balance, -1e-9) == 1
+
+
+def test_a_run_whose_energy_is_off_says_so(core):
+    """Work that is missing in the balance by a little less than 1 % of the energy that the bearing holds, which is more than
+    2 % of the loss of a millisecond, and by more; the warning is given once.
+    """
+    for share, off in ((0.0095, 0), (0.0105, 1)):
+        instance = Instance(core).step(1e-3)
+        residual = instance.output("bearing.energy_residual")
+        assert instance.output("event.energy_off_onsets") == 0.0
+        state = np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), 8 * variables.N_STATES))
+        state[variables.WORK] += residual - share * instance.output("bearing.energy")
+        instance.step(1e-3 + 1e-9).step(1e-3 + 2e-9)
+        assert instance.output("event.energy_off") == instance.output("event.energy_off_onsets") == off
+        assert sum("energy_residual" in text for text in instance.messages) == off
+
+
+@pytest.mark.parametrize("cage", variables.CageModel)
+def test_steps_that_are_too_long_are_seen_by_their_energy(core, cage):
+    """Fixed steps five times the default's gain 1e4 J within a millisecond."""
+    instance = Instance(core, {"scene.cage": cage, "solver.method": 3, "solver.step": 5e-5})
+    with pytest.raises(ArithmeticError):
+        list(map(instance.step, 1e-4 * np.arange(1, 31)))
+    assert any("bearing.energy_residual" in text for text in instance.messages)
+
+
+REACH = {
+    name: variables.PARAMETERS[name].start
+    for name in ("cage.D_o", "cage.D_i", "cage.guide_clearance", "cage.pocket_clearance", "bearing.D")
+}
+ACROSS = 0.5 * REACH["cage.guide_clearance"] + 0.25 * (REACH["cage.D_o"] - REACH["cage.D_i"])
+
+
+@pytest.mark.parametrize("method", variables.Method)
+def test_a_cage_that_leaves_the_bearing_ends_the_run(resting, method):
+    """A half a little less far off than its clearance and its section allow, and farther: the run ends with its reason, and
+    time and outputs are those of the last good state.
+    """
+    parameters = {"solver.method": method, "solver.step": 1e-6}
+    instance = resting({"CAGE_Y": [0.0, (1.0 - 1e-4) * ACROSS]}, parameters).step(2e-9)
+    instance = resting({"CAGE_Y": [0.0, (1.0 + 1e-4) * ACROSS]}, parameters)
+    with pytest.raises(ArithmeticError, match="t = 1e-09 s: cage half 2 leaves the bearing: it is 0.00255 m off"):
+        instance.step(2e-9)
+    assert instance.time == 1e-9 and np.isfinite(instance.output("cage.eccentricity"))
+
+
+def test_bodies_that_pass_through_each_other(core):
+    """Ball against race, pocket and neighbour, just short of the limit and beyond; the twin gives the same reasons."""
+    D, clearance = REACH["bearing.D"], REACH["cage.pocket_clearance"]
+    parameters = {"scene.cage": 1, "start.spacing": 0.0}
+    c, model, w = core.model(parameters, REST), Model.of(parameters, REST), Work()
+    start = Instance(core, parameters, REST).y
+    c.rhs(0.0, start)
+    r = start[variables.BALL_R][3]
+    touching = 2.0 * np.arcsin(0.5 * D / r)  # angle between two balls
+    cases = [
+        (variables.BALL_R, 0.25 * D - c.work.delta_e[3], "ball[4] passes through its outer race"),
+        (variables.BALL_THETA, np.arcsin((0.25 * D + 0.5 * clearance) / r), "ball[4] passes through its pocket"),
+        (variables.BALL_THETA, 2.0 * np.pi / variables.Z - touching, "ball[4] and ball[5] overlap"),
+    ]
+    for block, shift, reason in cases:
+        for factor in (1.0 - 1e-3, 1.0 + 1e-3):
+            y = start.copy()
+            y[block][3] += factor * shift
+            c.rhs(0.0, y)
+            rhs(model, 0.0, y, w)
+            escape, text = core.lib.escape_find(c.pointer, c.work), core.ffi.new("char[256]")
+            core.lib.escape_text(core.ffi.new("Escape *", escape), text, 256)
+            said = core.ffi.string(text).decode()
+            assert said == escape_find(model, w)
+            assert said.startswith(reason) == (factor > 1.0)
+
+
+def test_the_twin_ends_a_run_that_leaves_the_bearing():
+    y = simulate({"scene.cage": 1}, REST, 1e-9, step=1e-9).y[-1]
+    y[variables.CAGE_Y] += 1.01 * ACROSS
+    with pytest.raises(RuntimeError, match="cage half 1 leaves the bearing: it is 0.002575 m off"):
+        simulate({"scene.cage": 1}, REST, 1e-9, step=1e-9, y=y)
 
 
 def test_onsets_are_reported_ever_more_rarely(core):

@@ -5,6 +5,7 @@ import pytest
 from mechanics import Instance, Z, running_state
 from ribbon import RIBBON
 
+from bearing_model import simulate
 from bearing_model.generated.variables import CAGE_V_X, N_STATES, RING_V_X
 
 BALLS = {"cage.guidance": 2}
@@ -25,6 +26,18 @@ def test_no_land(core):
     guided.rhs(0.0, y)
     assert np.array_equal(m.implicit("implicit_stiff_part", 1e-5, v)[cage], np.zeros(12))
     assert np.abs(guided.implicit("implicit_stiff_part", 1e-5, v)[cage]).max() > 1e-3
+
+
+def test_drilled_pockets_do_not_guide(core):
+    """A run of a machined cage that balls should guide is refused, in C and Python."""
+    with pytest.raises(
+        ValueError, match="cage.guidance = 2 .balls.: a machined cage .cage.shape. has no such guidance"
+    ):
+        Instance(core, BALLS)
+    with pytest.raises(
+        ValueError, match="cage.guidance = 2 .balls.: a machined cage .cage.shape. has no such guidance"
+    ):
+        simulate(BALLS, t_end=1e-6)
 
 
 def test_outputs(core):

@@ -23,7 +23,7 @@ GROUPS = {  # from the bottom up
     "door of the cage": "cage cage_read cage_setup",
     "constants, powers": "derived powers housing",
     "right-hand side": "rhs",
-    "what follows from an evaluation": "breakage energy events jacobian loosening outputs",
+    "what follows from an evaluation": "breakage energy escape events jacobian loosening outputs",
     "one step": "dispatch implicit kernels start verlet",
     "integrator": "bearing_step integrator state_vector stepping",
     "instance": "bearing check instance log outputs_recorded",

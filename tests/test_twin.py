@@ -109,7 +109,6 @@ DIFFER |= {
     "pocket[j].dtheta": np.linspace(-1e-3, 1.5e-3, Z).tolist(),
     "pocket[j].dD": np.linspace(-5e-5, 1e-4, Z).tolist(),
 }
-BALLS = {"cage.guidance": 2}
 SPALLS = {"angle": 0.03, "length": 6e-3, "width": 1.5e-3, "depth": 4e-5}
 SURFACES = {f"{race}.spall_{name}": value for race in ("inner", "outer") for name, value in SPALLS.items()}
 SURFACES |= {f"{race}.waviness[n]": [2e-6 / (1.0 + n) for n in range(60)] for race in ("inner", "outer")}
@@ -138,7 +137,6 @@ SCENES = {
     "differ": (DIFFER | UNBALANCE, LOADS),
     "elastic": (ELASTIC | UNBALANCE | {"joint.fit": -3e-6}, {}),
     "other_free": (OTHER | FREE | MIXED, SLOW),
-    "balls": (BALLS | UNBALANCE, LOADS),
     "surfaces": (SURFACES | MIXED | SLICED | SUPPORTED, LOADS | HOUSING),
     "ball_spalls": (SURFACES | BALL_SPALLS | MIXED | SLICED | SUPPORTED, LOADS | HOUSING),
 }

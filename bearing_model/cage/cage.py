@@ -439,6 +439,25 @@ def cage_energy(model, y, w):
     return terms | {"modes of the cage": w.elastic.energy} if model.modes else terms
 
 
+def cage_widened(w):
+    """What the centrifugal load of a turning frame has done as it widened the halves [J].  Of the modes' powers this one
+    counts as a potential, because modes turn by much more than pi in a step.
+    """
+    return 0.5 * sum(w.elastic.more_J) * w.frame_omega**2
+
+
+def cage_widening(w, frame_omega_dot):
+    """Its rate [W]."""
+    J, J_dot = sum(w.elastic.more_J), sum(w.elastic.more_J_dot)
+    return w.frame_omega * (0.5 * J_dot * w.frame_omega + J * frame_omega_dot)
+
+
+def cage_drawn(w, frame_omega_dot):
+    """Power that the frame's rate draws from what the widened halves have gained of inertia [W]."""
+    gained = zip(w.elastic.more_J, w.half, strict=True)
+    return sum(more_J * frame_omega_dot * (half.s + w.frame_omega) for more_J, half in gained)
+
+
 def cage_losses(model, w):
     """Powers that the damping of joints and modes dissipates [W] by name, each [..., 1].  What friction loses is no function
     of a state: it is the work of a step's slip (cage_slide).

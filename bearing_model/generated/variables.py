@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{a8f06ddb-796a-1246-416d-f85c7516ab23}"
+MODEL_GUID = "{880680d4-c341-61bf-0bc8-92c9c0b290bd}"
 Z = 9
 
 
@@ -408,10 +408,10 @@ INPUTS = {
         Variable("housing.tilt_y_dot", 39, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of housing.tilt_y", "at rest", False, None),
         Variable("housing.tilt_z_dot", 40, "Real", "rad/s", None, 0.0, -200.0, 200.0, 1, None, "Rate of housing.tilt_z", "at rest", False, None),
         Variable("housing.omega", 41, "Real", "rad/s", "rev/min", 0.0, -15000.0, 15000.0, 1, None, "Speed of the outer ring about X", "outer ring at rest", False, None),
-        Variable("frame.a_x", 51, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along X of the frame", "frame at rest", False, None),
-        Variable("frame.a_y", 52, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along Y of the frame", "frame at rest", False, None),
-        Variable("frame.a_z", 53, "Real", "m/s2", None, 0.0, -300000.0, 300000.0, 1, None, "Acceleration of the frame's axis of rotation along Z of the frame", "frame at rest", False, None),
-        Variable("frame.omega", 54, "Real", "rad/s", "rev/min", 0.0, -15000.0, 15000.0, 1, None, "Speed of the frame about an axis parallel to X, frame.radius away on -Y", "frame at rest", False, None),
+        Variable("frame.a_x", 51, "Real", "m/s2", None, 0.0, -100000.0, 100000.0, 1, None, "Acceleration of the frame's axis of rotation along X of the frame", "frame at rest", False, None),
+        Variable("frame.a_y", 52, "Real", "m/s2", None, 0.0, -100000.0, 100000.0, 1, None, "Acceleration of the frame's axis of rotation along Y of the frame", "frame at rest", False, None),
+        Variable("frame.a_z", 53, "Real", "m/s2", None, 0.0, -100000.0, 100000.0, 1, None, "Acceleration of the frame's axis of rotation along Z of the frame", "frame at rest", False, None),
+        Variable("frame.omega", 54, "Real", "rad/s", "rev/min", 0.0, -5000.0, 5000.0, 1, None, "Speed of the frame about an axis parallel to X, frame.radius away on -Y", "frame at rest", False, None),
         Variable("frame.omega_dot", 55, "Real", "rad/s2", None, 0.0, -10000000.0, 10000000.0, 1, None, "Rate of frame.omega", "frame at rest", False, None),
         Variable("oil.T", 8301, "Real", "K", "degC", 359.0006, 200.0, 600.0, 1, None, "Temperature of the oil", "where MIL-PRF-23699 oil has 6 mPa.s", False, None),
         Variable("ring.T_i", 8302, "Real", "K", "degC", 293.15, 150.0, 700.0, 1, None, "Temperature of the inner ring", "assembly temperature", False, None),
@@ -588,21 +588,25 @@ OUTPUTS = {
         Variable("event.overpressure", 7004, "Real", "1", None, None, None, None, 1, "event", "Race contacts beyond bearing.p_limit", None, False, None),
         Variable("event.joint_open", 7005, "Real", "1", None, None, None, None, 1, "event", "Joints whose plates are apart", None, False, None),
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None, False, None),
+        Variable("event.rivet_overload", 7025, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_mid_peak exceeds fatigue.sigma_m", None, False, None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None, False, None),
         Variable("event.rivet_break", 7010, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
         Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the errors of the steps of solver.method = fixed are so large over 10 ms that the results may be wrong", None, False, None),
         Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None, False, None),
         Variable("event.cage_yield", 7021, "Real", "1", None, None, None, None, 1, "event", "1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield", None, False, None),
+        Variable("event.energy_off", 7023, "Real", "1", None, None, None, None, 1, "event", "1 if bearing.energy_residual passes 2 % of the energy lost", None, False, None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None, False, None),
         Variable("event.pocket_exit_onsets", 7012, "Real", "1", None, None, None, None, 1, "event", "Onsets of a ball leaving its pocket since the start", None, False, None),
         Variable("event.ellipse_cut_onsets", 7013, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact ellipse cut by the shoulder since the start", None, False, None),
         Variable("event.overpressure_onsets", 7014, "Real", "1", None, None, None, None, 1, "event", "Onsets of a contact beyond bearing.p_limit since the start", None, False, None),
         Variable("event.joint_open_onsets", 7015, "Real", "1", None, None, None, None, 1, "event", "Onsets of an open joint since the start", None, False, None),
         Variable("event.rivet_yield_onsets", 7016, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a rivet since the start", None, False, None),
+        Variable("event.rivet_overload_onsets", 7026, "Real", "1", None, None, None, None, 1, "event", "Onsets of event.rivet_overload since the start", None, False, None),
         Variable("event.step_too_long_onsets", 7019, "Real", "1", None, None, None, None, 1, "event", "Onsets of steps that are too long since the start", None, False, None),
         Variable("event.no_clearance_onsets", 7017, "Real", "1", None, None, None, None, 1, "event", "Onsets of a closed clearance since the start", None, False, None),
         Variable("event.rivet_break_onsets", 7020, "Real", "1", None, None, None, None, 1, "event", "Communication steps since the start in which a rivet broke by its damage", None, False, None),
         Variable("event.motion_lag_onsets", 7018, "Real", "1", None, None, None, None, 1, "event", "Onsets of catching up with a given motion since the start", None, False, None),
+        Variable("event.energy_off_onsets", 7024, "Real", "1", None, None, None, None, 1, "event", "Onsets of event.energy_off since the start", None, False, None),
         Variable("event.cage_yield_onsets", 7022, "Real", "1", None, None, None, None, 1, "event", "Onsets of yield of a ribbon cage since the start", None, False, None),
         Variable("solver.method_used", 6007, "Real", "1", None, None, None, None, 1, "solver", "Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps", None, False, None),
     )

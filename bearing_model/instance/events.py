@@ -6,6 +6,7 @@ pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a re
 ellipse cut    |alpha| + a/R_m > arccos(1 - h D/r_g): the contact ellipse reaches over the shoulder         (race_contact: Hertz uncut)
 overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know     ISO 76
 joint open     plates of a joint apart: u_x > P/k_plate
+energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained
 no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
 
 The core also counts the onsets of events and reports them to the log, and finds rivets that yield from their peak
@@ -52,6 +53,14 @@ def ellipse_reach(model, w):
         np.arcsin(np.minimum(np.abs(along), 1.0)) + race.hertz.a * np.cbrt(Q) / race.R_m for race, Q, along in sides
     ]
     return np.where(np.array([w.Q_i, w.Q_e]) > 0.0, reach, 0.0)
+
+
+def energy_off(residual, held, exchanged, lost, lost_now):
+    """1 if the residual of the energy passes 2 % of the energy lost since the start, or energy is gained in the last
+    communication step, else 0.  Errors of the start and of pulses are small beside the energy that moves: 1 % of that in
+    the bearing and 0.4 % of that which the shaft has exchanged are allowed in any case.
+    """
+    return float(lost_now < 0.0 or not abs(residual) <= max(0.02 * lost, 0.01 * held, 0.004 * exchanged))
 
 
 def event_outputs(model, w):

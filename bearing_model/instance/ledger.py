@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearing_model.instance.energy import energy_terms
+from bearing_model.instance.events import energy_off
 from bearing_model.physics.model import Work
 from bearing_model.physics.powers import friction_torque, loss_terms, shaft_power, supply_terms
 from bearing_model.physics.rhs import rhs
@@ -31,7 +32,7 @@ class Ledger:
     supplied: by the inner ring's spin (the shaft's torque), translation and tilting, by the housing, by gravity and
     frame; stored: change of kinetic and elastic energies;
     changed: by parameters that were set in the run and rivets that broke, part of stored;
-    exchanged: integrals of the shaft's torque about its axis [N.m.s] and of its power [J];
+    exchanged: integrals of the shaft's torque about its axis [N.m.s] and of its power [J]; moved: of the amount of its power;
     lost: in races, pockets, drag, land and joints.
     """
 
@@ -40,6 +41,7 @@ class Ledger:
     lost: dict = field(default_factory=dict)
     changed: dict = field(default_factory=dict)
     exchanged: dict = field(default_factory=dict)
+    moved: float = 0.0
 
     @property
     def residual(self):
@@ -66,6 +68,8 @@ class Ledger:
             for name, rate in terms(model.at(t + 1j * STEP), along).items():
                 P = np.broadcast_to(rate, (len(t), 1))[:, 0]
                 account[name] = account.get(name, 0.0) + integral(np.diff(t), np.real(P), np.imag(P) / STEP)
+        P = np.broadcast_to(np.abs(shaft_power(w)), (len(t), 1))[:, 0]
+        self.moved += np.sum(0.5 * np.diff(t) * (P[:-1] + P[1:]))
         for name, energy in energy_terms(model, y, w).items():
             self.stored[name] = self.stored.get(name, 0.0) + energy[-1, 0] - energy[0, 0]
 
@@ -74,7 +78,13 @@ class Ledger:
         self.lost["joints"] = self.lost.get("joints", 0.0) + lost
 
     def copy(self):
-        return Ledger(dict(self.supplied), dict(self.stored), dict(self.lost), dict(self.changed), dict(self.exchanged))
+        accounts = self.supplied, self.stored, self.lost, self.changed, self.exchanged
+        return Ledger(*map(dict, accounts), self.moved)
+
+    def event(self, before, held):
+        """Whether the energy is off, by the Ledger at the last communication point and the energy that is held now [J]."""
+        lost = sum(self.lost.values())
+        return energy_off(self.residual, held, self.moved, lost, lost - sum(before.lost.values()))
 
     def means(self, before, length):
         """Outputs that are means over a communication step of this length [s], by the Ledger at its start."""

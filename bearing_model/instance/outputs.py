@@ -6,7 +6,7 @@ Each function returns {name: array}: [...] for one value, [..., Z] for the eleme
 
 import numpy as np
 
-from bearing_model.cage.cage import cage_flex, cage_loads, cage_slip
+from bearing_model.cage.cage import cage_flex, cage_loads, cage_slip, cage_widened, cage_widening
 from bearing_model.generated.variables import (
     BALL_THETA,
     CAGE_PSI,
@@ -225,10 +225,10 @@ def energy_outputs(model, y, w, energy_start, energy_change):
     values |= {
         "shaft.power": shaft_power(w),
         "housing.power": housing_power(model, w),
-        "frame.power": frame_power(model, w),
+        "frame.power": frame_power(model, w) + cage_widening(w, model.ring_load.frame_omega_dot),
     }
     return {name: value[..., 0] for name, value in values.items()} | {
-        "bearing.energy": energy,
+        "bearing.energy": (energy[..., None] + cage_widened(w))[..., 0],
         "bearing.energy_change": energy_change + 0.0 * energy,
         "bearing.energy_residual": energy - energy_start - energy_change - work,
     }

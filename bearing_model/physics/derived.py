@@ -212,6 +212,7 @@ def derive_cage(p, d):
     d.growth = cage_centrifugal(p, d.table) * (d.table.half.growth @ [1.0, p.cage.land_x])  # of the radius at the land
     d.guided = p.cage.guidance == CageGuidance.OUTER  # by a land
     d.play = d.C_land if d.guided else 0.5 * p.cage.pocket_clearance
+    d.bar = p.bearing.d_m * np.sin(np.pi / Z) - p.bearing.D - p.cage.pocket_clearance
     d.kappa = p.oil.eta * R * L**3 / d.C_land**3
     d.couette = 2.0 * np.pi * p.oil.eta * R**3 * L / d.C_land
     d.nahme = 0.125 * p.oil.beta * p.oil.eta * R**2 / p.oil.k if p.scene.heating == Switch.ON else 0.0

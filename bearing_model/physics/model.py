@@ -17,6 +17,7 @@ from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameter
 from bearing_model.physics.ring_load import (
     InputTrajectory,
     RingLoad,
+    check_frame,
     input_trajectory_update,
     input_trajectory_varies,
     ring_load_at,
@@ -67,13 +68,14 @@ class Model:
         """The model of the Parameters p at the temperatures in the Inputs u, under a RingLoad or along an
         InputTrajectory; table: RivetTable, default that of the 6207.
 
-        ValueError names a temperature that oil or bearing do not bear, a cage that there is not, or parameters of another
-        bearing than the table's.
+        ValueError names a temperature that oil or bearing do not bear, a frame that is too fast for its arm, a cage that
+        there is not, or parameters of another bearing than the table's.
         """
         table = table or default_table()
         check_table(p, table)
         hot = temperature_apply(p, u, table)
         check_temperatures(u, hot)
+        check_frame(p, u)
         d = model_derive(hot, table)
         return cls(hot, d, ring_load, trajectory, cage_derive(hot, d, table))
 

@@ -213,6 +213,17 @@ def check_ribbon(p):
     )
 
 
+def check_guidance(p):
+    """Refuse a run of a machined cage that balls should guide: pockets with radial axes do not hold it radially.  The laws of
+    such a cage can be looked at.
+    """
+    slides = "its drilled pockets slide along the radius; outer (1) is allowed"
+    require(
+        p.cage.shape == variables.CageShape.RIBBON or p.cage.guidance != variables.CageGuidance.BALLS,
+        f"cage.guidance = 2 (balls): a machined cage (cage.shape) has no such guidance, {slides}",
+    )
+
+
 def check_spall(p, body, sizes, diameter):
     """A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the
     ball, and its depth is small beside the ball, which rolls over its edges.  body: name of the ring or ball of this

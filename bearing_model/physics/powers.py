@@ -5,7 +5,7 @@ All forces on balls and cage together accelerate them; the outer ring carries th
 balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these forces.
 """
 
-from bearing_model.cage.cage import cage_losses
+from bearing_model.cage.cage import cage_drawn, cage_losses
 from bearing_model.numbers.lanes import ball_array_sum
 from bearing_model.numbers.vec import vec, vec_cross, vec_dot, vec_to_global
 from bearing_model.physics.frame import frame_acceleration, frame_moment
@@ -47,7 +47,7 @@ def housing_power(model, w):
 
 
 def frame_power(model, w):
-    """Power of gravity and of the frame's inertia forces into balls and cage [W], [..., 1]."""
+    """Power of gravity and of the frame's inertia forces into balls and cage, less cage_widening [W], [..., 1]."""
     frame, d = model.ring_load, model.d
     place, v = (
         vec_to_global(value, w.cos_theta, w.sin_theta) for value in (vec(w.x, w.r, 0.0), vec(w.v_x, w.v_r, w.v_t))
@@ -59,7 +59,7 @@ def frame_power(model, w):
         v = half.v + vec_cross(half.Omega, half.c)
         force = model.p.cage.m * frame_acceleration(frame, half.x + half.c, v)
         power = power + vec_dot(force, v) + vec_dot(frame_moment(frame, half, d.J_p, d.J_t), half.Omega)
-    return power
+    return power - cage_drawn(w, frame.frame_omega_dot)
 
 
 def loss_terms(model, w):

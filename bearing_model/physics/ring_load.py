@@ -15,8 +15,8 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.generated.variables import RingMotion
-from bearing_model.physics.parameters import InputDerivatives
+from bearing_model.generated.variables import INPUTS, RingMotion
+from bearing_model.physics.parameters import InputDerivatives, require
 from bearing_model.physics.race_surface import race_surfaces_given
 
 # Inputs that are a position and its velocity: group, position, velocity; the shaft's come first.
@@ -33,6 +33,16 @@ SHORTEST_MOTION = 1e-12  # step whose rates of motion are known [s]
 # allowed, to make up in that time, the acceleration is 8e5 m/s2.
 CATCH_UP_TIME = 1e-4  # at least [s]
 CATCH_UP_ACCELERATION = 1e6  # at most [m/s2]
+
+
+def check_frame(p, u):
+    """ValueError if the frame's arm accelerates the bearing's centre more than frame.a_* may be."""
+    R, most = p.frame.radius, INPUTS["frame.a_y"].max
+    rates = (("omega", "rad/s", u.frame.omega**2 * R), ("omega_dot", "rad/s2", abs(u.frame.omega_dot) * R))
+    for name, unit, a in rates:
+        given = f"frame.{name} = {getattr(u.frame, name):g} {unit}, frame.radius = {R:g} m"
+        allowed = f"at most {most:g} m/s2 is allowed, as of frame.a_y"
+        require(a <= most, f"{given}: the bearing's centre is accelerated by {a:g} m/s2; {allowed}")
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
 from bearing_model.physics.hertz import hertz_energy
 from bearing_model.physics.model import Model, Work
-from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
+from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters, check_guidance
 from bearing_model.physics.rhs import jacobian, rhs
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.physics.ring_load import (
@@ -38,6 +38,7 @@ from bearing_model.physics.ring_load import (
 )
 from bearing_model.physics.temperature import temperature_same
 from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, rivet_rom_stress
+from bearing_model.solver.escape import escape_find
 from bearing_model.solver.start import ring_follow, start_state
 
 METHODS = {"DOP853": DOP853, "RK45": RK45, "RK23": RK23, "Radau": Radau, "BDF": BDF}
@@ -225,7 +226,9 @@ class Integration:
             message = solver.step()
             if solver.status == "failed":
                 raise RuntimeError(f"t = {solver.t:.9g} s: the solver cannot go on: {message}")
-            slip = self.slide(model, solver)
+            slip, reason = self.slide(model, solver)
+            if reason:
+                raise RuntimeError(f"t = {solver.t:.9g} s: {reason}: the run ends")
             lost += slip[0]
             rubbed.append(slip[1])
             times.append(solver.t)
@@ -241,8 +244,9 @@ class Integration:
         return np.array(times), np.array(states), lost, np.array(rubbed)
 
     def slide(self, model, solver):
-        """Maps the joints' friction states at the end of the solver's step back; what cage_slide returns.  The rates there depend
-        on what friction holds of them alone, so that those of the solver stay.
+        """Maps the joints' friction states at the end of the solver's step back; what cage_slide returns, and the reason if the
+        step has led out of the bearing.  The rates there depend on what friction holds of them alone, so that those of the
+        solver stay.
         """
         w, y = Work(), solver.y.copy()
         rhs(model, solver.t, y, w)
@@ -250,7 +254,7 @@ class Integration:
         if isinstance(solver, BDF):
             solver.D[0] += y - solver.y
         self.y = solver.y = y
-        return slip
+        return slip, escape_find(model, w)
 
 
 def simulate(
@@ -276,8 +280,8 @@ def simulate(
     inputs are then polynomials of time until the next point.  changes: a function t -> parameters {name: value} that
     are set at the communication point t and in force from there.  tolerance: of a step, relative to the error scales;
     default solver.tol.  method: DOP853, RK45, RK23, or with the exact Jacobian Radau, BDF.  table: RivetTable,
-    default that of the 6207. ValueError names a value that is not allowed; RuntimeError if the solver cannot go on, and
-    when all rivets are broken.
+    default that of the 6207. ValueError names a value that is not allowed; RuntimeError if the solver cannot go on, a body
+    leaves the bearing, or all rivets are broken.
 
     >>> results = simulate({"scene.cage": "two_half"}, {"shaft.F_y": 1000.0}, t_end=1e-4)
     >>> results["ball[1].Q_i"].shape
@@ -298,6 +302,7 @@ def simulate(
         raise ValueError(
             f"ball[{spalled[0] + 1}].spall_length: the FMU alone follows the turn of a ball; 0 m is allowed"
         )
+    check_guidance(Parameters(parameters))
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     here = input_trajectory_update(
@@ -317,6 +322,7 @@ def simulate(
     first = (
         observe(model, t_start, y, energy_start)
         | record.rivet_outputs()
+        | {"event.energy_off": 0.0}
         | accepted(model, record, np.array([t_start]), np.zeros(1), y[None], np.zeros((1, Z)))
     )
     states, ledgers, rows = [y], [ledger.copy()], [first]
@@ -365,6 +371,7 @@ def simulate(
             | {name: np.max([peak[name] for peak in peaks], axis=0) for name in peaks[0]}
             | ledger.means(ledgers[-2], point - t_0)
         )
+        rows[-1]["event.energy_off"] = ledger.event(ledgers[-2], rows[-1]["bearing.energy"])
         if p.scene.breakage == Switch.ON and not np.any(record.breakage.holds(p)):
             raise RuntimeError(f"t = {run.t:.9g} s: all {Z} rivets are broken, the halves of the cage come apart")
     table_of = {name: np.array([row[name] for row in rows]) for name in rows[0]}

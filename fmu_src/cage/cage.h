@@ -169,8 +169,33 @@ CageLoads cage_loads;
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 
-// Kinetic energy of the halves, elastic energy of pockets, joints and modes [J].
+// Kinetic energy of the halves, elastic energy of pockets, joints and modes [J], less cage_widened.
 scalar cage_energy(const Model *model, const scalar *y, const Work *w);
+
+// What the centrifugal load of a turning frame has done as it widened the halves [J], and its rate [W].  Of the modes'
+// powers this one counts as a potential, because modes turn by much more than pi in a step.
+INLINE scalar cage_widened(const Work *w)
+{
+    return 0.5 * (w->elastic.more_J[0] + w->elastic.more_J[1]) * (w->frame_omega * w->frame_omega);
+}
+
+INLINE scalar cage_widening(const Work *w, scalar frame_omega_dot)
+{
+    scalar power = 0.0;
+    for (int h = 0; h < 2; h++)
+        power += w->frame_omega *
+                 (0.5 * w->elastic.more_J_dot[h] * w->frame_omega + w->elastic.more_J[h] * frame_omega_dot);
+    return power;
+}
+
+// Power that the frame's rate draws from what the widened halves have gained of inertia [W].
+INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
+{
+    scalar power = 0.0;
+    for (int h = 0; h < 2; h++)
+        power += w->elastic.more_J[h] * frame_omega_dot * (w->half[h].s + w->frame_omega);
+    return power;
+}
 
 // Power that the halves' vibrations and the damping between rigid halves lose [W].  What friction loses is no function of
 // a state: it is the work of a step's slip (cage_correct).

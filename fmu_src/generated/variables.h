@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{a8f06ddb-796a-1246-416d-f85c7516ab23}"  // digest of the table
+#define MODEL_GUID "{880680d4-c341-61bf-0bc8-92c9c0b290bd}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -568,21 +568,25 @@ typedef struct {
         scalar overpressure;  // [1] Race contacts beyond bearing.p_limit
         scalar joint_open;  // [1] Joints whose plates are apart
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
+        scalar rivet_overload;  // [1] Rivets whose sigma_mid_peak exceeds fatigue.sigma_m
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
         scalar step_too_long;  // [1] 1 if the errors of the steps of solver.method = fixed are so large over 10 ms that the results may be wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar cage_yield;  // [1] 1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield
+        scalar energy_off;  // [1] 1 if bearing.energy_residual passes 2 % of the energy lost
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start
         scalar pocket_exit_onsets;  // [1] Onsets of a ball leaving its pocket since the start
         scalar ellipse_cut_onsets;  // [1] Onsets of a contact ellipse cut by the shoulder since the start
         scalar overpressure_onsets;  // [1] Onsets of a contact beyond bearing.p_limit since the start
         scalar joint_open_onsets;  // [1] Onsets of an open joint since the start
         scalar rivet_yield_onsets;  // [1] Onsets of yield of a rivet since the start
+        scalar rivet_overload_onsets;  // [1] Onsets of event.rivet_overload since the start
         scalar step_too_long_onsets;  // [1] Onsets of steps that are too long since the start
         scalar no_clearance_onsets;  // [1] Onsets of a closed clearance since the start
         scalar rivet_break_onsets;  // [1] Communication steps since the start in which a rivet broke by its damage
         scalar motion_lag_onsets;  // [1] Onsets of catching up with a given motion since the start
+        scalar energy_off_onsets;  // [1] Onsets of event.energy_off since the start
         scalar cage_yield_onsets;  // [1] Onsets of yield of a ribbon cage since the start
     } event;
 } Outputs;
@@ -671,4 +675,4 @@ typedef enum {
 } StateScale;
 
 enum { N_INPUTS = 39 };  // all of them numbers
-enum { N_VARIABLES = 407 };  // time is the first
+enum { N_VARIABLES = 411 };  // time is the first

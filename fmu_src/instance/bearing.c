@@ -11,6 +11,7 @@
 #include "physics/housing.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
+#include "solver/escape.h"
 #include "solver/start.h"
 
 #include <stdio.h>
@@ -111,20 +112,52 @@ static bool is_fixed(const Bearing *b)
     return b->s.p.solver.method == METHOD_FIXED;
 }
 
+// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
+static void evaluate(Bearing *b)
+{
+    if (b->evaluated) return;
+    const IntegratorState *i = &b->s.integrator;
+    b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
+    b->evaluated = true;
+}
+
+static Event energy_event(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    const IntegratorState *i = &s->integrator;
+    const double E = energy_total(&b->model, i->now.y, &b->w);
+    const double residual = E - i->now.y[Y_WORK] - s->energy_start - s->energy_change;
+    const EnergyBalance balance = {residual, E + cage_widened(&b->w), s->exchanged, s->lost, i->sum.lost,
+                                   s->jumped};
+    return event_of_energy(&balance);
+}
+
+// What follows from predicted velocities is no reason to warn.
+void events_here(Bearing *b, Event now[EVENT_COUNT])
+{
+    const InstanceState *s = &b->s;
+    const IntegratorState *i = &s->integrator;
+    events_now(&b->model, &b->w, &s->lag, i->error_mean, s->force_peak, s->head_peak, s->mid_peak, now);
+    now[EVENT_RIVET_BREAK].count = s->breakage.latest;
+    now[EVENT_ENERGY_OFF] = energy_event(b);
+    if (now[EVENT_ENERGY_OFF].count == 0 || b->evaluated) return;
+    evaluate(b);
+    now[EVENT_ENERGY_OFF] = energy_event(b);
+}
+
 // Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, &s->lag, s->integrator.error_mean, s->force_peak, s->head_peak, s->mid_peak,
-               now);
-    now[EVENT_RIVET_BREAK].count = s->breakage.latest;
+    events_here(b, now);
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;
         char text[256];
         event_text(kind, &now[kind], text, sizeof text);
         const bool warned = kind == EVENT_OVERPRESSURE || kind == EVENT_NO_CLEARANCE ||
-                            kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG;
+                            kind == EVENT_MOTION_LAG || kind == EVENT_STEP_TOO_LONG ||
+                            kind == EVENT_ENERGY_OFF || kind == EVENT_RIVET_OVERLOAD;
         const bool warning = warned && s->event.onsets[kind] == 1.0;
         bearing_log(b, warning ? LOG_WARNING : LOG_EVENT, "t = %.9g s: %s (onset %.0f)", s->integrator.t,
                     text, s->event.onsets[kind]);
@@ -275,15 +308,6 @@ static void derive(Bearing *b)
     derive_at(b, b->s.initialized ? &b->s.u_now : &b->s.u[0]);
     hold_ring_load(b);
     work_init(&b->d, &b->w);
-}
-
-// Evaluates the right-hand side if w and y_dot do not belong to the present state and inputs yet.
-static void evaluate(Bearing *b)
-{
-    if (b->evaluated) return;
-    const IntegratorState *i = &b->s.integrator;
-    b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
-    b->evaluated = true;
 }
 
 static double present_energy(Bearing *b)
@@ -516,11 +540,16 @@ PartStatus part_step(Bearing *b, double t_end)
 
     // one advance for each stretch between edges of pulses; with fixed steps, in which pulses are averaged, for each step
     int status = 0;
+    char reason[256] = "";
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
         begin_trajectory(b, u, t_begin, frame_angle, ring_angle, stop);
         const long left = (long)fmax(most - (s->integrator.steps - steps_before), 1.0);
         status = integrator_advance(b->integrator, stop, left);
+        if (status == ADVANCE_ESCAPED) {
+            const Escape escape = escape_find(&b->model, &b->w);
+            escape_text(&escape, reason, sizeof reason);
+        }
         end_trajectory(b);
     }
     if (is_fixed(b) && status == 0 &&
@@ -533,6 +562,8 @@ PartStatus part_step(Bearing *b, double t_end)
     change_temperature(b, &s->u[0], &s->u_now);
     motion_remember(&s->u[0], s->integrator.t - t_begin, &s->history);
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
+    s->lost += s->integrator.sum.lost, s->exchanged += s->integrator.sum.exchanged;
+    s->jumped += s->integrator.sum.jump;
     if (status == 0) loosen(b);
     const bool holds = status != 0 || break_rivets(b);
     if (clocked) b->cpu_time += cpu_clock() - before;
@@ -545,7 +576,10 @@ PartStatus part_step(Bearing *b, double t_end)
         return PART_DISCARD;
     }
     const double steps = s->integrator.steps - steps_before;
-    if (steps >= most)
+    if (*reason)
+        bearing_log(b, LOG_ERROR, "t = %.9g s: %s: the run ends%s", s->integrator.t, reason,
+                    is_fixed(b) ? "; solver.method = fixed: a shorter solver.step may hold" : "");
+    else if (steps >= most)
         bearing_log(b, LOG_ERROR,
                     "t = %.9g s: the work limit is reached, %.0f steps since %.9g s (solver.max_steps = %d); "
                     "step size %g s",

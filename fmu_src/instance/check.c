@@ -53,6 +53,23 @@ static bool check_reached(Bearing *b, const Inputs *u)
     return inputs_lie_within(u) || variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
 }
 
+// Checks what the frame's arm makes of its rotation: the bearing's centre is accelerated no more than frame.a_* may be.
+static bool check_frame(Bearing *b, const Inputs *u)
+{
+    const double most = INPUT_LIMITS[offsetof(Inputs, frame.a_y) / sizeof(double)][1],
+                 R = b->s.p.frame.radius;
+    const double inward = u->frame.omega * u->frame.omega * R, along = fabs(u->frame.omega_dot) * R;
+    if (inward <= most && along <= most) return true;
+    const bool fast = inward > most;
+    bearing_log(
+        b, LOG_ERROR,
+        "frame.%s = %g %s, frame.radius = %g m: the bearing's centre is accelerated by %g m/s2; at most "
+        "%g m/s2 is allowed, as of frame.a_y",
+        fast ? "omega" : "omega_dot", fast ? u->frame.omega : u->frame.omega_dot, fast ? "rad/s" : "rad/s2",
+        R, fast ? inward : along, most);
+    return false;
+}
+
 // Where the motions that are given lead within a step of length h.  A motion that is catching up with the given one
 // (motion_trajectory) may be faster.
 static bool check_motions(Bearing *b, double h)
@@ -124,14 +141,16 @@ bool check_inputs(Bearing *b, double h)
     Inputs u = b->s.u[0], turning = u;
     if (!check_motions(b, h)) return false;
     if (!input_trajectory_varies(&trajectory))
-        return check_given(b, &u) && (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
+        return check_given(b, &u) && check_frame(b, &u) &&
+               (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
     input_trajectory_at(&trajectory, h, &u);
     for (int i = 0; i < N_INPUTS; i++) {
         const double tau = -u_1[i] / u_2[i];
         if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
     }
     return check_given(b, &b->s.u[0]) && check_reached(b, &u) && check_reached(b, &turning) &&
-           check_temperatures(b, &b->s.u[0]) && check_temperatures(b, &u);
+           check_frame(b, &b->s.u[0]) && check_frame(b, &u) && check_temperatures(b, &b->s.u[0]) &&
+           check_temperatures(b, &u);
 }
 
 // Logs value and limit unless the condition holds.
@@ -214,6 +233,20 @@ static bool check_bodies(Bearing *b)
     return fine;
 }
 
+// Checks that the cage is guided as its shape can be: pockets with radial axes do not hold a machined cage radially, and a
+// ribbon has no land.
+static bool check_guidance(Bearing *b)
+{
+    const bool ribbon = b->s.p.cage.shape == CAGE_SHAPE_RIBBON;
+    if (ribbon == (b->s.p.cage.guidance == CAGE_GUIDANCE_BALLS)) return true;
+    bearing_log(
+        b, LOG_ERROR, "%s",
+        ribbon ? "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed"
+               : "cage.guidance = 2 (balls): a machined cage (cage.shape) has no such guidance, its drilled "
+                 "pockets slide along the radius; outer (1) is allowed");
+    return false;
+}
+
 // Checks the sizes of a ribbon half; a machined one has none of them.
 static bool check_ribbon(Bearing *b)
 {
@@ -244,12 +277,6 @@ static bool check_ribbon(Bearing *b)
     const double width = 2.0 * (depth + p->cage.sheet), edge = spheres_edge(p);
     double sin_chi, sin_eta;
     spheres_seams(p, &sin_chi, &sin_eta);
-    if (p->cage.guidance != CAGE_GUIDANCE_BALLS) {
-        bearing_log(
-            b, LOG_ERROR,
-            "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed");
-        return false;
-    }
     fine &= require(b, p->cage.pocket_radius == 0.0 || fabs(p->cage.pocket_radius - radius) <= 1e-6 * radius,
                     "cage.pocket_radius = %g m: 0 or (bearing.D + cage.pocket_clearance)/2 = %g m is allowed",
                     p->cage.pocket_radius, radius);
@@ -414,7 +441,7 @@ static bool check_geometry(Bearing *b)
                     "cage.unbalance = %g kg.m: the cage's centre of mass is more than 0.2 mm off; at most "
                     "2 cage.m 0.2 mm = %g kg.m is allowed",
                     p->cage.unbalance, unbalance);
-    fine &= check_ribbon(b);
+    fine &= check_guidance(b) && check_ribbon(b);
     fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
                     p->oil.T_1, p->oil.T_2);
     fine &=
@@ -538,7 +565,7 @@ static bool check_values(Bearing *b)
 
 bool check_all(Bearing *b)
 {
-    return check_values(b) && check_temperatures(b, &b->s.u[0]);
+    return check_values(b) && check_frame(b, &b->s.u[0]) && check_temperatures(b, &b->s.u[0]);
 }
 
 bool check_change(Bearing *b)
@@ -731,7 +758,8 @@ static bool check_recorded(Bearing *b, double time)
 {
     const InstanceState *s = &b->s;
     const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
-    const double sums[] = {s->energy_start, s->energy_change, s->omega_time};
+    const double sums[] = {s->energy_start, s->energy_change, s->omega_time,
+                           s->lost,         s->exchanged,     s->jumped};
     bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
                 values_are_sane(sums, sizeof sums / sizeof sums[0]);
     fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);

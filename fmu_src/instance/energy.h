@@ -1,4 +1,5 @@
-// Energy of balls and cage: kinetic and elastic.  Its change is the net work of the state `work`.
+// Energy of balls and cage: kinetic and elastic, less what a turning frame's centrifugal load has widened the cage by
+// (cage_widened).  Its change is the net work of the state `work`.
 #pragma once
 
 #include "physics/model.h"

@@ -110,9 +110,13 @@ static void clearance(const Model *model, Event *event)
     add(event, 0, 2.0 * growth - model->p->bearing.P_d, 0.0);
 }
 
-static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
+static void rivets(const Parameters *p, const double head_peak[Z], const double mid_peak[Z], Event *yield,
+                   Event *overload)
 {
-    for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+    for (int k = 0; k < Z; k++) {
+        add(yield, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
+        add(overload, k, mid_peak[k], p->fatigue.sigma_m);
+    }
 }
 
 // Mean error of equal steps from which on their results may be wrong (integrator.c).
@@ -126,12 +130,21 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
     pockets(model, w, &now[EVENT_POCKET_EXIT]);
     races(model, w, &now[EVENT_ELLIPSE_CUT], &now[EVENT_OVERPRESSURE]);
     joints(model, w, &now[EVENT_JOINT_OPEN]);
-    rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
+    rivets(model->p, head_peak, mid_peak, &now[EVENT_RIVET_YIELD], &now[EVENT_RIVET_OVERLOAD]);
     clearance(model, &now[EVENT_NO_CLEARANCE]);
     add(&now[EVENT_STEP_TOO_LONG], 0, error, LARGEST_ERROR);
     if (rivet_table.half.yield_force > 0.0)
         add(&now[EVENT_CAGE_YIELD], 0, force_peak, rivet_table.half.yield_force);
     now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
+}
+
+Event event_of_energy(const EnergyBalance *balance)
+{
+    const double OF_LOST = 0.02, OF_HELD = 0.01, OF_EXCHANGED = 0.004, residual = fabs(balance->residual);
+    if (balance->lost_now < 0.0) return (Event){1, 1, balance->lost_now, 0.0};
+    const double moved = scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged);
+    const double limit = scalar_max(OF_LOST * balance->lost, moved) + balance->jumped;
+    return (Event){!(residual <= limit), 0, residual, limit};
 }
 
 bool event_onset(EventState *state, EventKind kind, const Event *now)
@@ -212,6 +225,13 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "elastic rivet",
                  k, now->value, now->limit);
         return;
+    case EVENT_RIVET_OVERLOAD:
+        snprintf(
+            text, size,
+            "rivet[%d] would tear: %.4g Pa in its middle against a tensile strength (fatigue.sigma_m) of "
+            "%.4g Pa; the stress is that of an elastic rivet",
+            k, now->value, now->limit);
+        return;
     case EVENT_NO_CLEARANCE:
         snprintf(text, size,
                  "the bearing has no clearance left: bearing.clearance = %.4g m at the present speed, "
@@ -233,6 +253,18 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
             "the cage yields: a ball pushes its pocket with %.4g N, and a half of the ribbon begins to yield "
             "under %.4g N; its displacements are those of an elastic sheet",
             now->value, now->limit);
+        return;
+    case EVENT_ENERGY_OFF:
+        if (now->element == 1)
+            snprintf(text, size,
+                     "bearing.power_loss: %.4g J were lost in the last step, at least %.4g J is possible",
+                     now->value, now->limit);
+        else
+            snprintf(
+                text, size,
+                "bearing.energy_residual of %.4g J passes %.4g J, 2 %% of the energy lost: the results may "
+                "be wrong; a smaller solver.tol or solver.step may help",
+                now->value, now->limit);
         return;
     case EVENT_MOTION_LAG: motion_text(now, text, size); return;
     case EVENT_COUNT: break;

@@ -12,10 +12,15 @@
 //   no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
 //   rivet yield    sigma_head_peak or sigma_mid_peak beyond the yield stress since the last communication point;
 //                  the stress is linear elastic
+//   rivet overload sigma_mid_peak beyond the tensile strength fatigue.sigma_m: a real rivet tears
 //   rivet break    a rivet's damage has reached 1 in the last communication step (breakage.h); each is reported
 //   cage yield     the largest pocket force since the last communication point exceeds the one under which a half of a
 //                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
 //   step too long  equal steps have errors in the mean with which statistics were wrong (integrator.c)
+//   energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained: the integration is wrong.
+//                  Errors of the start and of pulses are small beside the energy that moves: 1 % of that in the bearing
+//                  and 0.4 % of that which the shaft has exchanged are allowed in any case, beside what the trapezoidal rule
+//                  makes of powers that jump with the inputs
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once
@@ -34,6 +39,8 @@ typedef enum {
     EVENT_STEP_TOO_LONG,
     EVENT_MOTION_LAG,
     EVENT_CAGE_YIELD,
+    EVENT_ENERGY_OFF,
+    EVENT_RIVET_OVERLOAD,
     EVENT_COUNT
 } EventKind;
 
@@ -58,6 +65,13 @@ double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 // equal steps; force_peak: largest pocket force [N]; head_peak, mid_peak: peak stresses of each rivet [Pa].
 void events_now(const Model *model, const Work *w, const MotionLag *lag, double error, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
+
+// Energies since the start and the one lost in the last communication step [J].
+typedef struct {
+    double residual, held, exchanged, lost, lost_now, jumped;
+} EnergyBalance;
+
+Event event_of_energy(const EnergyBalance *balance);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.
 bool event_onset(EventState *state, EventKind kind, const Event *now);

@@ -36,8 +36,10 @@ typedef struct {
     double ring_angle[2];        // by which inner and outer ring have; 0 of perfect races
     IntegratorState integrator;
     double t_start, tolerance;
-    double energy_start;   // total energy at the start [J]
-    double energy_change;  // that changes of parameters have added since [J]
+    double energy_start;     // total energy at the start [J]
+    double energy_change;    // that changes of parameters have added since [J]
+    double lost, exchanged;  // lost since, and exchanged with the shaft to and fro [J]
+    double jumped;           // of the work, that steps from where the inputs jump may be off [J]
     // since the last communication point: largest pocket force [N], largest stresses of each rivet [Pa]
     double force_peak, head_peak[Z], mid_peak[Z];
     // since start.settle: largest slip of a joint [m]; integrals over time of pocket contact, cage speed,
@@ -78,6 +80,9 @@ struct Part {
 
 // Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
+
+// All kinds of events at the state whose results are w.
+void events_here(Bearing *b, Event now[EVENT_COUNT]);
 
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);

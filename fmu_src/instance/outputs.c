@@ -234,9 +234,10 @@ static void fill_energy(const Evaluation *at, Outputs *out)
     out->loss.pockets = ball_array_sum(w->pocket_dissipated);
     out->shaft.power = shaft_power(w);
     out->housing.power = housing_power(at->model, w);
-    out->frame.power = frame_power(at->model, w);
-    out->bearing.energy = energy_total(at->model, at->y, w);
-    out->bearing.energy_residual = out->bearing.energy - at->y[Y_WORK];
+    const scalar energy = energy_total(at->model, at->y, w);
+    out->frame.power = frame_power(at->model, w) + cage_widening(w, at->model->ring_load->frame_omega_dot);
+    out->bearing.energy = energy + cage_widened(w);
+    out->bearing.energy_residual = energy - at->y[Y_WORK];
 }
 
 void outputs_evaluate(const Evaluation *at, OutputGroup group, Outputs *out)

@@ -85,9 +85,7 @@ static void fill_event(Bearing *b)
 {
     Event now[EVENT_COUNT];
     const double *onsets = b->s.event.onsets;
-    events_now(&b->model, &b->w, &b->s.lag, b->s.integrator.error_mean, b->s.force_peak, b->s.head_peak,
-               b->s.mid_peak, now);
-    now[EVENT_RIVET_BREAK].count = b->s.breakage.latest;
+    events_here(b, now);
     b->out.event.land_contact = now[EVENT_LAND_CONTACT].count;
     b->out.event.pocket_exit = now[EVENT_POCKET_EXIT].count;
     b->out.event.ellipse_cut = now[EVENT_ELLIPSE_CUT].count;
@@ -99,6 +97,8 @@ static void fill_event(Bearing *b)
     b->out.event.step_too_long = now[EVENT_STEP_TOO_LONG].count;
     b->out.event.motion_lag = now[EVENT_MOTION_LAG].count;
     b->out.event.cage_yield = now[EVENT_CAGE_YIELD].count;
+    b->out.event.rivet_overload = now[EVENT_RIVET_OVERLOAD].count;
+    b->out.event.energy_off = now[EVENT_ENERGY_OFF].count;
     b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
     b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
     b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];
@@ -110,6 +110,8 @@ static void fill_event(Bearing *b)
     b->out.event.step_too_long_onsets = onsets[EVENT_STEP_TOO_LONG];
     b->out.event.motion_lag_onsets = onsets[EVENT_MOTION_LAG];
     b->out.event.cage_yield_onsets = onsets[EVENT_CAGE_YIELD];
+    b->out.event.rivet_overload_onsets = onsets[EVENT_RIVET_OVERLOAD];
+    b->out.event.energy_off_onsets = onsets[EVENT_ENERGY_OFF];
 }
 
 static void fill_constant(Bearing *b)

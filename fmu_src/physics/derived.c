@@ -280,6 +280,7 @@ static void derive_cage(const Parameters *p, Derived *d)
     d->growth = cage_centrifugal(p) * (growth[0] + p->cage.land_x * growth[1]);
     d->guided = p->cage.guidance == CAGE_GUIDANCE_OUTER;
     d->play = d->guided ? d->C_land : 0.5 * p->cage.pocket_clearance;
+    d->bar = p->bearing.d_m * portable_sin(PI / Z) - p->bearing.D - p->cage.pocket_clearance;
     d->kappa = p->oil.eta * R * L * L * L / (d->C_land * d->C_land * d->C_land);
     d->couette = 2.0 * PI * p->oil.eta * R * R * R * L / d->C_land;
     d->nahme = p->scene.heating == SWITCH_ON ? 0.125 * p->oil.beta * p->oil.eta * R * R / p->oil.k : 0.0;

@@ -168,6 +168,7 @@ typedef struct {
     double growth;           // of a half's radius at the land / square of its speed in space [m.s2]
     bool guided;             // by lands on the outer ring, not by the balls
     double play;             // radial clearance of the guidance: C_land, or that of the pockets [m]
+    double bar;              // width of the bars between the pockets, on the pitch circle [m]
     double kappa;            // eta R L^3 / C^3 [N.s/m]
     double couette;          // Couette torque / speed of a land [N.m.s]
     double nahme;            // (Na/8) / omega^2 of a land's film, 0 without heating [s2]
@@ -383,9 +384,10 @@ typedef struct {
     double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
 } Housing;
 
-// What the shaft gives: torque about its axis [N.m] and power [W], or their integrals over time.
+// What the shaft gives: torque about its axis [N.m], power [W] and its amount; the power that is lost; by how much the net
+// power has jumped with the inputs; or their integrals over time.
 typedef struct {
-    double torque, power;
+    double torque, power, exchanged, lost, jump;
 } Exchange;
 
 // All that the right-hand side needs beside time and state.

@@ -73,7 +73,8 @@ static inline scalar friction_torque(const Work *w)
 // What the shaft gives by the forces on the ring in w.
 static inline Exchange exchange_at(const Work *w)
 {
-    return (Exchange){friction_torque(w), shaft_power(w)};
+    const double power = shaft_power(w), lost = power_loss(w) + ball_array_sum(w->joint_dissipated);
+    return (Exchange){friction_torque(w), power, fabs(power), lost, 0.0};
 }
 
 // Adds what it gives over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
@@ -81,6 +82,9 @@ static inline void exchange_add(double h, const Exchange *from, const Exchange *
 {
     sum->torque += 0.5 * h * (from->torque + to->torque);
     sum->power += 0.5 * h * (from->power + to->power);
+    sum->exchanged += 0.5 * h * (from->exchanged + to->exchanged);
+    sum->lost += 0.5 * h * (from->lost + to->lost);
+    sum->jump += h * from->jump;
 }
 #endif
 
@@ -101,7 +105,7 @@ static inline bool frame_has_power(const RingLoad *ring_load)
     return field || frame_turns(ring_load);
 }
 
-// Power of gravity and of the frame's inertia forces into balls and cage.
+// Power of gravity and of the frame's inertia forces into balls and cage, less cage_widening.
 static inline scalar frame_power(const Model *model, const Work *w)
 {
     const RingLoad *frame = model->ring_load;
@@ -127,5 +131,5 @@ static inline scalar frame_power(const Model *model, const Work *w)
         frame_moment(frame, half, model->d->J_p, model->d->J_t, M_f);
         power += model->p->cage.m * dot3(acc, v) + dot3(M_f, half->Omega);
     }
-    return power;
+    return power - cage_drawn(w, frame->frame_omega_dot);
 }

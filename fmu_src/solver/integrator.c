@@ -22,6 +22,7 @@
 #include "physics/powers.h"
 #include "physics/race_surface.h"
 #include "solver/bearing_step.h"
+#include "solver/escape.h"
 #include "solver/state_vector.h"
 #include "solver/stepping.h"
 
@@ -68,6 +69,7 @@ struct Integrator {
     const double *latest;       // where ARKODE keeps the latest evaluation
     bool starting;              // the next evaluation is at (s->t, s->now.y), where s->now.f is known
     bool warming_up;            // dy/dt = 0, see warm_up
+    bool escaped;               // the latest step would have ended at a state of escape.h
     unsigned nonfinite_stages;  // stages of this advance whose derivative is not a number
 };
 
@@ -236,6 +238,10 @@ static int verlet_accepted(sunrealtype t, N_Vector y, void *user)
     (void)y;
     Integrator *in = user;
     if (in->warming_up) return 0;
+    if (escape_find(in->model, in->w).kind != ESCAPE_NONE) {
+        in->escaped = true;
+        return -1;
+    }
     VerletState *const before = in->now;
     in->now = in->next, in->next = before;
     exchange_add(in->now->h, &before->exchange, &in->now->exchange, &in->s->sum);
@@ -266,6 +272,7 @@ static void report(int line, const char *function, const char *file, const char 
 {
     (void)file, (void)sun;
     const Integrator *in = user;
+    if (in->escaped) return;
     stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
@@ -566,6 +573,10 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
             status = step_underflow(in, "Runge-Kutta", h_last);
             break;
         }
+        if (escape_find(in->model, in->w).kind != ESCAPE_NONE) {
+            in->escaped = true;
+            break;
+        }
         const double h = stepping_accept(s, t, state_vector_data(in->y));
         const Exchange before = s->now.exchange;
         s->now.exchange = exchange_at(in->w);
@@ -579,7 +590,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     ARKodeGetNumErrTestFails(in->arkode, &failed);
     s->error_tests_failed += (double)(failed - failed_before);
     s->h = fmax(h_next, KEPT_STEP * s->h);
-    if (status < 0) return status;
+    if (status < 0 || in->escaped) return status;
     s->t = t_stop;
     memcpy(s->now.f, in->latest, sizeof s->now.f);
     s->f_is_current = 1;
@@ -595,13 +606,17 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         in->s->f_is_current = 0;
         return ARK_RHSFUNC_FAIL;
     }
-    if (in->model->p->solver.method != METHOD_EXPLICIT) return verlet_advance(in, t_stop, max_steps);
+    in->escaped = false;
+    if (in->model->p->solver.method != METHOD_EXPLICIT) {
+        const int status = verlet_advance(in, t_stop, max_steps);
+        return in->escaped ? ADVANCE_ESCAPED : status;
+    }
 
     // SUNDIALS allocates memory for its error messages; in the reserved block.
     reserved_memory_use(&in->memory);
     const int status = explicit_advance(in, t_stop, max_steps);
     reserved_memory_use(NULL);
-    return status;
+    return in->escaped ? ADVANCE_ESCAPED : status;
 }
 
 // Bound of a state of each class [SI]: far beyond all that a bearing does, and so small that the error of a step
@@ -656,8 +671,9 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 
     // What the shaft gives; films, switch and counters.
     const double LARGEST_EXCHANGE = 1e30;
-    fine &= values_are_within(&s->now.exchange.torque, 2, LARGEST_EXCHANGE) &&
-            values_are_within(&s->sum.torque, 2, LARGEST_EXCHANGE) &&
+    const size_t amounts = sizeof(Exchange) / sizeof(double);
+    fine &= values_are_within(&s->now.exchange.torque, amounts, LARGEST_EXCHANGE) &&
+            values_are_within(&s->sum.torque, amounts, LARGEST_EXCHANGE) &&
             values_are_within(&s->since, 1, LARGEST_TIME);
     fine &=
         values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);

@@ -10,7 +10,7 @@ typedef struct {
     VerletState now;
     double h;          // step size to go on with [s]
     int f_is_current;  // now.f is dy/dt at now.y under the present load of the ring
-    Exchange sum;      // what the shaft has given since the last communication point: integrals over time
+    Exchange sum;      // exchanged and lost since the last communication point: integrals over time
     double since;      // time of that point [s]
     double steps, rhs_evals, error_tests_failed;  // counts since the start
     double error_mean;  // of equal steps over the last 10 ms, in parts of what the default method accepts
@@ -45,6 +45,9 @@ void integrator_fix_step(Integrator *integrator);
 // Number of equal steps of that method in an advance of some length [s].
 double fixed_steps(double step, double length);
 
-// Steps to t_stop under the present load of the ring, at most max_steps.  Returns 0, or a negative code of
-// ARKODE if it cannot go on; the state is then that of the last accepted step.
+// Steps to t_stop under the present load of the ring, at most max_steps.  Returns 0, ADVANCE_ESCAPED before a step that
+// would end at a state of escape.h, whose evaluation is in w, or a negative code of ARKODE if it cannot go on; the
+// state is then that of the last accepted step.
+enum { ADVANCE_ESCAPED = 1 };
+
 int integrator_advance(Integrator *integrator, double t_stop, long max_steps);

@@ -216,8 +216,10 @@ static void housing_correct(double gamma, const Housing *from, Housing *to)
 
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
+    const double power = now->f[Y_WORK];
     rhs_now(model, t, now, w);
     now->exchange = exchange_at(w);
+    now->exchange.jump = fabs(now->f[Y_WORK] - power);
     cage_split(model, now->y, w, now->f, &now->cage);
 }
 

@@ -64,11 +64,13 @@ STATES = {"good": "✓", "bad": "✗", "open": "?", "": ""}
 LIMITS = {  # event.* -> in words
     "overpressure": "contact pressure beyond bearing.p_limit",
     "joint_open": "plates of a joint apart",
+    "rivet_overload": "rivet beyond its tensile strength",
     "rivet_yield": "rivet beyond its yield stress",
     "cage_yield": "ribbon cage beyond its yield stress",
     "no_clearance": "bearing without clearance",
     "ellipse_cut": "contact ellipse over the shoulder",
     "pocket_exit": "ball outside its pocket",
+    "energy_off": "energy residual beyond 2 % of the loss",
     "land_contact": "cage's land touches the ring",
 }
 ORDINARY = ("land_contact",)  # crossed in ordinary operation: told, but no fault

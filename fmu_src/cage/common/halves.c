@@ -74,8 +74,9 @@ void halves_acceleration(const Model *model, const scalar *y, const Work *w, sca
             acc[i] = half->F[i] / p->cage.m + field[i];
         }
 
-        // A half that expands gains inertia and slows down.
-        const scalar moment = w->elastic.more_J_dot[h] * (half->s + w->frame_omega);
+        // A half that expands gains inertia and slows down; what it has gained resists the frame's rate too.
+        const scalar moment = w->elastic.more_J_dot[h] * (half->s + w->frame_omega) +
+                              w->elastic.more_J[h] * model->ring_load->frame_omega_dot;
         for (int i = 0; i < 3; i++) M[i] -= moment * half->a[i];
         rotor_acceleration(half, d->J_p, d->J_t, M, a_ddot, &s_dot);
         s_dot *= d->J_p / (d->J_p + w->elastic.more_J[h]);
