@@ -34,7 +34,7 @@ test: build lint  ## the fast tests, the ten slowest of them listed
 
 test-slow: build  ## the tests that take minutes
 	@case $$(uname -m) in x86_64) $(BIN)/cmake --build build --target RivetedBearing_by_fours ;; esac
-	$(PYTHON) -c "import gmsh" 2>/dev/null || .ci/environment $(VENV) mesher
+	$(PYTHON) -c "import gmsh" 2>/dev/null || .ci/environment $(VENV) slow
 	$(PYTEST) -n 2 --dist worksteal -m slow
 
 bench: build  ## measure what the README claims and write docs/performance.md, in minutes; in an hour with FORM=
@@ -80,9 +80,9 @@ dist: $(VENV)/installed  ## in dist/: a wheel for every platform with the ready 
 UV      = $(BIN)/uv --quiet pip compile --upgrade --universal --python-version 3.11 --generate-hashes --no-header --no-annotate
 IMPORTERS = import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["importers"], sep="\n")
 lock: $(VENV)/installed  ## newest versions and hashes of the packages that `make demo` and `make test` install, in .ci/*.txt
-	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[lock]"
+	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[release]"
 	$(UV) --extra test --extra dev --output-file .ci/requirements.txt pyproject.toml
-	echo "scikit-build-core>=0.11" | $(UV) --extra full --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml -
+	echo "scikit-build-core>=0.11" | $(UV) --extra build --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml -
 	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
 
 lint: $(VENV)/installed  ## formatters and linters on the files that git knows, changing nothing

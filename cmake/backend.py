@@ -47,7 +47,15 @@ def get_requires_for_build_editable(config_settings=None):
 
 
 def __getattr__(hook):
-    """All other hooks are scikit-build-core's."""
-    from scikit_build_core import build
+    """All other hooks are scikit-build-core's, imported when they are called: pip asks whether they exist before it has
+    installed what they need.
+    """
+    if not hook.startswith(("build_", "prepare_metadata_for_build_")):
+        raise AttributeError(hook)
 
-    return getattr(build, hook)
+    def call(*arguments, **settings):
+        from scikit_build_core import build
+
+        return getattr(build, hook)(*arguments, **settings)
+
+    return call

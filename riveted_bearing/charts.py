@@ -218,6 +218,75 @@ def by_bin(values, bins, count, reduce):
     return np.array([reduce(values[bins == b]) if np.any(bins == b) else np.nan for b in range(count)])
 
 
+def section_sizes(p):
+    """Radii and half widths of the section [mm] from the parameters: bottoms and shoulders of the grooves, bore and
+    outside of the rings (0: of usual cross-sections), cage.
+    """
+    mm = {name: 1e3 * p[f"bearing.{name}"] for name in ("D", "d_m", "P_d")}
+    bottom = [0.5 * mm["d_m"] + side * (0.5 * mm["D"] + 0.25 * mm["P_d"]) for side in (-1, 1)]
+    ribbon = p.get("cage.shape") == "ribbon"
+    return {
+        "r_i": bottom[0],
+        "r_e": bottom[1],
+        "shoulder_i": bottom[0] + p["bearing.h_i"] * mm["D"],
+        "shoulder_e": bottom[1] - p["bearing.h_e"] * mm["D"],
+        "bore": 0.5 * (1e3 * p.get("ring.bore", 0.0) or mm["d_m"] - mm["D"] / 0.6),
+        "outside": 0.5 * (1e3 * p.get("ring.outside", 0.0) or mm["d_m"] + mm["D"] / 0.6),
+        "D_o": 500.0 * p["cage.D_o"],
+        "D_i": 500.0 * p["cage.D_i"],
+        "half": 1e3 * (p["cage.pocket_depth"] + p["cage.sheet"]) if ribbon else 500.0 * p["cage.width"],
+    }
+
+
+def section(figure, result):
+    """Section of the bearing through a ball, above the axis, with its dimensions; the rings' width is not a parameter
+    of the model.
+    """
+    p = result.parameters
+    ax, size, D, d_m = figure.subplots(), section_sizes(p), 1e3 * p["bearing.D"], 1e3 * p["bearing.d_m"]
+    end = max(0.75 * D, 1.15 * size["half"])
+    x = np.linspace(-end, end, 401)
+    for ring, side, back in (("i", -1, "bore"), ("e", 1, "outside")):
+        groove = p[f"bearing.f_{ring}"] * D
+        arc = side * (np.sqrt(np.maximum(groove**2 - x**2, 0.0)) - groove)  # from the groove's bottom
+        face = size[f"r_{ring}"] + np.where(np.abs(x) < groove, arc, -side * D)
+        face = side * np.maximum(side * face, side * size[f"shoulder_{ring}"])
+        ax.fill_between(x, face, size[back], facecolor=MUTED, alpha=0.45, lw=0.0)
+        ax.plot(x, face, color=FORCE, lw=1.0)
+        ax.plot([-end, end], [size[back]] * 2, color=FORCE, lw=1.0)
+    corner, height = (-size["half"], size["D_i"]), size["D_o"] - size["D_i"]
+    ax.add_patch(
+        plt.Rectangle(corner, 2.0 * size["half"], height, facecolor="#e09f3e", alpha=0.5, edgecolor=FORCE, lw=1.0)
+    )
+    ax.add_patch(plt.Circle((0.0, 0.5 * d_m), 0.5 * D, facecolor="white", edgecolor=FORCE, lw=1.0, zorder=3))
+    ax.plot([-1.1 * end, 1.1 * end], [0.5 * d_m] * 2, color=MUTED, lw=0.7, ls="-.", zorder=4)
+    ax.text(0.0, 0.5 * d_m + 0.12 * D, f"ball {D:.5g}", ha="center", fontsize=8, zorder=5)
+    if p.get("cage.shape") != "ribbon":
+        ax.plot([0.0, 0.0], [size["D_i"], size["D_o"]], color=FORCE, lw=0.6, ls=":", zorder=4)
+    marks = {  # side, radius, text
+        "bore": (1, size["bore"], "bore"),
+        "outside": (1, size["outside"], "outside"),
+        "d_m": (1, 0.5 * d_m, "pitch"),
+        "D_o": (-1, size["D_o"], "cage"),
+        "D_i": (-1, size["D_i"], "cage"),
+    }
+    for side, radius, text in marks.values():
+        ax.plot([side * (size["half"] if side < 0 else end), side * 1.18 * end], [radius] * 2, color=FORCE, lw=0.5)
+        place = "left" if side > 0 else "right"
+        given = text not in ("bore", "outside") or p.get(f"ring.{text}", 0.0)
+        shown = f"ø{2.0 * radius:.5g}" if given else f"≈ ø{2.0 * radius:.2g}"
+        ax.text(side * 1.22 * end, radius, f"{text} {shown}", ha=place, va="center", fontsize=8)
+    low = size["bore"] - 0.16 * D
+    ax.annotate(
+        "", (-size["half"], low), (size["half"], low), arrowprops={"arrowstyle": "<->", "color": FORCE, "lw": 0.7}
+    )
+    for edge in (-size["half"], size["half"]):
+        ax.plot([edge, edge], [low, size["D_i"]], color=FORCE, lw=0.5, ls=":")
+    ax.text(0.0, low - 0.05 * D, f"cage {2.0 * size['half']:.5g}", ha="center", va="top", fontsize=8)
+    ax.set(xlim=(-2.0 * end, 2.0 * end), ylim=(low - 0.3 * D, size["outside"] + 0.08 * D), aspect="equal")
+    ax.axis("off")
+
+
 def cage_orbit(figure, result):
     """Orbit of the cage's centre in its guide clearance."""
     ax = figure.subplots()

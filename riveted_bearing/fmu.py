@@ -8,7 +8,7 @@ import shutil
 import weakref
 import zipfile
 from difflib import get_close_matches
-from numbers import Integral
+from numbers import Integral, Real
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -183,20 +183,23 @@ class Model:
             number = int(value)
         else:
             number = to_si(value, self.units[variable.unit])
-        self.check_range(number, variable, symbol_of(value))
+        self.check_range(number, variable, symbol_of(value), value)
         return number
 
-    def check_range(self, number, variable, symbol=None):
+    def check_range(self, number, variable, symbol=None, written=None):
         """UserError, in the unit `symbol` or else in the one in which people read the variable, if an SI value is
-        outside the variable's limits.
+        outside the variable's limits; written: the value as the user wrote it, which may lack its unit.
         """
         low = -np.inf if variable.min is None else float(variable.min)
         high = np.inf if variable.max is None else float(variable.max)
         if not low <= number <= high:
             symbol = symbol if symbol in self.units[variable.unit] else self.display(variable)[0]
             factor, offset = self.units[variable.unit][symbol]
+            hint = ""
+            if isinstance(written, Real) and symbol != variable.unit and low <= (written - offset) / factor <= high:
+                hint = f'; a number without a unit is in {variable.unit}: did you mean "{written}{suffix(symbol)}"?'
             value, low, high = (f"{factor * limit + offset:.6g}" for limit in (number, low, high))
-            raise UserError(f"{value}{suffix(symbol)} is out of range, allowed: {low} ... {high}{suffix(symbol)}")
+            raise UserError(f"{value}{suffix(symbol)} is out of range, allowed: {low} ... {high}{suffix(symbol)}{hint}")
 
     def display(self, variable):
         """Symbol, (factor, offset) of the unit in which people read a variable."""

@@ -1,5 +1,7 @@
 """One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit, and the rivets side by side."""
 
+import textwrap
+
 import matplotlib
 
 matplotlib.use("Agg")
@@ -13,6 +15,7 @@ from .results import write_atomically
 from .summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
+TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
 STYLE = {
     "font.size": 9,
@@ -27,6 +30,8 @@ STYLE = {
     "legend.frameon": False,
     "legend.fontsize": 8,
     "legend.borderpad": 0.0,
+    "figure.constrained_layout.w_pad": 0.12,  # inch
+    "figure.constrained_layout.h_pad": 0.08,
 }
 
 
@@ -69,13 +74,9 @@ def title(result):
         for row in summary_rows(result)
         if row.every_step
     ]
-    return "\n".join(
-        [
-            *lines,
-            *([" · ".join(figures)] if figures else []),
-            *([f"STOPPED: {result.stopped}"] if result.stopped else []),
-        ]
-    )
+    lines += [" · ".join(figures)] if figures else []
+    lines += [f"STOPPED: {result.stopped}"] if result.stopped else []
+    return "\n".join(textwrap.fill(line, TITLE_WIDTH) for line in lines)
 
 
 def wanted(result, names):
@@ -182,7 +183,7 @@ def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
     kind = clearance_of_cage(result.parameters)
     ax.set(
-        title="Orbit of the cage's centre, seen from +X",
+        title="Orbit of the cage's centre, from +X",
         xlabel=f"y [µm]; dashed: {kind} clearance",
         ylabel="z [µm]",
         aspect="equal",
@@ -203,9 +204,13 @@ def cage_orbit(ax, result):
 
 
 def magnified(ax, y, z, half):
-    """The orbit magnified in the middle of the empty circle: a square of the given half width [um]."""
+    """The orbit magnified in the corner that is farthest from it: a square of the given half width [um]."""
     centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
-    inset = ax.inset_axes([0.3, 0.3, 0.4, 0.4])
+    left, lower = centre[0] >= 0.0, centre[1] >= 0.0
+    inset = ax.inset_axes([0.0 if left else 0.64, 0.0 if lower else 0.64, 0.36, 0.36])
+    inset.yaxis.set_ticks_position("right" if left else "left")  # to the inside
+    inset.xaxis.set_ticks_position("top" if lower else "bottom")
+    inset.spines[:].set_visible(True)
     inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
     inset.set(
         xlim=(centre[0] - half, centre[0] + half),

@@ -65,7 +65,7 @@ class Result:
 
     def to_pandas(self):
         """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs
-        pandas (the extra "tables").
+        pandas (the extra "full").
         """
         pandas = needed("pandas")
         frame = pandas.DataFrame(
@@ -79,7 +79,7 @@ class Result:
         """The data as an xarray.Dataset: ball[1].Q_i ... ball[Z].Q_i are one array ball.Q_i over (time, ball), units in
         attrs.
 
-        Needs xarray (the extra "tables").
+        Needs xarray (the extra "full").
         """
         xarray = needed("xarray")
         variables = {}
@@ -110,7 +110,7 @@ def needed(name):
     try:
         return importlib.import_module(name)
     except ImportError:
-        raise UserError(f"{name} is not installed: {extra('tables')}") from None
+        raise UserError(f"{name} is not installed: {extra('full')}") from None
 
 
 def write_result(result: Result, path: str | Path) -> Path:

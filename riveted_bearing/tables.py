@@ -624,7 +624,7 @@ class SheetRows(TextRows):
             import openpyxl
         except ImportError:
             raise UserError(
-                f"{path}: openpyxl is not installed: {extra('tables')}; a CSV table needs nothing"
+                f"{path}: openpyxl is not installed: pip install openpyxl; a CSV table needs nothing"
             ) from None
         self.path, self.separator, self.decimal = path, "", "."
         try:

@@ -158,7 +158,7 @@ def everywhere(tmp_path_factory):
 @pytest.fixture(scope="session")
 def browser():
     """A headless Chromium of this machine."""
-    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install -e ".[browser]"')
+    playwright = pytest.importorskip("playwright.sync_api", reason='no playwright: pip install -e ".[slow]"')
     chromium = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
     if chromium is None:
         pytest.skip("no Chromium on this machine")

@@ -1,6 +1,6 @@
 """Damaged bearing files, scene files and rivet tables: each is read or refused by name, never anything else.
 
-python tests/fuzz_readers.py [SECONDS]     coverage-guided from tests/corpus/ on (needs atheris: `pip install .[fuzz]`)
+python tests/fuzz_readers.py [SECONDS]     coverage-guided from tests/corpus/ on (needs atheris: `pip install atheris`)
 
 A string of bytes decides what becomes of a good file: bytes of its text are changed, or one of its values is replaced
 by an odd one, with the rivet table's digest made to fit, so that the checks behind it are reached.

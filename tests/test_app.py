@@ -136,8 +136,8 @@ def test_other_programs_can_read_parquet_and_csv(short, tmp_path):
 
 
 def test_pandas_and_xarray_have_every_number_and_unit(short):
-    pytest.importorskip("pandas", reason='pip install -e ".[tables]"')
-    pytest.importorskip("xarray", reason='pip install -e ".[tables]"')
+    pytest.importorskip("pandas", reason='pip install -e ".[full]"')
+    pytest.importorskip("xarray", reason='pip install -e ".[full]"')
     frame, data = short.to_pandas(), short.to_xarray()
     assert frame.index.tolist() == short.data["time"].tolist() and set(frame.columns) == set(short.data) - {"time"}
     assert frame["ball[3].Q_i"].to_numpy().tobytes() == short.data["ball[3].Q_i"].tobytes()
@@ -156,7 +156,7 @@ def test_pandas_and_xarray_have_every_number_and_unit(short):
 def test_without_pandas_the_extra_is_named(result, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(
-        UserError, match=re.escape('pandas is not installed: pip install -e ".[tables]" in a checkout, or')
+        UserError, match=re.escape('pandas is not installed: pip install -e ".[full]" in a checkout, or')
     ):
         result.to_pandas()
 

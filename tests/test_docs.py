@@ -71,7 +71,7 @@ def cook(kinds, skip=()):
 
 def test_the_cookbook(kitchen, capsys):
     """All but what takes minutes, which the next test does: the build of another bearing, a rivet's finite elements."""
-    pytest.importorskip("xarray", reason='pip install -e ".[tables]"')
+    pytest.importorskip("xarray", reason='pip install -e ".[full]"')
     cook(("sh", "python"), skip=SLOW)
     printed = capsys.readouterr().out
     assert len(re.findall(r"N, [+-]?\d+ um: p99.9 \d+ MPa", printed)) == 2 * 2 * 2

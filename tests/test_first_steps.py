@@ -4,19 +4,24 @@ import os
 import re
 import subprocess
 import sys
+import time
 import tomllib
 import zipfile
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
 from bearing_model.generated.variables import ESSENTIALS
+from rivet_model.half_modes import default_count
 from riveted_bearing import __version__, run
 from riveted_bearing.cli import program
 from riveted_bearing.cli.terminal import FULL
 from riveted_bearing.fmu import Model
+from riveted_bearing.results import Result
 from riveted_bearing.scene import load_scene
+from riveted_bearing.summary import settle_note
 from riveted_bearing.variable_list import essentials, matching
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -146,7 +151,7 @@ def test_the_libraries_of_a_run_are_the_few(fmu):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     names = [re.match(r"[\w-]+", text)[0] for text in project["dependencies"]]
     assert names == ["fmpy", "numpy", "typer", "rich"]
-    full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["full"]}
+    full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["build"]}
     assert {{"skfem": "scikit-fem", "distributed": "dask"}.get(name, name) for name in FULL} <= full
 
 
@@ -159,3 +164,77 @@ def test_the_cookbook_comes_with_the_program():
     refused = run_it("recipe")
     assert refused.exit_code == 2 and 'did you mean "recipes"' in refused.output
     assert "fmu_src fmus docs DESTINATION" in (ROOT / "cmake" / "fmu.cmake").read_text()
+
+
+HOOKS = """
+import sys
+sys.modules["scikit_build_core"] = None  # not installed yet
+import backend
+print(all(hasattr(backend, f"build_{kind}") for kind in ("wheel", "sdist", "editable")), hasattr(backend, "other"))
+print(backend.get_requires_for_build_editable())
+"""
+
+
+def test_pip_may_ask_for_hooks_before_it_installs_their_library():
+    """`pip install -e .` asks for build_editable first, in an environment that has nothing (PEP 660)."""
+    words = [sys.executable, "-I", "-c", f"import sys; sys.path.insert(0, {str(ROOT / 'cmake')!r})\n{HOOKS}"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and done.stdout.splitlines() == ["True False", "['scikit-build-core>=0.11']"], (
+        done.stderr
+    )
+
+
+def test_every_extra_that_is_named_exists():
+    """In pages, messages and scripts."""
+    extras = set(tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["optional-dependencies"])
+    files = [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("examples/**/*.*py*"), *ROOT.glob("tests/*.py")]
+    files += [*ROOT.glob("riveted_bearing/**/*.py"), ROOT / "Makefile", ROOT / ".ci" / "environment"]
+    named = set()
+    for file in files:
+        text = file.read_text(encoding="utf-8")
+        for found in re.findall(r"(?:\s|\"|')\.\[([\w,]+)\]|whl\[([\w,]+)\]|\bextra\(['\"](\w+)['\"]\)", text):
+            named |= set("".join(found).split(","))
+    assert {"full", "cross", "notebook"} <= named <= extras, named - extras
+
+
+@pytest.mark.skipif(sys.platform != "linux" or os.geteuid() != 0, reason="root makes a system on Linux")
+def test_the_check_on_a_bare_machine_ends_when_it_is_told_to(tmp_path):
+    """SIGTERM while a command runs that hears none: the script ends, the command and its children too."""
+    (tmp_path / "bin").mkdir()
+    (tmp_path / "left").mkdir()
+    fake = tmp_path / "bin" / "debootstrap"
+    fake.write_text(
+        f"#!/bin/sh\ntrap '' TERM\ntouch {tmp_path}/begun\n(sleep 4; touch {tmp_path}/survived) &\nsleep 4\nsleep 60\n"
+    )
+    fake.chmod(0o755)
+    environment = os.environ | {"PATH": f"{tmp_path}/bin:{os.environ['PATH']}", "TMPDIR": str(tmp_path / "left")}
+    told = subprocess.Popen(["sh", ROOT / ".ci" / "bare", "13"], env=environment)
+    try:
+        end = time.monotonic() + 60.0
+        while not (tmp_path / "begun").exists() and told.poll() is None and time.monotonic() < end:
+            time.sleep(0.05)
+        if told.poll() is not None:
+            pytest.skip("this machine makes no namespaces")
+        told.terminate()
+        assert told.wait(timeout=3.0) == 1
+    finally:
+        told.kill()
+    time.sleep(4.5)
+    assert not (tmp_path / "survived").exists() and not list((tmp_path / "left").iterdir())
+
+
+@pytest.mark.parametrize(("turns", "told"), [(9.0, True), (9.97, False), (10.0 - 1e-12, False)])
+def test_ten_revolutions_are_ten(turns, told):
+    """What rounds to the number that the note asks for is not told to reach it."""
+    parameters = {"start.settle": 0.05}
+    late = Result(
+        {"time": np.array([0.0, 1.0])}, {}, parameters, about={"settle_turns": turns, "count_turns": 2 * turns}
+    )
+    assert ("leaves out 10 revolutions" in settle_note(late)) == told
+
+
+def test_help_says_what_the_program_does():
+    """Five modes a ball; two numbers behind --band."""
+    modes = CliRunner().invoke(program, ["build", "--help"], env={"COLUMNS": "200"}, terminal_width=200).output
+    assert default_count(8) == default_count(9) == 40 and "about 5 a ball, 40 for 8 or 9" in " ".join(modes.split())
+    assert "LOW HIGH" in CliRunner().invoke(program, ["spectrum", "--help"], terminal_width=200).output

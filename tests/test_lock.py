@@ -8,7 +8,7 @@ from library import ROOT
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
-LOCKS = {"requirements.txt": ("test", "dev"), "demo.txt": ("full",), "importers.txt": ("importers",)}
+LOCKS = {"requirements.txt": ("test", "dev"), "demo.txt": ("build",), "importers.txt": ("importers",)}
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
 
@@ -29,7 +29,7 @@ def locked(name):
 def wanted(extras):
     """Requirements of the project with these extras, those of its own extras in their place."""
     optional = PROJECT["optional-dependencies"]
-    texts = list(PROJECT["dependencies"]) if {"test", "full"} & set(extras) else []
+    texts = list(PROJECT["dependencies"]) if {"test", "build"} & set(extras) else []
     for extra in extras:
         texts += optional[extra]
     for text in texts:

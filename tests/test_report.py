@@ -18,7 +18,7 @@ from bearing_model.instance import fatigue
 from bearing_model.physics.model import Model
 from riveted_bearing import UserError, run, write_result
 from riveted_bearing.animation import BUDGET, exaggeration, frames, thinned
-from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spectra, loaded_rivet
+from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spectra, loaded_rivet, section, section_sizes
 from riveted_bearing.charts import thinned as thinned_result
 from riveted_bearing.design.sensitivity import Sensitivity
 from riveted_bearing.life import fatigue_law, rivet_life
@@ -548,3 +548,27 @@ def test_tables_use_the_width_of_the_page(opened, width, columns):
     assert table > 0.8 * min(width, 1150)
     assert complaints == []
     tab.close()
+
+
+def test_the_section_is_that_of_the_users_own_cage(result):
+    """Radii by hand: a groove's bottom is half the pitch diameter, the ball's radius and a quarter of the clearance
+    away; what the drawing writes and spans are the parameters.
+    """
+    own = {"bearing.D": 0.01, "bearing.d_m": 0.06, "bearing.P_d": 40e-6, "bearing.h_e": 0.25}
+    cage = {"cage.D_o": 0.0641, "cage.D_i": 0.0553, "cage.width": 0.0124}
+    mine = replace(result, parameters=result.parameters | own | cage | {"ring.bore": 0.0421, "ring.outside": 0.0})
+    sizes = section_sizes(mine.parameters)
+    assert (sizes["r_i"], sizes["r_e"]) == pytest.approx((24.99, 35.01), rel=1e-12)
+    assert sizes["shoulder_e"] == pytest.approx(32.51, rel=1e-12) and sizes["half"] == pytest.approx(6.2, rel=1e-12)
+    shape = plt.figure()
+    section(shape, mine)
+    (ax,) = shape.axes
+    texts = {text.get_text() for text in ax.texts}
+    assert {"cage ø64.1", "cage ø55.3", "cage 12.4", "ball 10", "pitch ø60", "bore ø42.1", "outside ≈ ø77"} <= texts
+    box = next(patch for patch in ax.patches if isinstance(patch, plt.Rectangle))
+    assert box.get_bbox().extents == pytest.approx((-6.2, 27.65, 6.2, 32.05))
+    ribbon = section_sizes(
+        mine.parameters | {"cage.shape": "ribbon", "cage.pocket_depth": 5.1e-3, "cage.sheet": 0.8e-3}
+    )
+    assert ribbon["half"] == pytest.approx(5.9, rel=1e-12)
+    plt.close(shape)

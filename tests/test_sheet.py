@@ -50,7 +50,7 @@ def test_many_cycles_damage_as_each_does(rule):
 def evidence_of(life, low=None, high=None, slope=15.0):
     """Evidence whose lives fall with a power of the stress, the middle's ten times longer."""
     return sheet.Evidence(
-        life, low, high, "rivet 1, head", "", lambda x: (life * x**-slope, 10 * life * x**-slope), (1e8, 5e7), (2.5e8, 2e8), {}, "run", 1
+        life, low, high, "rivet 1, head", "", lambda x: (life * x**-slope, 10 * life * x**-slope), (1e8, 5e7), (2.5e8, 2e8), {}, "run", 1, (1.0,)
     )  # fmt: skip
 
 
@@ -241,3 +241,10 @@ def test_it_needs_nothing_else(made, tmp_path):
     text = sheet.write_sheet(made, tmp_path / "sheet.html").read_text(encoding="utf-8")
     assert not re.findall(r"""(?:src|href)=["'](?!#|data:)[^"']*""", text) and "@import" not in text
     assert not re.findall(r"url\((?!#)", text)
+
+
+def test_the_marked_rivet_is_the_brightest(result):
+    """Colours are damages by which the first to fail is chosen: for each rivet the worse place of rainflow and law."""
+    found = sheet.of_result(result, "run")
+    assert len(found.damage) == 9 and int(np.argmax(found.damage)) + 1 == found.rivet
+    assert sheet.worse_places(np.array([1.0, 5.0, 3.0, 2.0])) == (5.0, 3.0)

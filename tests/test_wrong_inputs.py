@@ -88,6 +88,8 @@ WRONG = {
     "run demo --set joint.preload": ["--set joint.preload", "NAME=VALUE"],
     "run demo --set joint.preloat=3": ['"joint.preloat"', 'did you mean "joint.preload"'],
     "run demo --set joint.preload=3mm": ["joint.preload = '3mm'", '"mm" does not fit', "allowed: N"],
+    "run demo --set oil.alpha=20": ["2e+10 1/GPa is out of range", 'in 1/Pa: did you mean "20 1/GPa"?'],
+    "run demo --set cage.pocket_clearance=0.2": ["200 mm is out of range", 'in m: did you mean "0.2 mm"?'],
     "run demo --set joint.preload=300kgf": ["joint.preload = '300kgf'", "300 kgf is out of range", "0 ... 101.972 kgf"],
     "run demo --set joint.preload=": ["joint.preload = ''", "not a number with a unit"],
     "run demo --set joint.preload=1,5": ["joint.preload = '1,5'", "not a number with a unit"],

@@ -35,7 +35,9 @@ def build(
     ] = None,
     modes: Annotated[
         int | None,
-        typer.Option(help="vibration modes of a cage half, a pair counted as two; default: 20 for three rivets"),
+        typer.Option(
+            help="vibration modes of a cage half, a pair counted as two; default: about 5 a ball, 40 for 8 or 9"
+        ),
     ] = None,
     cage: Annotated[
         str | None,

@@ -85,3 +85,8 @@ def print_indices(found, box):
                 cells += [f"{sobol[key][place]:.2f}" for key in ("S1", "S1_conf", "ST", "ST_conf")]
             table.add_row(escape(titled(found.factors[k])), *cells)
         console.print(table)
+    console.print(
+        "[dim]Not among the factors: shapes of which the FMU is built (stress table, cage half, rivet). They need an FMU of "
+        "their own (riveted-bearing build); compare-designs sets such FMUs side by side.[/]",
+        soft_wrap=True,
+    )

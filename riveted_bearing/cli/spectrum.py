@@ -21,7 +21,10 @@ def spectrum(
     ] = None,
     band: Annotated[
         tuple[float, float] | None,
-        typer.Option(help="band of the envelope in Hz, of a run-up in orders; default: largest spectral kurtosis"),
+        typer.Option(
+            help="band of the envelope in Hz, of a run-up in orders; default: largest spectral kurtosis",
+            metavar="LOW HIGH",
+        ),
     ] = None,
     out: Annotated[Path | None, typer.Option(help="folder for the files; default: beside the result")] = None,
 ):

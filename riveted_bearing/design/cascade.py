@@ -340,7 +340,9 @@ def write_picture(found, path):
                 circle(ax, state, low, high)
             row[0].set_ylabel(each.name)
         figure.suptitle(
-            "Damage of each rivet (area: logarithm of the rate), what breaks next and when",
+            textwrap.fill(
+                "Damage of each rivet (area: logarithm of the rate), what breaks next and when", 12 * int(2.6 * most)
+            ),
             x=0.01,
             ha="left",
             fontsize=11,

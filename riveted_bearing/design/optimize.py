@@ -109,7 +109,7 @@ def optuna_library():
     try:
         import optuna
     except ImportError:
-        raise UserError(f"optimize: needs the library Optuna: {extra('design')}") from None
+        raise UserError(f"optimize: needs the library Optuna: {extra('full')}") from None
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     return optuna
 

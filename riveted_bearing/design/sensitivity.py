@@ -110,7 +110,7 @@ def salib(command="sensitivity"):
         from SALib.sample import morris as sample_morris
         from SALib.sample import sobol as sample_sobol
     except ImportError:
-        raise UserError(f"{command}: needs the library SALib: {extra('design')}") from None
+        raise UserError(f"{command}: needs the library SALib: {extra('full')}") from None
     return sample_morris, analyze_morris, sample_sobol, analyze_sobol
 
 

@@ -47,7 +47,7 @@ def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
     try:
         import surpyval
     except ImportError:
-        raise UserError(f"a Weibull law needs the library surpyval: {extra('design')}") from None
+        raise UserError(f"a Weibull law needs the library surpyval: {extra('full')}") from None
     lives, suspended = np.asarray(lives, float), np.asarray(suspended, float)
     times = np.concatenate([lives, suspended])
     if len(lives) < 3 or np.ptp(lives) == 0.0:

@@ -295,8 +295,8 @@ def life_settings(path, section):
     if "min_seeds" not in section:
         settings["min_seeds"] = min(settings["min_seeds"], settings["max_seeds"])
     if not FEWEST <= settings["min_seeds"] <= settings["max_seeds"]:
-        bounds = f"from {FEWEST}, which show scatter, to life.max_seeds = {settings['max_seeds']}"
-        raise refusal(path, "life.min_seeds", settings["min_seeds"], f"{bounds} is allowed")
+        bounds = f"allowed: {FEWEST} (fewer show no scatter) to {settings['max_seeds']} (life.max_seeds)"
+        raise refusal(path, "life.min_seeds", settings["min_seeds"], bounds)
     if settings["rivets"] not in RIVETS:
         raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
     if (written := settings["cleanliness"]) is not None:

@@ -40,7 +40,6 @@ from ..summary import (
     flag_note,
     has_statistics,
     life_is_known,
-    rivet_rows,
     settled,
     table_note,
 )
@@ -107,6 +106,7 @@ class Evidence:
     results: dict = field(repr=False)
     worst: str
     rivet: int
+    damage: tuple  # of each rivet in the worst part, at the worse of its places; by it `rivet` is the first to fail
     untold: str = ""
     raceways: Raceways = field(default_factory=Raceways, repr=False)
 
@@ -144,11 +144,13 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
     for done, (i, c) in enumerate(chosen):
         progress(done, len(chosen))
         damage = np.array(damages_of(runs, c)).reshape(-1, runs.damages[runs.keys[c, 0]].size)
+        judged = damage
         if mission.settings["rivets"] == "each":
-            damage = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
-        most = np.unravel_index(np.argmax(damage), damage.shape)
+            judged = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
+        most = np.unravel_index(np.argmax(judged), damage.shape)
         if i == worst or rivet is None:
             rivet = int(most[1]) // 2 + 1
+            of_rivets = damage.mean(axis=0) if mission.settings["rivets"] == "each" else damage[most[0]]
         scene = started(mission.cases[c].scene, model, mission.settings["seed"], int(most[0]))
         results[mission.parts[i].name] = simulate(model, scene)
     if mission.parts[worst].name not in results:  # interpolated: from the simulated part with the largest share
@@ -169,8 +171,14 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         results,
         mission.parts[worst].name,
         rivet,
+        worse_places(of_rivets),
         raceways=mission.raceways(),
     )
+
+
+def worse_places(damage):
+    """Damage of each rivet at the worse of head and middle, from [2 Z] in their order."""
+    return tuple(np.reshape(damage, (-1, 2)).max(axis=1).tolist())
 
 
 def first_case(mission, i):
@@ -285,6 +293,7 @@ def of_result(result, name, raceways):
         {scene: result},
         scene,
         k + 1,
+        worse_places(damage),
         untold,
         raceways,
     )
@@ -516,7 +525,9 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
         source,
         {
             "where": charts.svg(
-                lambda fig: rivets_chart(fig, worst, evidence.rivet), (2.5, 2.0), "Stress of the rivets on the circle"
+                lambda fig: rivets_chart(fig, evidence.damage, evidence.rivet),
+                (2.5, 2.0),
+                "Damage of the rivets on the circle",
             ),
             "when": charts.svg(
                 lambda fig: history_chart(fig, worst, evidence.rivet),
@@ -560,28 +571,24 @@ def fitted(texts, more=0):
     return texts
 
 
-def rivets_chart(fig, result, rivet):
-    """The circle of rivets at the start, seen from +X, coloured by the 99.9 % quantile of the head stress, the one
-    that fails first marked.
+def rivets_chart(fig, damage, rivet):
+    """The circle of rivets at the start, seen from +X, coloured by their damage against the largest, the one that
+    fails first marked.
     """
-    ax, rows = fig.subplots(), rivet_rows(result)
-    if rows:
-        stress = np.array([row[1].p999 for row in rows])
-    else:  # without the FMU's own statistics
-        names = columns(result, "rivet[", "].sigma_head")
-        stress = np.array([1e-6 * np.quantile(result.data[name][settled(result)], 0.999) for name in names])
-    angle = 2.0 * np.pi * (np.arange(len(stress)) + 0.5) / len(stress)
+    ax = fig.subplots()
+    share = np.array(damage) / (max(damage) or 1.0)
+    angle = 2.0 * np.pi * (np.arange(len(share)) + 0.5) / len(share)
     y, z, k = np.cos(angle), np.sin(angle), rivet - 1
     ax.add_patch(plt.Circle((0, 0), 1.0, fill=False, color=MUTED, lw=6, alpha=0.35))
-    dots = ax.scatter(y, z, s=70, c=stress, cmap="viridis", edgecolor=FORCE, lw=0.5, zorder=3)
+    dots = ax.scatter(y, z, s=70, c=share, cmap="viridis", vmin=0.0, vmax=1.0, edgecolor=FORCE, lw=0.5, zorder=3)
     ax.scatter(y[k], z[k], s=170, facecolor="none", edgecolor=HEAD, lw=1.6, zorder=4)
-    for j in range(len(stress)):
+    for j in range(len(share)):
         ax.text(0.72 * y[j], 0.72 * z[j], str(j + 1), ha="center", va="center", fontsize=8)
     ax.set(aspect="equal", xlim=(-1.25, 1.25), ylim=(-1.25, 1.25), xticks=[], yticks=[])
     ax.grid(False)
     for side in ax.spines.values():
         side.set_visible(False)
-    fig.colorbar(dots, ax=ax, label="MPa", pad=0.02, shrink=0.85).outline.set_visible(False)
+    fig.colorbar(dots, ax=ax, label="damage, largest = 1", pad=0.02, shrink=0.85).outline.set_visible(False)
 
 
 def history_chart(fig, result, rivet):
@@ -609,7 +616,7 @@ def part_lines(life):
     order = sorted(range(len(life.mission.parts)), key=lambda i: -share.get(i, 0.0))
     rows = list(part_rows(life))
     shown = [rows[i] for i in order]
-    lines = [(clipped(row[0], 24), clipped(row[1], 44), row[2], row[3], row[7]) for row in shown]
+    lines = [(clipped(row[0], 24), clipped(row[1], 64), row[2], row[3], row[7]) for row in shown]
     if len(lines) > MOST_PARTS:
         rest = sum(share.get(i, 0.0) for i in order[MOST_PARTS - 1 :])
         lines = [*lines[: MOST_PARTS - 1], (f"{len(lines) - MOST_PARTS + 1} others", "", "", "", share_text(rest))]

@@ -214,7 +214,7 @@ def library():
         import pandas as pd
         from pylife.materiallaws import WoehlerCurve
     except ImportError:
-        raise UserError(f"sn: needs the library pylife: {extra('design')}") from None
+        raise UserError(f"sn: needs the library pylife: {extra('full')}") from None
     return lambda **values: WoehlerCurve(pd.Series(values))
 
 

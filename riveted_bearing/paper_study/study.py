@@ -291,8 +291,9 @@ def finish(axes, xlabel):
     for ax in axes:
         ax.set_xlabel(xlabel)
         ax.set_ylim(bottom=0.0)  # forces, stresses, displacements: none is negative
-        if ax.get_legend_handles_labels()[0]:
-            ax.legend()
+        if labels := ax.get_legend_handles_labels()[1]:  # in a strip of its own above the curves
+            ax.set_ylim(top=ax.get_ylim()[1] * (1.0 + 0.14 * -(-len(labels) // 2)))
+            ax.legend(loc="upper left", ncols=2)
 
 
 def stress_panels(axes, runs, x):
