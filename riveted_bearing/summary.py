@@ -11,6 +11,7 @@ RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
 FLAGS = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}  # by bit
 SETTLED = 10.0  # revolutions of the shaft that statistics should leave out
+ROUNDED = 1.0 - 1e-6  # of a number of revolutions: ten of them are ten, whatever their last digits
 TABLE_TITLE = "Stress table of the rivets: "  # in an FMU's description, before its kind and error
 COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
@@ -83,7 +84,7 @@ def no_statistics(result):
 def settle_note(result):
     """A warning where the statistics begin before the bearing has settled, for slow shafts; else ""."""
     turns, settle = result.about.get("settle_turns", 0.0), result.parameters.get("start.settle", 0.0)
-    if not 0.0 < float(f"{turns:.2g}") < SETTLED or not has_statistics(result):
+    if not 0.0 < turns < ROUNDED * SETTLED or not has_statistics(result):
         return ""
     enough = SETTLED / turns * settle
     return (
@@ -95,7 +96,7 @@ def settle_note(result):
 def count_note(result):
     """A warning where statistics rest on few revolutions of the shaft; else ""."""
     turns = result.about.get("count_turns", 0.0)
-    if not 0.0 < float(f"{turns:.2g}") < COUNTED or not has_statistics(result):
+    if not 0.0 < turns < ROUNDED * COUNTED or not has_statistics(result):
         return ""
     return (
         f"statistics and life rest on {turns:.2g} revolutions of the shaft after start.settle; from {COUNTED:g} on they are "

@@ -623,9 +623,7 @@ class SheetRows(TextRows):
         try:
             import openpyxl
         except ImportError:
-            raise UserError(
-                f"{path}: openpyxl is not installed: pip install openpyxl; a CSV table needs nothing"
-            ) from None
+            raise UserError(f"{path}: openpyxl is not installed: {extra('full')}; a CSV table needs nothing") from None
         self.path, self.separator, self.decimal = path, "", "."
         try:
             book = openpyxl.load_workbook(path, read_only=True, data_only=True)

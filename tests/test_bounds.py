@@ -291,6 +291,26 @@ def test_smallest_tolerance_stays_within_the_work_limit(host):
     assert one.get("solver.steps")[0] < 2 * 5000  # observed 2 * 860
 
 
+@pytest.mark.parametrize("step", [5e-324, 1e-12, 9.9e-10])
+def test_steps_too_short_for_any_communication_are_refused_by_name(host, step):
+    one = host({"solver.method": 3, "solver.step": step})
+    with pytest.raises(FMICallException):
+        one.start()
+    assert f"solver.step = {step:g} s: 0, which stands for a derived step, or at least 1e-09 s" in one.messages[-1][2]
+
+
+def test_more_fixed_steps_than_the_work_limit_are_refused_at_once(host):
+    """2 ns are 50,000 steps in 0.1 ms, and 5,000 in 0.01 ms."""
+    one = host({"solver.method": 3, "solver.step": 2e-9}).start()
+    one.doStep(0.0, 0.1 * STEP)
+    with pytest.raises(FMICallException) as refused:
+        one.doStep(0.1 * STEP, STEP)
+    assert refused.value.status == fmi2.fmi2Error
+    text = one.messages[-1][2]
+    assert "solver.step = 2e-09 s" in text and "5e+04 internal steps, 20000 are allowed" in text
+    assert "5e-09 s or more" in text
+
+
 def test_fixed_steps_are_the_users_own(host):
     """solver.step = 8 ns: 12,500 steps in 0.1 ms are no failure."""
     one = host({"solver.method": 3, "solver.step": 8e-9}).start()

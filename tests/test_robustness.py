@@ -237,6 +237,30 @@ def test_after_any_accident_a_reset_instance_is_as_new(folder, accident):
     assert state_after(used) == state_after(fresh)
 
 
+@pytest.mark.parametrize("cage", [1, 3])
+@pytest.mark.parametrize("step", [2.5e-5, 3.3e-5, 5e-5, 1e-4])
+def test_steps_far_too_long_end_with_numbers_and_a_state_to_restore(folder, step, cage):
+    """Equal steps beyond what the bearing bears: the run ends within 20 ms.  Each state until then, and that of
+    the end, can be restored from its bytes.
+    """
+    slave = Slave(folder).initialize(solver__method=3, solver__step=step, scene__cage=cage)
+    status, n = OK, 0
+    while status == OK and n < 200:
+        loaded, _ = slave.try_load(slave.bytes(slave.save()))
+        assert loaded == OK, (n, slave.messages[-1])
+        status = slave.call("DoStep", 1e-4 * n, 1e-4, 1)
+        n += 1
+    assert status == DISCARD
+    assert "smaller solver.step" in slave.messages[-1][2]
+    outputs = slave.outputs()
+    assert np.all(np.isfinite(outputs))
+    assert slave.try_load(slave.bytes(slave.save()))[0] == OK
+    good = Slave(folder)
+    loaded, state = good.try_load(slave.bytes(slave.save()))
+    good.check("SetFMUstate", state[0])
+    assert np.array_equal(good.get("ball[1].Q_i", "cage.omega"), slave.get("ball[1].Q_i", "cage.omega"))
+
+
 def test_a_failed_step_leaves_the_last_good_state(folder):
     """Time and outputs of a discarded step are those of an instance that was asked to stop there."""
     failed, stopped = Slave(folder).initialize(solver__max_steps=40), Slave(folder).initialize()

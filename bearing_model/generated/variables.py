@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ef150508-6af7-ad4f-7e79-cbc8d2915b16}"
+MODEL_GUID = "{a8f06ddb-796a-1246-416d-f85c7516ab23}"
 Z = 9
 
 
@@ -367,9 +367,9 @@ PARAMETERS = {
         Variable("scene.breakage", 1806, "Switch", "1", None, 1, None, None, 1, None, "Whether a rivet breaks at the end of the communication step in which its damage reaches 1", "default", False, None),
         Variable("solver.tol", 1901, "Real", "1", None, 0.001, 1e-10, 0.1, 1, None, "Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place", "measured: mean, RMS and 99.9 % quantile of force and stress within 1 % or their scatter of the limit; 99.9 % head stress in scene R 3 %, with rigid halves in F 1.2 %", False, None),
         Variable("solver.method", 1902, "Method", "1", None, 1, None, None, 1, None, "Integration method", "measured: fewest processor seconds at every tolerance down to 2e-5", False, "it decides on the states and their meaning"),
-        Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)", "0: derived at the start, three substeps of the fastest vibration of elastic halves, at most a tenth of a pocket's pulse", False, "it decides on the states and their meaning"),
+        Variable("solver.step", 1904, "Real", "s", "us", 0.0, 0.0, 0.001, 1, None, "Longest internal step of solver.method = fixed, at least 1 ns (0: derived at the start; solver.step_size shows it)", "0: derived at the start from the cage's fastest vibration and the errors of 30 ms on trial; at most a tenth of a pocket's pulse", False, "it decides on the states and their meaning"),
         Variable("solver.clock", 1905, "Switch", "1", None, 1, None, None, 1, None, "Measure solver.cpu_time", "a reading of the clock costs 1 % of a communication step of 0.1 ms", False, None),
-        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, without limit for solver.method = fixed", "work limit instead of a hung host: at most 0.2 s of processor time for 0.1 ms", False, None),
+        Variable("solver.max_steps", 1903, "Integer", "1", None, 0, 0, 2000000000, 1, None, "Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, 20000 with solver.method = fixed", "work limit instead of a hung host: at most 0.2 s of processor time for 0.1 ms", False, None),
         Variable("start.seed", 1951, "Integer", "1", None, 1, 0, 2147483647, 1, None, "Seed of the balls' initial spacing (splitmix64)", "default", False, "it belongs to the start"),
         Variable("start.spacing", 1952, "Real", "1", None, 0.1, 0.0, 0.5, 1, None, "Initial spacing error: uniform within +- this part of the pocket clearance", "assumed", False, "it belongs to the start"),
         Variable("start.settle", 1953, "Real", "s", None, 0.05, 0.0, 1000000.0, 1, None, "Time before which stat.* and damage do not count", "15 revolutions at the working point", False, "it belongs to the start"),
@@ -590,7 +590,7 @@ OUTPUTS = {
         Variable("event.rivet_yield", 7006, "Real", "1", None, None, None, None, 1, "event", "Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress", None, False, None),
         Variable("event.no_clearance", 7007, "Real", "1", None, None, None, None, 1, "event", "1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)", None, False, None),
         Variable("event.rivet_break", 7010, "Real", "1", None, None, None, None, 1, "event", "Rivets that broke by their damage in the last communication step", None, False, None),
-        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong", None, False, None),
+        Variable("event.step_too_long", 7009, "Real", "1", None, None, None, None, 1, "event", "1 if the errors of the steps of solver.method = fixed are so large over 10 ms that the results may be wrong", None, False, None),
         Variable("event.motion_lag", 7008, "Real", "1", None, None, None, None, 1, "event", "Given motions that jumped or contradicted their velocity and are caught up with over more than the last step", None, False, None),
         Variable("event.cage_yield", 7021, "Real", "1", None, None, None, None, 1, "event", "1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield", None, False, None),
         Variable("event.land_contact_onsets", 7011, "Real", "1", None, None, None, None, 1, "event", "Onsets of land contact since the start", None, False, None),

@@ -154,8 +154,8 @@ void cage_remember(const Model *model, double h, double h_0, const double *f, co
 // substeps of a step from `memory`.
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory);
 
-// The step of a fixed length [s]: of elastic halves the longest one, with the films of the start.
-double cage_fixed_step(const Model *model, double film[2][3]);
+// The longest step of a fixed length [s] that vibrations and pulses allow.
+double cage_fixed_step(const Model *model);
 
 // Whether steps can have made the memory.
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p);

@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ef150508-6af7-ad4f-7e79-cbc8d2915b16}"  // digest of the table
+#define MODEL_GUID "{a8f06ddb-796a-1246-416d-f85c7516ab23}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
@@ -301,9 +301,9 @@ typedef struct {
     struct {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
-        double step;  // [s] Longest internal step of solver.method = fixed (0: derived at the start; solver.step_size shows it)
+        double step;  // [s] Longest internal step of solver.method = fixed, at least 1 ns (0: derived at the start; solver.step_size shows it)
         int clock;  // Switch: Measure solver.cpu_time
-        int max_steps;  // Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, without limit for solver.method = fixed
+        int max_steps;  // Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, 20000 with solver.method = fixed
     } solver;
     struct {
         int seed;  // Seed of the balls' initial spacing (splitmix64)
@@ -570,7 +570,7 @@ typedef struct {
         scalar rivet_yield;  // [1] Rivets whose sigma_head_peak or sigma_mid_peak exceeds the yield stress
         scalar no_clearance;  // [1] 1 if speed, temperatures and fits leave the bearing no clearance (bearing.clearance < 0)
         scalar rivet_break;  // [1] Rivets that broke by their damage in the last communication step
-        scalar step_too_long;  // [1] 1 if the steps of solver.method = fixed are longer than the films between cage and ring allow: the results may be wrong
+        scalar step_too_long;  // [1] 1 if the errors of the steps of solver.method = fixed are so large over 10 ms that the results may be wrong
         scalar motion_lag;  // [1] Given motions that jumped or contradicted their velocity and are caught up with over more than the last step
         scalar cage_yield;  // [1] 1 if cage.F_pocket_peak exceeds the force under which a half of a ribbon cage begins to yield
         scalar land_contact_onsets;  // [1] Onsets of land contact since the start

@@ -111,17 +111,13 @@ static bool is_fixed(const Bearing *b)
     return b->s.p.solver.method == METHOD_FIXED;
 }
 
-double fixed_length(const Bearing *b)
-{
-    return is_fixed(b) ? b->s.integrator.h : 0.0;
-}
-
 // Reports the events that begin at the state just reached; w holds the results there.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
     Event now[EVENT_COUNT];
-    events_now(&b->model, &b->w, &s->lag, fixed_length(b), s->force_peak, s->head_peak, s->mid_peak, now);
+    events_now(&b->model, &b->w, &s->lag, s->integrator.error_mean, s->force_peak, s->head_peak, s->mid_peak,
+               now);
     now[EVENT_RIVET_BREAK].count = s->breakage.latest;
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;
@@ -399,10 +395,13 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
         b->kernels.rhs(&b->model, t_start, s->integrator.now.y, b->y_dot, &b->w);
         housing_load(&b->model, &b->w, &s->integrator.now.housing, s->integrator.now.housing.rest);
     }
+    if (is_fixed(b)) {
+        integrator_fix_step(b->integrator);
+        work_init(&b->d, &b->w);
+    }
     integrator_evaluate(b->integrator);
     if (!check_start(b)) return PART_ERROR;
     s->energy_start = energy_total(&b->model, s->integrator.now.y, &b->w);
-    if (is_fixed(b)) integrator_fix_step(b->integrator);
     accepted_step(b, 0.0, &b->w);
     report_events(b);
     s->initialized = 1;
@@ -467,13 +466,28 @@ static double next_stop(const Bearing *b, double t_begin, double t_end, int stre
 
 // Internal steps that a communication step of length h [s] may take.  Where solver.max_steps leaves it to the core,
 // MOST_STEPS for each SPAN [s] of it, and no fewer: at most 0.2 s of processor time, 500 times the usual steps at the
-// default tolerance and 6 times those at the smallest.  The number of fixed steps is the user's.
+// default tolerance and 6 times those at the smallest.  Fixed steps are the user's: MOST_FIXED take as long.
 static double most_steps(const Bearing *b, double h)
 {
-    const double MOST_STEPS = 6000.0, SPAN = 1e-4, LARGEST = 2e9;  // the largest fits a long everywhere
+    const double MOST_STEPS = 6000.0, MOST_FIXED = 2e4, SPAN = 1e-4;
+    const double LARGEST = 2e9;  // fits a long everywhere
     const double given = b->s.p.solver.max_steps;
     if (given > 0.0) return given;
-    return is_fixed(b) ? LARGEST : floor(fmin(MOST_STEPS * fmax(h / SPAN, 1.0), LARGEST));
+    return floor(fmin((is_fixed(b) ? MOST_FIXED : MOST_STEPS) * fmax(h / SPAN, 1.0), LARGEST));
+}
+
+// Checks that a communication step of length h [s] has no more fixed steps than it may take.
+static bool check_fixed_steps(Bearing *b, double h)
+{
+    const double most = most_steps(b, h), step = b->s.integrator.h,
+                 wanted = is_fixed(b) ? fixed_steps(step, h) : 0.0;
+    if (wanted <= most) return true;
+    bearing_log(
+        b, LOG_ERROR,
+        "solver.step = %g s: a communication step of %g s would have %.4g internal steps, %.0f are allowed "
+        "(solver.max_steps = %d): set solver.step to %.4g s or more, or communicate more often",
+        step, h, wanted, most, b->s.p.solver.max_steps, h / most);
+    return false;
 }
 
 PartStatus part_step(Bearing *b, double t_end)
@@ -482,7 +496,8 @@ PartStatus part_step(Bearing *b, double t_end)
     const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
     const double ring_angle[2] = {s->ring_angle[0], s->ring_angle[1]};
     Inputs u[INPUT_ORDERS + 1];
-    if (!check_change(b) || !check_inputs(b, t_end - t_begin)) return PART_ERROR;
+    if (!check_change(b) || !check_inputs(b, t_end - t_begin) || !check_fixed_steps(b, t_end - t_begin))
+        return PART_ERROR;
     motion_trajectory(&s->p, s->u, &s->history, &s->u_now, t_end - t_begin, u, &s->lag);
     report_without_effect(b);
     const bool clocked = s->p.solver.clock == SWITCH_ON;
@@ -508,7 +523,8 @@ PartStatus part_step(Bearing *b, double t_end)
         status = integrator_advance(b->integrator, stop, left);
         end_trajectory(b);
     }
-    if (is_fixed(b) && s->integrator.f_is_current) {  // outputs are those of the last evaluation
+    if (is_fixed(b) && status == 0 &&
+        s->integrator.f_is_current) {  // outputs are those of the last evaluation
         memcpy(b->y_dot, s->integrator.now.f, sizeof b->y_dot);
         b->evaluated = true;
     }
@@ -534,6 +550,12 @@ PartStatus part_step(Bearing *b, double t_end)
                     "t = %.9g s: the work limit is reached, %.0f steps since %.9g s (solver.max_steps = %d); "
                     "step size %g s",
                     s->integrator.t, most, t_begin, s->p.solver.max_steps, s->integrator.h);
+    else if (is_fixed(b))
+        bearing_log(b, LOG_ERROR,
+                    "t = %.9g s: solver.method = fixed: a step of %g s leads to no state of a bearing, after "
+                    "%g steps "
+                    "since %.9g s; a smaller solver.step may bear it (code %d)",
+                    s->integrator.t, s->integrator.h, steps, t_begin, status);
     else
         bearing_log(
             b, LOG_ERROR,

@@ -354,7 +354,11 @@ static bool check_geometry(Bearing *b)
     fine &= require(b, p->ring.bore < d_m - D,
                     "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
                     p->ring.bore, d_m - D);
-    const double least = 1e-6;  // [m], far below any ring's: squares of bores do not underflow
+    const double least = 1e-6;     // [m], far below any ring's: squares of bores do not underflow
+    const double shortest = 1e-9;  // [s], a ten-thousandth of a pocket's pulse
+    fine &= require(b, p->solver.step == 0.0 || p->solver.step >= shortest,
+                    "solver.step = %g s: 0, which stands for a derived step, or at least %g s is allowed",
+                    p->solver.step, shortest);
     fine &= require(b, p->ring.bore == 0.0 || p->ring.bore >= least,
                     "ring.bore = %g m: 0 or at least %g m is allowed", p->ring.bore, least);
     fine &= require(

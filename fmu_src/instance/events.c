@@ -110,24 +110,15 @@ static void clearance(const Model *model, Event *event)
     add(event, 0, 2.0 * growth - model->p->bearing.P_d, 0.0);
 }
 
-// Equal steps beyond the length that the films of the present state allow; their own length may differ by rounding.
-static void steps(const Model *model, const Work *w, double step, Event *event)
-{
-    double film[2][3];
-    for (int land = 0; land < 2; land++) {
-        film[land][0] = w->film[land].yy;
-        film[land][1] = w->film[land].yz;
-        film[land][2] = w->film[land].zz;
-    }
-    add(event, 0, step * (1.0 - 1e-9), cage_longest_step(model, film, NULL));
-}
-
 static void rivets(const double head_peak[Z], const double mid_peak[Z], Event *event)
 {
     for (int k = 0; k < Z; k++) add(event, k, scalar_max(head_peak[k], mid_peak[k]), rivet_table.yield_rivet);
 }
 
-void events_now(const Model *model, const Work *w, const MotionLag *lag, double step, double force_peak,
+// Mean error of equal steps from which on their results may be wrong (integrator.c).
+static const double LARGEST_ERROR = 0.7;
+
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double error, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT])
 {
     memset(now, 0, EVENT_COUNT * sizeof *now);
@@ -137,7 +128,7 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
     joints(model, w, &now[EVENT_JOINT_OPEN]);
     rivets(head_peak, mid_peak, &now[EVENT_RIVET_YIELD]);
     clearance(model, &now[EVENT_NO_CLEARANCE]);
-    steps(model, w, step, &now[EVENT_STEP_TOO_LONG]);
+    add(&now[EVENT_STEP_TOO_LONG], 0, error, LARGEST_ERROR);
     if (rivet_table.half.yield_force > 0.0)
         add(&now[EVENT_CAGE_YIELD], 0, force_peak, rivet_table.half.yield_force);
     now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
@@ -229,12 +220,12 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
         return;
     case EVENT_RIVET_BREAK:  // reported one by one, with its place (bearing.c)
     case EVENT_STEP_TOO_LONG:
-        snprintf(
-            text, size,
-            "solver.method = fixed: steps of %.4g s may be too long for the films between cage and ring, "
-            "which allow "
-            "%.4g s: the results may be wrong; set solver.step to that or less",
-            now->value, now->limit);
+        snprintf(text, size,
+                 "solver.method = fixed: the steps' errors are %.3g of what the default method accepts, in "
+                 "the mean "
+                 "over 10 ms, above %g: the results may be wrong; set solver.step to %.2g of "
+                 "solver.step_size or less",
+                 now->value, now->limit, portable_cbrt(0.5 * now->limit / now->value));
         return;
     case EVENT_CAGE_YIELD:
         snprintf(

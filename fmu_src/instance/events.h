@@ -15,6 +15,7 @@
 //   rivet break    a rivet's damage has reached 1 in the last communication step (breakage.h); each is reported
 //   cage yield     the largest pocket force since the last communication point exceeds the one under which a half of a
 //                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
+//   step too long  equal steps have errors in the mean with which statistics were wrong (integrator.c)
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once
@@ -53,9 +54,9 @@ typedef struct {
 // Angle from a groove's bottom to which the contact ellipse of ball j reaches [rad], 0 without contact.
 double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 
-// All kinds of events but rivets that break at the state whose results are w.  lag: motions of the last step; step: length of equal steps [s],
-// else 0; force_peak: largest pocket force [N]; head_peak, mid_peak: peak stresses of each rivet [Pa].
-void events_now(const Model *model, const Work *w, const MotionLag *lag, double step, double force_peak,
+// All kinds of events but rivets that break at the state whose results are w.  lag: motions of the last step; error: mean error of
+// equal steps; force_peak: largest pocket force [N]; head_peak, mid_peak: peak stresses of each rivet [Pa].
+void events_now(const Model *model, const Work *w, const MotionLag *lag, double error, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.

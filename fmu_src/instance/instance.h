@@ -79,9 +79,6 @@ struct Part {
 // Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
 
-// Largest length of the steps of solver.method = fixed [s], 0 for the other methods.
-double fixed_length(const Bearing *b);
-
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);
 

@@ -85,8 +85,8 @@ static void fill_event(Bearing *b)
 {
     Event now[EVENT_COUNT];
     const double *onsets = b->s.event.onsets;
-    events_now(&b->model, &b->w, &b->s.lag, fixed_length(b), b->s.force_peak, b->s.head_peak, b->s.mid_peak,
-               now);
+    events_now(&b->model, &b->w, &b->s.lag, b->s.integrator.error_mean, b->s.force_peak, b->s.head_peak,
+               b->s.mid_peak, now);
     now[EVENT_RIVET_BREAK].count = b->s.breakage.latest;
     b->out.event.land_contact = now[EVENT_LAND_CONTACT].count;
     b->out.event.pocket_exit = now[EVENT_POCKET_EXIT].count;
