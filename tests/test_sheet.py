@@ -14,7 +14,7 @@ from commands import command
 
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
-from riveted_bearing import UserError, report, run
+from riveted_bearing import UserError, raceways, report, run
 from riveted_bearing.duty import sheet
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
@@ -245,6 +245,6 @@ def test_it_needs_nothing_else(made, tmp_path):
 
 def test_the_marked_rivet_is_the_brightest(result):
     """Colours are damages by which the first to fail is chosen: for each rivet the worse place of rainflow and law."""
-    found = sheet.of_result(result, "run")
+    found = sheet.of_result(result, "run", raceways.Raceways())
     assert len(found.damage) == 9 and int(np.argmax(found.damage)) + 1 == found.rivet
     assert sheet.worse_places(np.array([1.0, 5.0, 3.0, 2.0])) == (5.0, 3.0)
