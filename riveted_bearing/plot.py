@@ -15,6 +15,7 @@ from .results import write_atomically
 from .summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
+NOTHING = 1e-3  # um; an orbit below a nanometre is a point
 TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
 STYLE = {
@@ -199,7 +200,7 @@ def cage_orbit(ax, result):
     limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
     ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
     size = max(np.ptp(y), np.ptp(z))
-    if 0.0 < size < 0.5 * clearance:
+    if NOTHING < size < 0.5 * clearance:
         magnified(ax, y, z, 0.6 * size)
 
 

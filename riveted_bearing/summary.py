@@ -11,7 +11,6 @@ RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
 FLAGS = {1: "rivet yields", 2: "flange yields", 4: "joint compressed", 8: "fit beyond the stress table"}  # by bit
 SETTLED = 10.0  # revolutions of the shaft that statistics should leave out
-ROUNDED = 1.0 - 1e-6  # of a number of revolutions: ten of them are ten, whatever their last digits
 TABLE_TITLE = "Stress table of the rivets: "  # in an FMU's description, before its kind and error
 COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
@@ -81,10 +80,15 @@ def no_statistics(result):
     return f"no statistics yet: they begin at start.settle = {settle}, and the run ended at {end}; let it run longer (t_end), or set start.settle lower"
 
 
+def fewer(turns, wanted):
+    """Whether a number of revolutions, as it is printed, is below another one; a shaft at rest apart."""
+    return 0.0 < float(f"{turns:.2g}") < wanted
+
+
 def settle_note(result):
     """A warning where the statistics begin before the bearing has settled, for slow shafts; else ""."""
     turns, settle = result.about.get("settle_turns", 0.0), result.parameters.get("start.settle", 0.0)
-    if not 0.0 < turns < ROUNDED * SETTLED or not has_statistics(result):
+    if not fewer(turns, SETTLED) or not has_statistics(result):
         return ""
     enough = SETTLED / turns * settle
     return (
@@ -96,7 +100,7 @@ def settle_note(result):
 def count_note(result):
     """A warning where statistics rest on few revolutions of the shaft; else ""."""
     turns = result.about.get("count_turns", 0.0)
-    if not 0.0 < turns < ROUNDED * COUNTED or not has_statistics(result):
+    if not fewer(turns, COUNTED) or not has_statistics(result):
         return ""
     return (
         f"statistics and life rest on {turns:.2g} revolutions of the shaft after start.settle; from {COUNTED:g} on they are "

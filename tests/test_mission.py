@@ -465,7 +465,7 @@ def test_tables_and_records_become_points(tmp_path, model, written):
         ({"event": [{"count": -1}]}, ["count = -1", "negative"]),
         ({"life": {"confidence": 2}}, ["life.confidence = 2"]),
         ({"life": {"half_width": 0}}, ["life.half_width = 0", "from 0.001"]),
-        ({"life": {"min_seeds": 2}}, ["life.min_seeds = 2", "from 3"]),
+        ({"life": {"min_seeds": 2}}, ["life.min_seeds = 2", "allowed: 3"]),
         ({"life": {"seeds": 2}}, ['"life.seeds"']),
         ({"life": {"rivets": "some"}}, ["life.rivets = 'some'", "each, alike"]),
         ({"preload_loss": {"hours": [1, 2], "factor": [1, 1]}}, ["begin with 0"]),

@@ -664,7 +664,7 @@ def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
             == "scikit-build-core>=0.11\n"
         )
     first, *others = asked("wheel", PATH=str(tmp_path), CC="mycc").stdout.splitlines()
-    known = project["project"]["dependencies"] + project["project"]["optional-dependencies"]["full"]
+    known = project["project"]["dependencies"] + project["project"]["optional-dependencies"]["build"]
     assert first.startswith("scikit-build-core") and set(others) <= set(known)
 
 

@@ -2,7 +2,7 @@
 
 from ..errors import shortlist
 from ..runner import turns
-from ..summary import COUNTED, ROUNDED, SETTLED
+from ..summary import COUNTED, SETTLED, fewer
 
 KINDS = {  # of turns(): revolutions wanted, what happens with fewer, and the key that makes more
     "settle_turns": (SETTLED, "damage begins to count after", "parameters.start.settle"),
@@ -20,7 +20,7 @@ def slow_warnings(parts, model):
         if part.scene is not None and not part.event
     }
     for kind, (wanted, words, key) in KINDS.items():
-        slow = {name: of[kind] for name, of in found.items() if 0.0 < of[kind] < ROUNDED * wanted}
+        slow = {name: of[kind] for name, of in found.items() if fewer(of[kind], wanted)}
         if slow:
             least = min(slow.values())
             yield (
