@@ -64,6 +64,7 @@ from bearing_model.generated.variables import (
     RING_V_X,
     WORK,
     CageModel,
+    Z,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.numbers.vec import vec_cross, vec_dot
@@ -351,6 +352,7 @@ def cage_slide(model, before, y, w):
 
 
 SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
+LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
 def cage_remember(model, h, second, start, end, error):
@@ -366,12 +368,19 @@ def cage_remember(model, h, second, start, end, error):
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
+def rigid_fastest(p, d):
+    """Square of the frequency of the fastest vibration between rigid halves [1/s2], all joints closed and sticking."""
+    r, along = 0.5 * p.bearing.d_m, Z * (d.k_rivet + d.k_plate)
+    across = Z * (d.k_plate_t + np.max(d.k_hole))
+    return 2.0 * max(along * max(1.0 / p.cage.m, 0.5 * r * r / d.J_t), across * max(1.0 / p.cage.m, r * r / d.J_p))
+
+
 def cage_longest_step(model, film, memory):
-    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of elastic halves three substeps, or
-    the time 1/A that a film of the rate A allows which does not follow in the substeps, but two substeps at least.
+    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of their
+    fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does not follow in the substeps, but two substeps at least.
     """
     if not model.modes:
-        return np.inf
+        return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
     return min(model.modes.longest_step, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
