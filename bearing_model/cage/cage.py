@@ -376,8 +376,9 @@ def rigid_fastest(p, d):
 
 
 def cage_longest_step(model, film, memory):
-    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of their
-    fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does not follow in the substeps, but two substeps at least.
+    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
+    their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
+    not follow in the substeps, but two substeps at least.
     """
     if not model.modes:
         return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
