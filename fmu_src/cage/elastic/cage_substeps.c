@@ -92,6 +92,16 @@ static void between_halves(const Model *model, const Rotor *h0, const double *f,
         b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma) - e * relative[MOTION_SPIN];
 }
 
+// Accelerations of the relative motions in place of the forces on them.
+static void relative_accelerations(const Derived *d, double of[RELATIVE_MOTIONS])
+{
+    of[MOTION_ABOUT_Z] += d->com_e * of[MOTION_X];
+    of[MOTION_SPIN] -= d->com_e * of[MOTION_ACROSS_Z];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) of[i] *= d->relative.inverse[i];
+    of[MOTION_X] += d->com_e * of[MOTION_ABOUT_Z];
+    of[MOTION_ACROSS_Z] -= d->com_e * of[MOTION_SPIN];
+}
+
 // Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in
 // y, by the modes' springs.
 static void fast_accelerations(const Model *model, const double *y, const ElasticJoints *joints,
@@ -119,13 +129,8 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
         wide_store(&force[MOTION_ACROSS_Z][k], F_z);
         wide_store(&force[MOTION_SPIN][k], r_y * F_z - r_z * F_y);
     }
-    double sum[RELATIVE_MOTIONS];
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) sum[i] = ball_array_sum(force[i]);
-    sum[MOTION_ABOUT_Z] += d->com_e * sum[MOTION_X];
-    sum[MOTION_SPIN] -= d->com_e * sum[MOTION_ACROSS_Z];
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * sum[i];
-    rigid[MOTION_X] += d->com_e * rigid[MOTION_ABOUT_Z];
-    rigid[MOTION_ACROSS_Z] -= d->com_e * rigid[MOTION_SPIN];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = ball_array_sum(force[i]);
+    relative_accelerations(d, rigid);
 }
 
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
@@ -287,35 +292,25 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
 }
 
 // Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
-static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS], const double *at,
-                         bool last, RimFilmsStep *films, double *v, const Work *w)
+static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS], bool last,
+                         RimFilmsStep *films, double *v, const Work *w)
 {
     double halves[2 * RELATIVE_MOTIONS] = {0.0};
     to_halves(model, &w->half[0], 1.0, speed, 0, halves);
-    rim_films_follow(model, w, t, at, halves, last, v, films);
+    rim_films_follow(model, w, t, v, halves, last, v, films);
 }
 
-// Those at the step's end, with the second half of the last substep as cage_predict will add it.
-static void films_at_end(const Model *model, double h, const FastState *fast, const Foreseen *foreseen,
-                         const double speed[RELATIVE_MOTIONS], RimFilmsStep *films, double *v, const Work *w)
-{
-    const double half = 0.5 * films->substep;
-    double at[2 * N_MODES], then[RELATIVE_MOTIONS];
-    for (int i = 0; i < 2 * N_MODES; i++) at[i] = v[i] + half * (fast->modes[i] + foreseen->modes[i]);
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) then[i] = speed[i] + half * fast->rigid[i];
-    films_follow(model, h, then, at, true, films, v, w);
-}
-
-double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, JointStep *slip,
-                             RimFilmsStep *films, const Work *w)
+void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
+                           const double *state, double *y, Foreseen *foreseen, JointStep *slip,
+                           RimFilmsStep *films, const Work *w)
 {
     const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
     const double sub = h / steps;
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
     double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
-    double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
+    double walls[RELATIVE_MOTIONS] = {0.0};  // accelerations by the changes of wall loads
+    double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by these and the fast ones
     JointVelocities middle;
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
@@ -342,11 +337,11 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
     if (films) rim_films_first(model, w, sub, f, v, films);
 
-    for (int step = 1;; step++) {
+    for (int step = 1; step <= steps; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
         move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
-        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * (rigid[i] + walls[i]);
         turn(0.5 * gyro * sub, speed);
         const double time = (step - 0.5) * sub - 0.5 * h;  // after the middle
         double halfway[RELATIVE_MOTIONS];
@@ -364,11 +359,8 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         cage_joint_follow(sub, joints.v_y, joints.v_z, y);
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
-        wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
-        if (step == steps) {
-            if (films) films_at_end(model, h, fast, foreseen, speed, films, v, w);
-            break;
-        }
+        wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes, walls);
+        relative_accelerations(model->d, walls);
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, &joints);
@@ -378,28 +370,18 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         fast_accelerations(model, y, &joints, modes, rigid);
         turn_out(s * (step * sub - 0.5 * h), rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
-        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
-        if (films) films_follow(model, step * sub, speed, v, false, films, v, w);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * (rigid[i] + walls[i]);
+        if (films) films_follow(model, step * sub, speed, step == steps, films, v, w);
     }
+    memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);
     for (int k = 0; k < LANES; k++) {
         slip->way_y[k] = joints.u_y[k] - fast->u_y[k];
         slip->way_z[k] = joints.u_z[k] - fast->u_z[k];
     }
-    const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
-                                             [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};
+    walls[MOTION_ABOUT_Y] -= gyro * speed[MOTION_ABOUT_Z];
+    walls[MOTION_ABOUT_Z] += gyro * speed[MOTION_ABOUT_Y];
     memset(foreseen->halves, 0, sizeof foreseen->halves);
-    to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
+    to_halves(model, &w->half[0], 1.0, walls, 0, foreseen->halves);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
-    return sub;
-}
-
-void cage_substeps_finish(const Model *model, const Work *w, double substep, const FastState *fast,
-                          const FastState *before, double *y)
-{
-    double rigid[RELATIVE_MOTIONS];
-    for (int i = 0; i < 2 * N_MODES; i++)
-        y[Y_MODE_S_DOT + i] += 0.5 * substep * (fast->modes[i] - (before ? before->modes[i] : 0.0));
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = fast->rigid[i] - (before ? before->rigid[i] : 0.0);
-    to_halves(model, &w->half[0], 0.5 * substep, rigid, Y_CAGE_V_X, y);
 }

@@ -362,6 +362,6 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
     for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);
     if (half->of.k_hole == k_hole) return;
-    half->substep = longest_substep(p, d, half);
+    half->substep = longest_substep(p, d, half) * (getenv("RB_D") ? atof(getenv("RB_D")) : 1.0);//KNOB
     half->of.k_hole = k_hole;
 }
