@@ -285,7 +285,7 @@ def exchange_at(w):
 
 def advance_positions(model, h, start):
     """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle; the
-    CageStep; the Work with the cage's kinematics of the middle.
+    CageStep; the Work with the joints there.
     """
     middle, y, w = start.y.copy(), start.y.copy(), Work()
     middle[V] = y[V] = start.y[V] + 0.5 * h * start.f[V]
@@ -345,11 +345,11 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     and K keep the second order.
     """
     gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work(cage_squeeze(model, 0.5 * h))
-    (y, cage, middle), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
+    (y, cage, _), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
     y[V] += gamma * a - removed
-    cage_predict(model, gamma, middle, cage, start.cage, y)
+    cage_predict(model, gamma, cage, y)
     end = VerletState(y, rhs(model, t + h, y, w), h=h)
-    end.cage = cage_arrive(model, gamma, w, cage, start.cage, y, end.f)
+    end.cage = cage_arrive(model, w, cage, start.cage, y, end.f)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     foreseen = np.zeros(N_V)

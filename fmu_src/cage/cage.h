@@ -103,10 +103,9 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
 #define cage_predict FOR_ISA(cage_predict)
 void cage_predict(const Model *model, CageStep *step, double *y);
 
-// After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
-// the last substep.
+// After that evaluation of y, w: separates the cage's part of the rates f.
 #define cage_arrive FOR_ISA(cage_arrive)
-void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, const double *y,
                  double *f, CageMemory *memory);
 
 // Adds gamma times what was foreseen of the halves' accelerations to the rows of their velocities, with a sign.

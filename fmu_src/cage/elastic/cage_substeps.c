@@ -10,9 +10,12 @@
 // a_s: slow accelerations, by all other forces, at the step's start; the trapezoidal rule of verlet.c corrects them
 //      at the step's end
 //
+// The last substep is like the others, so that the evaluation of the right-hand side has the velocities of the step's end.
+// Without its second half, by the joints and springs there, films, oil and friction would feed vibrations: 3 % of the pocket
+// forces in flooded pockets.
+//
 // The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of
-// the step, and computed anew from the positions at each evaluation of the right-hand side, which serves as that of the
-// last substep.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
+// the step, and computed anew from the positions at each evaluation.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
 // motion.  Forces in the plane of the split act at the distance c_x from the centres of mass and tilt both halves by
 // the same angle;
 // a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  With the unbalance e the centres of mass lie c = e b_y from the
@@ -33,7 +36,7 @@
 // little, by 120/s at 12,000 r/min.
 //
 // The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
-// end of each substep (cage_joint_slide), at the step's end by cage_correct.  What they and the modes' damping dissipate is
+// end of each substep (cage_joint_slide), and under those of the evaluation by cage_correct.  What they and the modes' damping dissipate is
 // summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
@@ -92,16 +95,6 @@ static void between_halves(const Model *model, const Rotor *h0, const double *f,
         b_z[1] * d[1] + b_z[2] * d[2] + c_x * (b_y[1] * beta + b_y[2] * gamma) - e * relative[MOTION_SPIN];
 }
 
-// Accelerations of the relative motions in place of the forces on them.
-static void relative_accelerations(const Derived *d, double of[RELATIVE_MOTIONS])
-{
-    of[MOTION_ABOUT_Z] += d->com_e * of[MOTION_X];
-    of[MOTION_SPIN] -= d->com_e * of[MOTION_ACROSS_Z];
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) of[i] *= d->relative.inverse[i];
-    of[MOTION_X] += d->com_e * of[MOTION_ABOUT_Z];
-    of[MOTION_ACROSS_Z] -= d->com_e * of[MOTION_SPIN];
-}
-
 // Accelerations of modes and relative motions by the joints' loads and pulls in w and, at the coordinates in
 // y, by the modes' springs.
 static void fast_accelerations(const Model *model, const double *y, const ElasticJoints *joints,
@@ -129,8 +122,13 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
         wide_store(&force[MOTION_ACROSS_Z][k], F_z);
         wide_store(&force[MOTION_SPIN][k], r_y * F_z - r_z * F_y);
     }
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = ball_array_sum(force[i]);
-    relative_accelerations(d, rigid);
+    double sum[RELATIVE_MOTIONS];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) sum[i] = ball_array_sum(force[i]);
+    sum[MOTION_ABOUT_Z] += d->com_e * sum[MOTION_X];
+    sum[MOTION_SPIN] -= d->com_e * sum[MOTION_ACROSS_Z];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * sum[i];
+    rigid[MOTION_X] += d->com_e * rigid[MOTION_ABOUT_Z];
+    rigid[MOTION_ACROSS_Z] -= d->com_e * rigid[MOTION_SPIN];
 }
 
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
@@ -309,8 +307,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     const double sub = h / steps;
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
     double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
-    double walls[RELATIVE_MOTIONS] = {0.0};  // accelerations by the changes of wall loads
-    double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by these and the fast ones
+    double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
     JointVelocities middle;
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
@@ -341,7 +338,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
         move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
-        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * (rigid[i] + walls[i]);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         turn(0.5 * gyro * sub, speed);
         const double time = (step - 0.5) * sub - 0.5 * h;  // after the middle
         double halfway[RELATIVE_MOTIONS];
@@ -359,8 +356,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         cage_joint_follow(sub, joints.v_y, joints.v_z, y);
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
-        wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes, walls);
-        relative_accelerations(model->d, walls);
+        wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, &joints);
@@ -370,7 +366,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         fast_accelerations(model, y, &joints, modes, rigid);
         turn_out(s * (step * sub - 0.5 * h), rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
-        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * (rigid[i] + walls[i]);
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         if (films) films_follow(model, step * sub, speed, step == steps, films, v, w);
     }
     memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);
@@ -378,10 +374,10 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         slip->way_y[k] = joints.u_y[k] - fast->u_y[k];
         slip->way_z[k] = joints.u_z[k] - fast->u_z[k];
     }
-    walls[MOTION_ABOUT_Y] -= gyro * speed[MOTION_ABOUT_Z];
-    walls[MOTION_ABOUT_Z] += gyro * speed[MOTION_ABOUT_Y];
+    const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
+                                             [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};
     memset(foreseen->halves, 0, sizeof foreseen->halves);
-    to_halves(model, &w->half[0], 1.0, walls, 0, foreseen->halves);
+    to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
 }

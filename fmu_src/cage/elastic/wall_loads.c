@@ -9,7 +9,7 @@
 //                                                        motions d by the joints have moved the wall since the start
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
-// and modes and relative motions feel (1 + lambda delta_dot) Q, the damping that of the start.  The rigid bodies move here as velocity
+// and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The rigid bodies move here as velocity
 // Verlet moves them: after the step x is where the evaluation finds it.  x_0 < 0 before a contact.  Direction and
 // place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
@@ -206,7 +206,7 @@ INLINE wide loads_at(const WallLoads *loads, int i, wide x)
 
 void wall_loads_follow(const Model *model, double t, const double *q,
                        const double by_joints[RELATIVE_MOTIONS], const WallLoads *loads,
-                       double slow[2 * N_MODES], double force[RELATIVE_MOTIONS])
+                       double slow[2 * N_MODES])
 {
     const double bend = t * (0.5 * t - loads->middle);
     wall_load_array change, moved;
@@ -222,8 +222,4 @@ void wall_loads_follow(const Model *model, double t, const double *q,
         wide_store(&change[i], (Q - wide_load(&loads->Q[i])) / model->p->cage.m);
     }
     add_forces(loads, change, slow, &slow[N_MODES]);
-    memset(force, 0, RELATIVE_MOTIONS * sizeof *force);
-    for (int i = 0; i < loads->count; i++)
-        for (int m = 0; m < RELATIVE_MOTIONS; m++)
-            force[m] += model->p->cage.m * change[i] * loads->relative[m][i];
 }

@@ -28,9 +28,9 @@ typedef struct {
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
-// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step, and sets `force` to what these
-// changes are on the relative motions.  q: coordinates there, by_joints: relative motions by the joints and by `force`.
+// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step.  q: coordinates there,
+// by_joints: relative motions by the fast accelerations.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
 void wall_loads_follow(const Model *model, double t, const double *q,
                        const double by_joints[RELATIVE_MOTIONS], const WallLoads *loads,
-                       double slow[2 * N_MODES], double force[RELATIVE_MOTIONS]);
+                       double slow[2 * N_MODES]);
