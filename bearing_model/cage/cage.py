@@ -335,6 +335,7 @@ def cage_slide(model, before, y, w):
 
 
 SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
+SLOW = 60.0  # speed of the cage below which its elastic halves have two substeps [rad/s]
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
@@ -360,11 +361,13 @@ def rigid_fastest(p, d):
 
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
-    their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, but two substeps at least.
+    their fastest vibration, of elastic halves three substeps, of slow ones two, or the time 1/A that a film of the rate A allows
+    which does not follow in the substeps, but two substeps at least.
     """
     if not model.modes:
         return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
+    if memory.fast.omega_2 < SLOW**2:
+        return 2.0 * model.modes.substep
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
     return min(model.modes.longest_step, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))

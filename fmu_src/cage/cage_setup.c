@@ -76,8 +76,11 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has three substeps at most.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
+// that it has three substeps at most.  What is left of them walks the joints a little in each step, and a slow cage has
+// many of them in a turn: below SLOW two substeps.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
 // which are always stable.
+static const double SLOW = 60.0;  // [rad/s]
+
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
 {
     if (!model->modes) return LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
@@ -87,6 +90,7 @@ double cage_longest_step(const Model *model, double film[2][3], const CageMemory
         const bool bent = memory->films.rates[h][0][0] + memory->films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
     }
+    if (memory->fast.omega_2 < SLOW * SLOW) return 2.0 * d;
     return fmin(elastic_longest_step(model->modes), fmax(2.0 * d, model->p->cage.m / rate));
 }
 

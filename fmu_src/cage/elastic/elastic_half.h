@@ -19,7 +19,6 @@
 // F'' = U''.F.  A single mode has sin nu = 0.  Mirroring the half in the plane between the first and the last
 // rivet turns the sign of each motion of pads by an a or by a b, so that half of the rivets say what all do.
 #pragma once
-#include <stdlib.h>//KNOB
 
 #include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
@@ -90,8 +89,7 @@ struct ElasticHalf {
 // The longest step of elastic halves [s]: forces that are constant over it feed vibrations that turn by much more than pi.
 static inline double elastic_longest_step(const ElasticHalf *half)
 {
-    const char *sub = getenv("RB_SUB");//KNOB
-    return (sub ? atof(sub) : 3.0) * half->substep;
+    return 3.0 * half->substep;
 }
 
 // The half of the rivet table in the scene.  half: zeros, or that of other parameters, of which parts are kept that
