@@ -81,6 +81,7 @@ class CageMemory:
     films: RimFilms = field(default_factory=RimFilms)
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
+    pocket: float = 0.0  # damping of the stiffest film in a pocket [N.s/m]
 
 
 @dataclass
@@ -200,7 +201,7 @@ def cage_split(model, y, w, f):
     """
     if not model.modes:
         return CageMemory()
-    memory = CageMemory(fast=cage_substeps_split(model, y, w, f))
+    memory = CageMemory(fast=cage_substeps_split(model, y, w, f), pocket=float(np.max(np.einsum("iij->j", w.squeeze))))
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
         add_rates(model, -rim_modes(model, memory.films.force), f)
@@ -362,15 +363,15 @@ def rigid_fastest(p, d):
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves three substeps, of slow ones two, or the time 1/A that a film of the rate A allows
-    which does not follow in the substeps, but two substeps at least.
+    which does not follow in the substeps, but two substeps at least, of a pocket one.
     """
     if not model.modes:
         return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
-    if memory.fast.omega_2 < SLOW**2:
-        return 2.0 * model.modes.substep
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
-    return min(model.modes.longest_step, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
+    most = 2.0 * d if memory.fast.omega_2 < SLOW**2 else model.modes.longest_step
+    lands, pockets = rate / model.p.cage.m, memory.pocket * model.modes.wall_mobility
+    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (1.0, pockets))))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation

@@ -57,6 +57,10 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
 {
     if (!model->modes) return;
     cage_substeps_split(model, y, w, f, &memory->fast);
+    memory->pocket = 0.0;
+    if (model->d->squeeze.filled)
+        for (int j = 0; j < Z; j++)
+            memory->pocket = fmax(memory->pocket, w->squeeze[0][j] + w->squeeze[2][j] + w->squeeze[5][j]);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];

@@ -25,6 +25,7 @@ typedef struct {
     FastState fast;
     RimFilms films;
     double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
+    double pocket;               // damping of the stiffest film in a pocket [N.s/m]
 } CageMemory;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------

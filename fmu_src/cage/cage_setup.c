@@ -78,7 +78,7 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
 // that it has three substeps at most.  What is left of them walks the joints a little in each step, and a slow cage has
 // many of them in a turn: below SLOW two substeps.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
-// which are always stable.
+// which are always stable; one of a pocket 1/A, A by the wall's mobility, or one substep: in longer steps the halves shake on thick oil.
 static const double SLOW = 60.0;  // [rad/s]
 
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
@@ -90,8 +90,10 @@ double cage_longest_step(const Model *model, double film[2][3], const CageMemory
         const bool bent = memory->films.rates[h][0][0] + memory->films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
     }
-    if (memory->fast.omega_2 < SLOW * SLOW) return 2.0 * d;
-    return fmin(elastic_longest_step(model->modes), fmax(2.0 * d, model->p->cage.m / rate));
+    const double most = memory->fast.omega_2 < SLOW * SLOW ? 2.0 * d : elastic_longest_step(model->modes);
+    const double lands = fmax(2.0 * d, model->p->cage.m / rate);
+    const double pockets = fmax(d, 1.0 / (memory->pocket * model->modes->wall_mobility));
+    return fmin(most, fmin(lands, pockets));
 }
 
 // Elastic halves have two substeps: equal steps of three are near half a period of the fastest vibrations, which slow
@@ -125,5 +127,6 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
            values_are_within(memory->films.force[0], 2 * RIM, load) &&
            values_are_within(memory->films.rates[0][0], 2 * SQUEEZE * SQUEEZE, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0);
+           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
+           memory->pocket >= 0.0 && values_are_within(&memory->pocket, 1, elastic ? 1e15 : 0.0);
 }
