@@ -425,14 +425,18 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     """Steps under control of the error from `state` at t to t_stop [s]; h: the step size to begin with.
 
     Returns the state reached, the step size to go on with, the accepted step lengths and how many steps were refused.
-    The estimate is of order h^3; the last two steps are equal.  step: a function like verlet_step.
+    The estimate is of order h^3; the last two steps are equal, and all steps that the cage limits.  step: a function like verlet_step.
     """
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
-        h, left = min(h, cage_longest_step(model, state.film, state.cage)), t_stop - t
-        last = h >= left * (1.0 - LAST_STEP)
-        length = left if last else 0.5 * left if left < 2.0 * h else h
+        left, bears = t_stop - t, cage_longest_step(model, state.film, state.cage)
+        if h >= bears:
+            h, count = bears, max(np.ceil(left / bears * (1.0 - LAST_STEP)), 1.0)
+            length = left / count
+        else:
+            length = left if h >= left * (1.0 - LAST_STEP) else 0.5 * left if left < 2.0 * h else h
+        last = length == left
         end, error = step(model, t, length, weight, state)
         factor = step_factor(length, error, (state.h, state.ratio))
         if not error <= 1.0:

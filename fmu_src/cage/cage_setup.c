@@ -127,6 +127,6 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
            values_are_within(memory->films.force[0], 2 * RIM, load) &&
            values_are_within(memory->films.rates[0][0], 2 * SQUEEZE * SQUEEZE, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
-           memory->pocket >= 0.0 && values_are_within(&memory->pocket, 1, elastic ? 1e15 : 0.0);
+           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) && memory->pocket >= 0.0 &&
+           values_are_within(&memory->pocket, 1, elastic ? 1e15 : 0.0);
 }
