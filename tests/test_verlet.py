@@ -527,6 +527,25 @@ def test_last_steps(core):
         np.testing.assert_allclose(taken, np.array(lengths) * end, rtol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("cage", "end"), [(CageModel.TWO_HALF, 2e-5), (CageModel.ELASTIC, 2e-5), (CageModel.ELASTIC, 1e-4)]
+)
+def test_the_cage_limits_equal_steps(core, cage, end):
+    """Where the cage bears no longer steps, those of an advance are equal, as few as it bears."""
+    parameters, inputs = {"scene.cage": cage}, {"shaft.omega": 50.0}
+    y = Instance(core, parameters, inputs).step(5e-3).y
+    c = core.model(parameters, inputs)
+    c.rhs(0.0, y)
+    taken = CoreIntegrator(core, c, y, 1e3).advance(1e-3, end)[0]
+    model = Model.of(TWO_HALF | parameters, inputs)
+    state = verlet_evaluate(model, 0.0, y)
+    bears = verlet.cage_longest_step(model, state.film, state.cage)
+    weight = 1.0 / (1e3 * model.d.scale)
+    by_twin = verlet.verlet_advance(model, 0.0, end, 1e-3, weight, verlet_evaluate(model, 0.0, y))[2]
+    np.testing.assert_allclose(taken, end / np.ceil(end / bears), rtol=1e-9)
+    np.testing.assert_allclose(by_twin, taken, rtol=1e-9)
+
+
 def test_acceptance(core):
     """A step is refused from an error of 1 tolerance on."""
     h, model = 2e-5, soft(Model.of(TWO_HALF))
