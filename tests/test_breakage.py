@@ -219,7 +219,9 @@ def test_wear_is_what_friction_dissipates(folder, core):
 def test_worn_rivets_lose_their_preload(folder, cage):
     """The preload in force is that of the start less the loss, to 0.1 %, never below 0; no wear, no loss."""
     P, loss = ([f"rivet[{k}].{name}" for k in range(1, Z + 1)] for name in ("P", "preload_loss"))
-    slave = started(folder, {"scene.cage": cage, "joint.wear": 1e-6, "scene.stress": 1}).step(H, 100)
+    slave = started(folder, {"scene.cage": cage, "joint.wear": 1e-6, "scene.stress": 1})
+    slave.set("shaft.tilt_y", 0.0087)  # rigid halves rub where the balls tilt them
+    slave.step(H, 100)
     left, lost = slave.get(*P), slave.get(*loss)
     assert lost.max() > 0.3  # observed 0.5 and more
     np.testing.assert_allclose(left, np.maximum(20.0 - lost, 0.0), atol=0.1)

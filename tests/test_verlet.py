@@ -443,6 +443,14 @@ def test_damping(core, z):
 # ----------------------------------------------------------------------------------------------------- control of steps
 
 
+def soft(model):
+    """The model of either twin with joints so soft that they allow rigid halves steps of 10 ms."""
+    model.d.k_rivet = model.d.k_plate = model.d.k_plate_t = 1.0
+    for n in range(Z):
+        model.d.k_hole[n] = 1.0
+    return model
+
+
 class CoreIntegrator:
     """verlet_advance of integrator.c on its own: the lengths of the accepted steps."""
 
@@ -470,7 +478,8 @@ class CoreIntegrator:
 
 def both(core, h, t_stop, tolerance, **parameters):
     """Steps under control by the C core and by the twin: (lengths, next goal, refused) of each."""
-    y, c, model = Instance(core, parameters).step(5e-3).y, core.model(parameters), Model.of(TWO_HALF | parameters)
+    y = Instance(core, parameters).step(5e-3).y
+    c, model = soft(core.model(parameters)), soft(Model.of(TWO_HALF | parameters))
     c.rhs(0.0, y)
     by_core = CoreIntegrator(core, c, y, tolerance).advance(h, t_stop)
     with np.errstate(invalid="ignore"):
@@ -518,9 +527,28 @@ def test_last_steps(core):
         np.testing.assert_allclose(taken, np.array(lengths) * end, rtol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("cage", "end"), [(CageModel.TWO_HALF, 2e-5), (CageModel.ELASTIC, 2e-5), (CageModel.ELASTIC, 1e-4)]
+)
+def test_the_cage_limits_equal_steps(core, cage, end):
+    """Where the cage bears no longer steps, those of an advance are equal, as few as it bears."""
+    parameters, inputs = {"scene.cage": cage}, {"shaft.omega": 50.0}
+    y = Instance(core, parameters, inputs).step(5e-3).y
+    c = core.model(parameters, inputs)
+    c.rhs(0.0, y)
+    taken = CoreIntegrator(core, c, y, 1e3).advance(1e-3, end)[0]
+    model = Model.of(TWO_HALF | parameters, inputs)
+    state = verlet_evaluate(model, 0.0, y)
+    bears = verlet.cage_longest_step(model, state.film, state.cage)
+    weight = 1.0 / (1e3 * model.d.scale)
+    by_twin = verlet.verlet_advance(model, 0.0, end, 1e-3, weight, verlet_evaluate(model, 0.0, y))[2]
+    np.testing.assert_allclose(taken, end / np.ceil(end / bears), rtol=1e-9)
+    np.testing.assert_allclose(by_twin, taken, rtol=1e-9)
+
+
 def test_acceptance(core):
     """A step is refused from an error of 1 tolerance on."""
-    h, model = 2e-5, Model.of(TWO_HALF)
+    h, model = 2e-5, soft(Model.of(TWO_HALF))
     y = Instance(core).step(5e-3).y
     _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, verlet_evaluate(model, 0.0, y))
     for factor, refused in ((1.005, 0.0), (0.995, 1.0)):
@@ -531,7 +559,7 @@ def test_acceptance(core):
 @pytest.mark.parametrize(("rpm", "part"), [(4000.0, None), (0.0, 0.1)])
 def test_acceptance_by_the_orbit(core, rpm, part):
     """Below an orbital speed of 20 m/s the scale of velocities along the orbit is in proportion to it, down to a tenth."""
-    h, model = 2e-5, Model.of(TWO_HALF)
+    h, model = 2e-5, soft(Model.of(TWO_HALF))
     y = Instance(core, {}, {"shaft.omega": rpm * np.pi / 30.0}).step(5e-3).y
     speed = np.mean(np.abs(y[BALL_OMEGA_M])) * 0.5 * model.p.bearing.d_m
     scale = model.d.scale.copy()
@@ -539,7 +567,7 @@ def test_acceptance_by_the_orbit(core, rpm, part):
     assert part or 4.2 < speed < 4.6  # the kinematic speed is 4.43 m/s
     _, error = verlet.verlet_step(model, 0.0, h, 1.0 / scale, verlet_evaluate(model, 0.0, y))
     for factor, refused in ((1.001, 0.0), (0.999, 1.0)):
-        c = core.model({})
+        c = soft(core.model({}))
         c.rhs(0.0, y)
         found = CoreIntegrator(core, c, y, factor * error).advance(h, h)
         with np.errstate(invalid="ignore"):
@@ -554,7 +582,7 @@ def test_filter():
     g/h_n, and h_{n+1} = (g h_n)^(1/2).
     """
     goal, y = 1e-6, np.zeros(N_STATES)
-    model, start = Model.of(TWO_HALF), VerletState(y, y)
+    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y)
 
     def plant(model, t, h, *_):
         return VerletState(y, y, h=h), 0.512 * (h / goal) ** 3
@@ -569,7 +597,7 @@ def test_a_step_cut_short(core):
     """The end of a communication step cuts a step short: the goal before it stays if 0.8 error^(-1/3) is 1 or more,
     else it follows the short step.
     """
-    h, model = 2e-5, Model.of(TWO_HALF)
+    h, model = 2e-5, soft(Model.of(TWO_HALF))
     y = Instance(core).step(5e-3).y
     _, error = verlet.verlet_step(model, 0.0, h, 1.0 / model.d.scale, verlet_evaluate(model, 0.0, y))
     for factor, goal in ((1.005, 2.0 * h), (0.995, 0.995 * h)):
@@ -582,7 +610,7 @@ def test_no_derivative(core):
     """A step into states without a derivative (an axis tilted beyond 90 degrees) is refused, the next one 0.2 times as
     long.
     """
-    y, c = Instance(core).step(5e-3).y, core.model({"ring.tilt_mode": TiltMode.FREE})
+    y, c = Instance(core).step(5e-3).y, soft(core.model({"ring.tilt_mode": TiltMode.FREE}))
     y[RING_BETA_DOT] = 150.0
     integrator = CoreIntegrator(core, c, y, 1e9)  # at which no finite error is too large
     integrator.state.h = 2e-3
@@ -591,7 +619,7 @@ def test_no_derivative(core):
     assert (integrator.state.t, integrator.state.error_tests_failed) == (pytest.approx(0.2 * 2e-3, rel=1e-12), 1.0)
 
     errors = iter((np.nan, 0.0, 0.0, 0.0, 0.0))
-    model, start = Model.of(TWO_HALF), VerletState(y, y)
+    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y)
 
     def plant(model, t, h, *_):
         return VerletState(y, y, h=h), next(errors)

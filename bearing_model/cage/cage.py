@@ -36,7 +36,6 @@ from bearing_model.cage.elastic.cage_substeps import (
     FastState,
     add_rates,
     cage_substeps_advance,
-    cage_substeps_finish,
     cage_substeps_split,
 )
 from bearing_model.cage.elastic.elastic_half import elastic_half_derive, elastic_half_rest
@@ -52,7 +51,6 @@ from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_GAMMA,
     CAGE_PSI,
-    CAGE_V_X,
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
@@ -61,9 +59,9 @@ from bearing_model.generated.variables import (
     MODE_S,
     MODE_S_DOT,
     RETIRED_ITEMS,
-    RING_V_X,
     WORK,
     CageModel,
+    Z,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.numbers.vec import vec_cross, vec_dot
@@ -72,7 +70,6 @@ from bearing_model.physics.land_bent import bent_solve
 from bearing_model.physics.rotor import rotor_roll
 
 ROW_DP = 5
-CAGE_VELOCITIES = slice(CAGE_V_X.start, RING_V_X.start)
 PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes
 
 
@@ -84,20 +81,19 @@ class CageMemory:
     films: RimFilms = field(default_factory=RimFilms)
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
+    pocket: float = 0.0  # damping of the stiffest film in a pocket [N.s/m]
 
 
 @dataclass
 class CageStep:
     """Between the stages of a step: slow accelerations at the end as the halves' own substeps foresee them, of the modes
-    [2, n] and of the halves [12]; length of the substeps [s], 0 without any; what the accelerations foreseen of the shapes of bent
-    rims lack at the end [2, 4]; their squeeze velocities [2, 6] and impulses of the films [2, 6]; forces on them that are held at
-    both ends, and those at the start that their impulses so far amount to [2, 4]; rates of the films at the end [2, 6, 6];
-    change of the halves' velocities by the substeps behind the evaluation [12].
+    [2, n] and of the halves [12]; what the accelerations foreseen of the shapes of bent rims lack at the end [2, 4]; their squeeze
+    velocities [2, 6] and impulses of the films [2, 6]; forces on them that are held at both ends, and those at the start that their
+    impulses so far amount to [2, 4]; rates of the films at the end [2, 6, 6].
     """
 
     modes: np.ndarray = 0.0
     halves: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
-    substep: float = 0.0
     joints: JointStep = None
     rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
@@ -105,7 +101,6 @@ class CageStep:
     rim_held: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     rim_before: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     rates: np.ndarray = field(default_factory=lambda: np.zeros((2, 6, 6)))
-    late: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
 
 
 # ------------------------------------------------------------------------------------------------------------ parameters
@@ -206,7 +201,7 @@ def cage_split(model, y, w, f):
     """
     if not model.modes:
         return CageMemory()
-    memory = CageMemory(fast=cage_substeps_split(model, y, w, f))
+    memory = CageMemory(fast=cage_substeps_split(model, y, w, f), pocket=float(np.max(np.einsum("iij->j", w.squeeze))))
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
         add_rates(model, -rim_modes(model, memory.films.force), f)
@@ -225,34 +220,25 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
         return CageStep(joints=JointStep(cage_joint_follow(h, across, y), h * across))
     films = RimFilmsStep(model, h, memory.films)
     add_rates(model, 0.5 * h * rim_modes(model, films.held), y)
-    substep, modes, halves, joints = cage_substeps_advance(model, h, memory.fast, f, middle, y, films, w)
+    modes, halves, joints = cage_substeps_advance(model, h, memory.fast, f, middle, y, films, w)
     before = films.before(0.5 * h)
-    return CageStep(modes, halves.ravel(), substep, joints=joints, rim_held=films.held, rim_before=before)
+    return CageStep(modes, halves.ravel(), joints, rim_held=films.held, rim_before=before)
 
 
-def cage_predict(model, gamma, w, step, memory, y):
+def cage_predict(model, gamma, step, y):
     """Predicted velocities in y for the evaluation at the end."""
     if model.modes:
-        add_rates(model, 0.5 * step.substep * step.modes, y)
-        cage_substeps_finish(model, w, step.substep, memory.fast, None, y)
         add_rates(model, gamma * rim_modes(model, step.rim_held), y)
 
 
-def cage_arrive(model, gamma, w, step, before, y, f):
-    """After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
-    the last substep.  Returns the CageMemory.
-    """
+def cage_arrive(model, w, step, before, y, f):
+    """After that evaluation of y, w: separates the cage's part of the rates f.  Returns the CageMemory."""
     memory = cage_split(model, y, w, f)
-    if model.modes:
-        step.late = -y[CAGE_VELOCITIES]
-        cage_substeps_finish(model, w, step.substep, memory.fast, before.fast, y)
-        step.late = step.late + y[CAGE_VELOCITIES]
-        if w.pressure:
-            n = model.modes.n
-            lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
-            lack = lack + 0.5 * step.substep / gamma * (memory.fast.modes - before.fast.modes)
-            step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.films.force - step.rim_before)
-            step.squeeze = before.squeeze.copy()
+    if model.modes and w.pressure:
+        n = model.modes.n
+        lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
+        step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.films.force - step.rim_before)
+        step.squeeze = before.squeeze.copy()
     return memory
 
 
@@ -274,8 +260,7 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
         on, half, spin, x = w.pressure.of(h), w.half[h], float(w.film[h].spin[0]), land_lever(model, h)
         B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
         axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
-        late = axes @ B @ step.late[HALF[:, h]]
-        start = np.concatenate([axes @ B @ residual[HALF[:, h]] + late, gamma * step.rim_lack[h]])
+        start = np.concatenate([axes @ B @ residual[HALF[:, h]], gamma * step.rim_lack[h]])
         solved = bent_solve(p, on, gamma, w.squeeze_by[h], start, step.squeeze[h])
         inertia = np.array([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p])
         change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia
@@ -285,7 +270,7 @@ def cage_bent_solve(model, gamma, w, step, residual, delta):
         step.squeeze[h], step.impulse[h], step.rates[h] = solved.V, solved.impulse, solved.rates
         V = np.concatenate([on.V, on.rim_V])
         less += solved.film @ (V + solved.change) - on.film @ V
-        less -= (solved.change[:2] - late) @ solved.impulse[:2] / gamma
+        less -= solved.change[:2] @ solved.impulse[:2] / gamma
         rates = axes.T @ solved.rates[:2, :2] @ axes
         w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))
     return less
@@ -351,6 +336,8 @@ def cage_slide(model, before, y, w):
 
 
 SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
+SLOW = 60.0  # speed of the cage below which its elastic halves have two substeps [rad/s]
+LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
 def cage_remember(model, h, second, start, end, error):
@@ -366,15 +353,25 @@ def cage_remember(model, h, second, start, end, error):
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
+def rigid_fastest(p, d):
+    """Square of the frequency of the fastest vibration between rigid halves [1/s2], all joints closed and sticking."""
+    r, along = 0.5 * p.bearing.d_m, Z * (d.k_rivet + d.k_plate)
+    across = Z * (d.k_plate_t + np.max(d.k_hole))
+    return 2.0 * max(along * max(1.0 / p.cage.m, 0.5 * r * r / d.J_t), across * max(1.0 / p.cage.m, r * r / d.J_p))
+
+
 def cage_longest_step(model, film, memory):
-    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of elastic halves three substeps, or
-    the time 1/A that a film of the rate A allows which does not follow in the substeps, but two substeps at least.
+    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
+    their fastest vibration, of elastic halves three substeps, of slow ones two, or the time 1/A that a film of the rate A allows
+    which does not follow in the substeps, but two substeps at least, of a pocket one.
     """
     if not model.modes:
-        return np.inf
+        return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
-    return min(model.modes.longest_step, max(2.0 * d, model.p.cage.m / rate if rate > 0.0 else np.inf))
+    most = 2.0 * d if memory.fast.omega_2 < SLOW**2 else model.modes.longest_step
+    lands, pockets = rate / model.p.cage.m, memory.pocket * model.modes.wall_mobility
+    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (1.0, pockets))))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation

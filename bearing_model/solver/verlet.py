@@ -285,7 +285,7 @@ def exchange_at(w):
 
 def advance_positions(model, h, start):
     """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle; the
-    CageStep; the Work with the cage's kinematics of the middle.
+    CageStep; the Work with the joints there.
     """
     middle, y, w = start.y.copy(), start.y.copy(), Work()
     middle[V] = y[V] = start.y[V] + 0.5 * h * start.f[V]
@@ -345,11 +345,11 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     and K keep the second order.
     """
     gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work(cage_squeeze(model, 0.5 * h))
-    (y, cage, middle), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
+    (y, cage, _), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
     y[V] += gamma * a - removed
-    cage_predict(model, gamma, middle, cage, start.cage, y)
+    cage_predict(model, gamma, cage, y)
     end = VerletState(y, rhs(model, t + h, y, w), h=h)
-    end.cage = cage_arrive(model, gamma, w, cage, start.cage, y, end.f)
+    end.cage = cage_arrive(model, w, cage, start.cage, y, end.f)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     foreseen = np.zeros(N_V)
@@ -425,14 +425,18 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     """Steps under control of the error from `state` at t to t_stop [s]; h: the step size to begin with.
 
     Returns the state reached, the step size to go on with, the accepted step lengths and how many steps were refused.
-    The estimate is of order h^3; the last two steps are equal.  step: a function like verlet_step.
+    The estimate is of order h^3; the last two steps are equal, and all steps that the cage limits.  step: a function like verlet_step.
     """
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
-        h, left = min(h, cage_longest_step(model, state.film, state.cage)), t_stop - t
-        last = h >= left * (1.0 - LAST_STEP)
-        length = left if last else 0.5 * left if left < 2.0 * h else h
+        left, bears = t_stop - t, cage_longest_step(model, state.film, state.cage)
+        if h >= bears:
+            h, count = bears, max(np.ceil(left / bears * (1.0 - LAST_STEP)), 1.0)
+            length = left / count
+        else:
+            length = left if h >= left * (1.0 - LAST_STEP) else 0.5 * left if left < 2.0 * h else h
+        last = length == left
         end, error = step(model, t, length, weight, state)
         factor = step_factor(length, error, (state.h, state.ratio))
         if not error <= 1.0:

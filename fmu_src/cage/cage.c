@@ -57,6 +57,10 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
 {
     if (!model->modes) return;
     cage_substeps_split(model, y, w, f, &memory->fast);
+    memory->pocket = 0.0;
+    if (model->d->squeeze.filled)
+        for (int j = 0; j < Z; j++)
+            memory->pocket = fmax(memory->pocket, w->squeeze[0][j] + w->squeeze[2][j] + w->squeeze[5][j]);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];
@@ -71,7 +75,7 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
         y[Y_CAGE_PSI + i] = y_0[Y_CAGE_PSI + i] + h * (w->half[i].s - rotor_roll(&w->half[i]));
     cage_joint_kinematics(model, w);
     step->gamma = 0.5 * h;
-    step->substep = step->axial = step->shear = 0.0;
+    step->axial = step->shear = 0.0;
     memset(&step->joints, 0, sizeof step->joints);
     memset(step->rim_lack, 0, sizeof step->rim_lack);
     memset(step->bent, 0, sizeof step->bent);
@@ -92,8 +96,8 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     RimFilmsStep films;
     const bool follow = rim_films_begin(model, h, &memory->films, &films);
     rim_push(model, step->gamma, films.held, &y[Y_MODE_S_DOT]);
-    step->substep = cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen,
-                                          &step->joints, follow ? &films : NULL, w);
+    cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen, &step->joints,
+                          follow ? &films : NULL, w);
     memcpy(step->rim_held, films.held, sizeof step->rim_held);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < RIM; k++) {
@@ -102,29 +106,18 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
         }
 }
 
-void cage_predict(const Model *model, const Work *w, CageStep *step, const CageMemory *memory, double *y)
+void cage_predict(const Model *model, CageStep *step, double *y)
 {
-    if (!model->modes) return;
-    for (int i = 0; i < 2 * N_MODES; i++)
-        y[Y_MODE_S_DOT + i] += 0.5 * step->substep * step->foreseen.modes[i];
-    cage_substeps_finish(model, w, step->substep, &memory->fast, NULL, y);
-    rim_push(model, step->gamma, step->rim_held, &y[Y_MODE_S_DOT]);
+    if (model->modes) rim_push(model, step->gamma, step->rim_held, &y[Y_MODE_S_DOT]);
 }
 
-void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, const double *y,
                  double *f, CageMemory *memory)
 {
     cage_split(model, y, w, f, memory);
-    if (!model->modes) return;
-    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] = -y[Y_CAGE_V_X + i];
-    cage_substeps_finish(model, w, step->substep, &memory->fast, &before->fast, y);
-    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) step->late[i] += y[Y_CAGE_V_X + i];
     if (!lands_bend(model)) return;
     double lack[2 * N_MODES];
-    const double last = 0.5 * step->substep / step->gamma;
-    for (int i = 0; i < 2 * N_MODES; i++)
-        lack[i] = f[Y_MODE_S_DOT + i] - step->foreseen.modes[i] +
-                  last * (memory->fast.modes[i] - before->fast.modes[i]);
+    for (int i = 0; i < 2 * N_MODES; i++) lack[i] = f[Y_MODE_S_DOT + i] - step->foreseen.modes[i];
     rim_motions(model, lack, step->rim_lack);
     memcpy(step->squeeze, before->squeeze, sizeof step->squeeze);
     for (int h = 0; h < 2; h++)
@@ -157,15 +150,11 @@ void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step,
 // v = (1 + gamma A)^-1 v of a half and its bent rim, by the law at the end of the step (land_bent.c).
 static void solve_bent_half(const Work *w, int h, const HalfFilm *f, CageStep *step, HalfVelocity *half)
 {
-    const double gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z, *late = &step->late[h];
+    const double gamma = step->gamma, *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
     BentSolution *bent = &step->bent[h];
-    const double late_y = late[Y_CAGE_V_Y - Y_CAGE_V_X] + late[Y_CAGE_GAMMA_DOT - Y_CAGE_V_X] * f->x;
-    const double late_z = late[Y_CAGE_V_Z - Y_CAGE_V_X] - late[Y_CAGE_BETA_DOT - Y_CAGE_V_X] * f->x;
-    const double u_y = half->y + half->gamma * f->x + late_y, u_z = half->z - half->beta * f->x + late_z;
+    const double u_y = half->y + half->gamma * f->x, u_z = half->z - half->beta * f->x;
     double residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
     for (int i = 0; i < RIM; i++) residual[2 + i] = gamma * step->rim_lack[h][i];
-    bent->late[0] = b_y[1] * late_y + b_y[2] * late_z;
-    bent->late[1] = b_z[1] * late_y + b_z[2] * late_z;
     bent_solve(w, h, gamma, residual, step->squeeze[h], bent);
     const double *impulse = bent->impulse;
     half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],

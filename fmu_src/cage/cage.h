@@ -25,6 +25,7 @@ typedef struct {
     FastState fast;
     RimFilms films;
     double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
+    double pocket;               // damping of the stiffest film in a pocket [N.s/m]
 } CageMemory;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------
@@ -80,15 +81,12 @@ void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_d
 typedef struct {
     Foreseen foreseen;  // slow accelerations at the end
     double gamma;       // half of the step [s]
-    double substep;     // length of the substeps [s], 0 without any
     JointStep joints;   // friction
     double axial, shear;
     // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2], squeeze velocities, the solution
     double rim_lack[2][RIM], squeeze[2][SQUEEZE];
     // forces on them: held at both ends of the step, and those at its start that their impulses so far amount to
     double rim_held[2][RIM], rim_before[2][RIM];
-    double
-        late[2 * RELATIVE_MOTIONS];  // change of the halves' velocities by the substeps behind the evaluation
     BentSolution bent[2];
 } CageStep;
 
@@ -104,12 +102,11 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
 
 // Predicted velocities in y for the evaluation at the end.
 #define cage_predict FOR_ISA(cage_predict)
-void cage_predict(const Model *model, const Work *w, CageStep *step, const CageMemory *memory, double *y);
+void cage_predict(const Model *model, CageStep *step, double *y);
 
-// After that evaluation, w: separates the cage's part of the rates f, and gives the velocities in y the second half of
-// the last substep.
+// After that evaluation of y, w: separates the cage's part of the rates f.
 #define cage_arrive FOR_ISA(cage_arrive)
-void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, const double *y,
                  double *f, CageMemory *memory);
 
 // Adds gamma times what was foreseen of the halves' accelerations to the rows of their velocities, with a sign.

@@ -302,7 +302,7 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
             on->film[i] = solved[h].film[i];
         }
         for (int i = 0; i < 2; i++) {
-            power -= (change[i] - solved[h].late[i]) * solved[h].impulse[i] / gamma;
+            power -= change[i] * solved[h].impulse[i] / gamma;
             on->V[i] += change[i];
         }
         for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];

@@ -225,9 +225,9 @@ INLINE void turn_rates(scalar T[2][2], const scalar D[3], scalar to[3])
 }
 
 // The film of a bent rim at the end of a step, along the half's axes: changes of the velocities of land and rim since the evaluation,
-// those of the land that are not of the solve, impulses that take them from the residual, forces and rates.
+// impulses that take them from the residual, forces and rates.
 typedef struct {
-    double change[SQUEEZE], late[2], impulse[SQUEEZE], film[SQUEEZE], rates[SQUEEZE][SQUEEZE];
+    double change[SQUEEZE], impulse[SQUEEZE], film[SQUEEZE], rates[SQUEEZE][SQUEEZE];
 } BentSolution;
 
 #ifndef DUAL

@@ -189,14 +189,19 @@ static bool is_fixed(const Integrator *in)
 // of time must not leave a last step of no length.
 static const double LAST_STEP = 1e-9;
 
-// Length of the next step: the controller's goal, no longer than the cage bears, or `left`, or half of that if two steps
-// are needed.  A fixed length is the same for all steps of an advance.
+// Length of the next step: the controller's goal, or `left`, or half of that if two steps are needed.  Where the cage bears no more,
+// equal steps: a pattern of long and short ones that each communication step repeats drives vibrations that turn once in it.
+// A fixed length is the same for all steps of an advance.
 static double verlet_length(void *context, double left)
 {
     Integrator *in = context;
     if (in->warming_up) return left;
     if (is_fixed(in)) return in->goal >= left * (1.0 - LAST_STEP) ? left : in->goal;
-    in->goal = fmin(in->goal, cage_longest_step(in->model, in->now->film, &in->now->cage));
+    const double bears = cage_longest_step(in->model, in->now->film, &in->now->cage);
+    if (in->goal >= bears) {
+        in->goal = bears;
+        return left / fmax(ceil(left / bears * (1.0 - LAST_STEP)), 1.0);
+    }
     if (in->goal >= left * (1.0 - LAST_STEP)) return left;
     return left < 2.0 * in->goal ? 0.5 * left : in->goal;
 }

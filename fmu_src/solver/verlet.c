@@ -235,7 +235,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     predictor_limiter(model, h, from, removed);
     for (int i = VELOCITY; i < N_STATES; i++) y[i] += gamma * f[i];
     for (int i = CAGE; i < CAGE_END; i++) y[i] -= removed[i];
-    cage_predict(model, w, &cage, &from->cage, y);
+    cage_predict(model, &cage, y);
     to->housing = from->housing, to->turn = from->turn;
     if (model->housing) housing_predict(h, &from->housing, &to->housing);
     if (model->turn) ball_turn_predict(h, &to->turn);

@@ -15,6 +15,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from bearing_model.cage.common.cage_joint import (
+    STATES,
     JointStep,
     cage_joint_follow,
     cage_joint_shear,
@@ -177,8 +178,8 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
     """Substeps of a step of length h from `fast` under the slow rates f; state, w: state and kinematics in the middle of the
     step; films: RimFilmsStep; changes y as cage_substeps.c does.
 
-    Returns the length of the substeps, the slow accelerations at the step's end as they foresee them (of the modes [2, n],
-    changes of those of the halves [6, 2]), and the JointStep.
+    Returns the slow accelerations at the step's end as they foresee them (of the modes [2, n], changes of those of the halves
+    [6, 2]), and the JointStep.
     """
     half, d, h0 = model.modes, model.d, w.half[0]
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -224,8 +225,6 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
         slip.before = cage_joint_follow(sub, across, y)
         y[WORK] -= sub * model.p.cage.m * np.sum(half.damping * v_m**2)
         held = slow_modes + loads.accelerations(step * sub, q, to_halves(model, h0, moved))
-        if step == steps:
-            break
 
         # accelerations there, of which the second half
         cage_elastic_loads(model, P, joints)
@@ -235,10 +234,8 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
         if films.follows.any():
-            v = v + films.follow(step * sub, v, to_halves(model, h0, speed), last=False)
-    if films.follows.any():  # with the second half of the last substep as cage_predict will add it
-        at, halves_then = v + 0.5 * sub * (fast.modes + held), to_halves(model, h0, speed + 0.5 * sub * fast.rigid)
-        v = v + films.follow(h, at, halves_then, last=True)
+            v = v + films.follow(step * sub, v, to_halves(model, h0, speed), last=step == steps)
+    slip.before = np.array([y[row] for row in STATES])
     for blocks, change in ((CAGE_PLACES, moved), (CAGE_RATES, speed)):
         for block, rows in zip(blocks, to_halves(model, h0, change), strict=True):
             y[block] += rows
@@ -246,19 +243,7 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
     slip.way = u - fast.u
-    return sub, held, to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])), slip
-
-
-def cage_substeps_finish(model, w, substep, fast, before, y):
-    """Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the fast
-    accelerations at `fast`, less those at `before` if there are any.
-    """
-    modes, rigid = fast.modes, fast.rigid
-    if before is not None:
-        modes, rigid = modes - before.modes, rigid - before.rigid
-    add_rates(model, 0.5 * substep * modes, y)
-    for block, change in zip(CAGE_RATES, to_halves(model, w.half[0], 0.5 * substep * rigid), strict=True):
-        y[block] += change
+    return held, to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])), slip
 
 
 def add_rates(model, change, y):

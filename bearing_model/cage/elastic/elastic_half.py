@@ -23,7 +23,7 @@ from bearing_model.generated.variables import CageShape, Z
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
-SUBSTEP_TURN = 1.64  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
+SUBSTEP_TURN = 1.55  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
 
 
@@ -54,6 +54,7 @@ class ElasticHalf:
     # largest |u|/|q| of a wall, of a pair's a over the amplitude of both: by modes that move all pockets alike, else 0; by the others [n]
     widest: np.ndarray
     widest_others: np.ndarray
+    wall_mobility: float  # of a wall by the modes, mean of two directions, at the widest places [m/s/(N.s)]
     compliance: float  # that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     mirrored: np.ndarray
@@ -106,9 +107,10 @@ def elastic_half_derive(p, d, table):
     series, k_hole = 1.0 / (1.0 + shear * d.k_plate_t), d.k_hole / (1.0 + shear * d.k_hole)
     held = series * d.k_plate_t + np.max(k_hole)
     uniform = (modes.harmonic[entry] == 0) & (part == 0.0)
-    # [nodes, n]; between them a quarter farther at most
+    # [nodes, n]
     u_2 = np.sum(pocket[..., slice(None) if ribbon else [0, 2], :] ** 2, axis=(-2, -1)).reshape(-1, len(entry))
-    widest, paired = 1.25 * np.sqrt(np.max(u_2, axis=0)), modes.parity[entry] == 0
+    farther, most, paired = 1.25, np.sqrt(np.max(u_2, axis=0)), modes.parity[entry] == 0  # between the nodes
+    one_of_pair = ~(paired & (part > 0.0))
     wall = residual.wall[..., WALL_NODE]
     mirrored = frequencies_2(
         p.cage.m,
@@ -137,8 +139,9 @@ def elastic_half_derive(p, d, table):
         centrifugal=cage_centrifugal(p, table) * np.sqrt(table.half.m) * spin_load(table.modes)[order],
         pairs=int(np.sum(paired & (part == 0.0))),
         b=int(np.sum(part == 0.0)),
-        widest=np.where(uniform, widest, 0.0),
-        widest_others=np.where(uniform | (paired & (part > 0.0)), 0.0, widest),
+        widest=np.where(uniform, farther * most, 0.0),
+        widest_others=np.where(one_of_pair & ~uniform, farther * most, 0.0),
+        wall_mobility=0.5 * np.sum(most[one_of_pair] ** 2) / p.cage.m,
         R=np.linalg.inv(law.stiffness),
         series=series,
         k_hole=k_hole,

@@ -10,9 +10,12 @@
 // a_s: slow accelerations, by all other forces, at the step's start; the trapezoidal rule of verlet.c corrects them
 //      at the step's end
 //
+// The last substep is like the others, so that the evaluation of the right-hand side has the velocities of the step's end.
+// Without its second half, by the joints and springs there, films, oil and friction would feed vibrations: 3 % of the pocket
+// forces in flooded pockets.
+//
 // The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of
-// the step, and computed anew from the positions at each evaluation of the right-hand side, which serves as that of the
-// last substep.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
+// the step, and computed anew from the positions at each evaluation.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
 // motion.  Forces in the plane of the split act at the distance c_x from the centres of mass and tilt both halves by
 // the same angle;
 // a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  With the unbalance e the centres of mass lie c = e b_y from the
@@ -33,7 +36,7 @@
 // little, by 120/s at 12,000 r/min.
 //
 // The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
-// end of each substep (cage_joint_slide), at the step's end by cage_correct.  What they and the modes' damping dissipate is
+// end of each substep (cage_joint_slide), and under those of the evaluation by cage_correct.  What they and the modes' damping dissipate is
 // summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
@@ -287,28 +290,17 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
 }
 
 // Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
-static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS], const double *at,
-                         bool last, RimFilmsStep *films, double *v, const Work *w)
+static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS], bool last,
+                         RimFilmsStep *films, double *v, const Work *w)
 {
     double halves[2 * RELATIVE_MOTIONS] = {0.0};
     to_halves(model, &w->half[0], 1.0, speed, 0, halves);
-    rim_films_follow(model, w, t, at, halves, last, v, films);
+    rim_films_follow(model, w, t, v, halves, last, v, films);
 }
 
-// Those at the step's end, with the second half of the last substep as cage_predict will add it.
-static void films_at_end(const Model *model, double h, const FastState *fast, const Foreseen *foreseen,
-                         const double speed[RELATIVE_MOTIONS], RimFilmsStep *films, double *v, const Work *w)
-{
-    const double half = 0.5 * films->substep;
-    double at[2 * N_MODES], then[RELATIVE_MOTIONS];
-    for (int i = 0; i < 2 * N_MODES; i++) at[i] = v[i] + half * (fast->modes[i] + foreseen->modes[i]);
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) then[i] = speed[i] + half * fast->rigid[i];
-    films_follow(model, h, then, at, true, films, v, w);
-}
-
-double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, JointStep *slip,
-                             RimFilmsStep *films, const Work *w)
+void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
+                           const double *state, double *y, Foreseen *foreseen, JointStep *slip,
+                           RimFilmsStep *films, const Work *w)
 {
     const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
@@ -342,7 +334,7 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
     if (films) rim_films_first(model, w, sub, f, v, films);
 
-    for (int step = 1;; step++) {
+    for (int step = 1; step <= steps; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
         move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
@@ -365,10 +357,6 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
         wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
-        if (step == steps) {
-            if (films) films_at_end(model, h, fast, foreseen, speed, films, v, w);
-            break;
-        }
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, &joints);
@@ -379,8 +367,9 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
         turn_out(s * (step * sub - 0.5 * h), rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
-        if (films) films_follow(model, step * sub, speed, v, false, films, v, w);
+        if (films) films_follow(model, step * sub, speed, step == steps, films, v, w);
     }
+    memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);
     for (int k = 0; k < LANES; k++) {
         slip->way_y[k] = joints.u_y[k] - fast->u_y[k];
         slip->way_z[k] = joints.u_z[k] - fast->u_z[k];
@@ -391,15 +380,4 @@ double cage_substeps_advance(const Model *model, double h, const FastState *fast
     to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
-    return sub;
-}
-
-void cage_substeps_finish(const Model *model, const Work *w, double substep, const FastState *fast,
-                          const FastState *before, double *y)
-{
-    double rigid[RELATIVE_MOTIONS];
-    for (int i = 0; i < 2 * N_MODES; i++)
-        y[Y_MODE_S_DOT + i] += 0.5 * substep * (fast->modes[i] - (before ? before->modes[i] : 0.0));
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = fast->rigid[i] - (before ? before->rigid[i] : 0.0);
-    to_halves(model, &w->half[0], 0.5 * substep, rigid, Y_CAGE_V_X, y);
 }

@@ -33,15 +33,8 @@ typedef struct {
 // Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the
 // step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
-// the middle; films: those that follow in the substeps, NULL if none does.  Velocities and rates of the modes lack the last
-// substep's second half, friction states its mapping.  Returns the length of the substeps [s].
+// the middle; films: those that follow in the substeps, NULL if none does.
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
-double cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
-                             const double *state, double *y, Foreseen *foreseen, JointStep *slip,
-                             RimFilmsStep *films, const Work *w);
-
-// Adds the second half of the last substep to the rates of the modes and the velocities of the halves in y: with the
-// fast accelerations at `fast`, less those at `before` if there are any.
-#define cage_substeps_finish FOR_ISA(cage_substeps_finish)
-void cage_substeps_finish(const Model *model, const Work *w, double substep, const FastState *fast,
-                          const FastState *before, double *y);
+void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
+                           const double *state, double *y, Foreseen *foreseen, JointStep *slip,
+                           RimFilmsStep *films, const Work *w);
