@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearing_model.cage.common.cage_joint import (
+    PLATES,
     STATES,
     JointStep,
     cage_joint_follow,
@@ -232,8 +233,15 @@ def cage_predict(model, gamma, step, y):
 
 
 def cage_arrive(model, w, step, before, y, f):
-    """After that evaluation of y, w: separates the cage's part of the rates f.  Returns the CageMemory."""
+    """After that evaluation of y, w: separates the cage's part of the rates f, and takes the friction states in y to the joints'
+    places.  Returns the CageMemory.
+    """
     memory = cage_split(model, y, w, f)
+    if model.modes:
+        more = memory.fast.u - before.fast.u - step.joints.way
+        for row, change in zip(PLATES, more, strict=True):
+            y[row] += change
+        step.joints.way = step.joints.way + more
     if model.modes and w.pressure:
         n = model.modes.n
         lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes

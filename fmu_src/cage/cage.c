@@ -111,10 +111,23 @@ void cage_predict(const Model *model, CageStep *step, double *y)
     if (model->modes) rim_push(model, step->gamma, step->rim_held, &y[Y_MODE_S_DOT]);
 }
 
-void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, const double *y,
+// Friction states follow what the joints' places have moved by, not their velocities: these would leave them behind by 0.1 nm
+// a step, which a turning load adds up to micrometres.
+static void follow_places(const FastState *before, const FastState *now, JointStep *step, double *y)
+{
+    for (int k = 0; k < Z; k++) {
+        const double more_y = now->u_y[k] - before->u_y[k] - step->way_y[k],
+                     more_z = now->u_z[k] - before->u_z[k] - step->way_z[k];
+        y[Y_JOINT_PLATE_Y + k] += more_y, y[Y_JOINT_PLATE_Z + k] += more_z;
+        step->way_y[k] += more_y, step->way_z[k] += more_z;
+    }
+}
+
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
                  double *f, CageMemory *memory)
 {
     cage_split(model, y, w, f, memory);
+    if (model->modes) follow_places(&before->fast, &memory->fast, &step->joints, y);
     if (!lands_bend(model)) return;
     double lack[2 * N_MODES];
     for (int i = 0; i < 2 * N_MODES; i++) lack[i] = f[Y_MODE_S_DOT + i] - step->foreseen.modes[i];

@@ -104,9 +104,9 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
 #define cage_predict FOR_ISA(cage_predict)
 void cage_predict(const Model *model, CageStep *step, double *y);
 
-// After that evaluation of y, w: separates the cage's part of the rates f.
+// After that evaluation of y, w: separates the cage's part of the rates f, and takes the friction states to the joints' places.
 #define cage_arrive FOR_ISA(cage_arrive)
-void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, const double *y,
+void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
                  double *f, CageMemory *memory);
 
 // Adds gamma times what was foreseen of the halves' accelerations to the rows of their velocities, with a sign.
