@@ -582,10 +582,10 @@ def test_filter():
     g/h_n, and h_{n+1} = (g h_n)^(1/2).
     """
     goal, y = 1e-6, np.zeros(N_STATES)
-    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y)
+    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y, cage=CageMemory())
 
     def plant(model, t, h, *_):
-        return VerletState(y, y, h=h), 0.512 * (h / goal) ** 3
+        return VerletState(y, y, h=h, cage=CageMemory()), 0.512 * (h / goal) ** 3
 
     first = 1.1 * goal
     start.h, start.ratio = first, goal / first
@@ -619,10 +619,10 @@ def test_no_derivative(core):
     assert (integrator.state.t, integrator.state.error_tests_failed) == (pytest.approx(0.2 * 2e-3, rel=1e-12), 1.0)
 
     errors = iter((np.nan, 0.0, 0.0, 0.0, 0.0))
-    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y)
+    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y, cage=CageMemory())
 
     def plant(model, t, h, *_):
-        return VerletState(y, y, h=h), next(errors)
+        return VerletState(y, y, h=h, cage=CageMemory()), next(errors)
 
     taken, refused = verlet.verlet_advance(model, 0.0, 1e-2, 1e-2, 1.0 / model.d.scale, start, plant)[2:]
     # 0.2 times; 1.5 times where there is no error; two halves

@@ -31,6 +31,7 @@ from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_joints,
     cage_elastic_kinematics,
     cage_elastic_rivets,
+    cage_elastic_speed_2,
     cage_elastic_stiffness,
 )
 from bearing_model.cage.elastic.cage_substeps import (
@@ -83,6 +84,7 @@ class CageMemory:
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
     pocket: float = 0.0  # damping of the stiffest film in a pocket [N.s/m]
+    omega_2: float = 0.0  # square of the halves' speed in space
 
 
 @dataclass
@@ -200,9 +202,10 @@ def cage_split(model, y, w, f):
     """Separates the part that the cage advances by itself from the rates f at the state y, where w was evaluated; returns
     it as CageMemory.
     """
+    memory = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))))
     if not model.modes:
-        return CageMemory()
-    memory = CageMemory(fast=cage_substeps_split(model, y, w, f), pocket=float(np.max(np.einsum("iij->j", w.squeeze))))
+        return memory
+    memory.fast, memory.pocket = cage_substeps_split(model, y, w, f), float(np.max(np.einsum("iij->j", w.squeeze)))
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
         add_rates(model, -rim_modes(model, memory.films.force), f)
@@ -221,7 +224,7 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
         return CageStep(joints=JointStep(cage_joint_follow(h, across, y), h * across))
     films = RimFilmsStep(model, h, memory.films)
     add_rates(model, 0.5 * h * rim_modes(model, films.held), y)
-    modes, halves, joints = cage_substeps_advance(model, h, memory.fast, f, middle, y, films, w)
+    modes, halves, joints = cage_substeps_advance(model, h, memory, f, middle, y, films, w)
     before = films.before(0.5 * h)
     return CageStep(modes, halves.ravel(), joints, rim_held=films.held, rim_before=before)
 
@@ -344,7 +347,7 @@ def cage_slide(model, before, y, w):
 
 
 SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
-SLOW = 60.0  # speed of the cage below which its elastic halves have two substeps [rad/s]
+SLOW = 60.0  # speed of a slow cage [rad/s]
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
@@ -370,14 +373,15 @@ def rigid_fastest(p, d):
 
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
-    their fastest vibration, of elastic halves three substeps, of slow ones two, or the time 1/A that a film of the rate A allows
-    which does not follow in the substeps, but two substeps at least, of a pocket one.
+    their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
+    not follow in the substeps, but two substeps at least, of a pocket one.  Of slow halves half of it, or two substeps.
     """
+    slow = memory.omega_2 < SLOW**2
     if not model.modes:
-        return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
+        return (0.5 if slow else 1.0) * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
-    most = 2.0 * d if memory.fast.omega_2 < SLOW**2 else model.modes.longest_step
+    most = 2.0 * d if slow else model.modes.longest_step
     lands, pockets = rate / model.p.cage.m, memory.pocket * model.modes.wall_mobility
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (1.0, pockets))))
 

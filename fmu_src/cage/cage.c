@@ -55,6 +55,7 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
 #ifndef DUAL
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
+    memory->fast.omega_2 = cage_elastic_speed_2(w);
     if (!model->modes) return;
     cage_substeps_split(model, y, w, f, &memory->fast);
     memory->pocket = 0.0;

@@ -60,7 +60,8 @@ static const double TENTH_OF_A_PULSE = 1e-5;
 
 // Angles by which the fastest vibration between rigid halves turns at most: in equal steps velocity Verlet is stable up to 2, whatever
 // the matrix of the step has of joints that open or slip in it; in others Fox and Goodwin's method is up to the root of 6.
-// In longer ones balls that press lightly or jam the cage feed it: below 2,300 r/min stress was up to five times too large.
+// In longer ones balls that press lightly or jam the cage feed it: below 2,300 r/min stress was up to five times too large.  Jams of a
+// slow cage feed it up to half of that.
 static const double RIGID_TURN = 2.0, LONGEST_TURN = 2.449;
 
 // Square of that vibration's frequency [1/s2], all joints closed and sticking: along the axis and of the tilts, in the plane
@@ -83,14 +84,15 @@ static const double SLOW = 60.0;  // [rad/s]
 
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
 {
-    if (!model->modes) return LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
+    const bool slow = memory->fast.omega_2 < SLOW * SLOW;
+    if (!model->modes) return (slow ? 0.5 : 1.0) * LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
     const double d = model->modes->substep;
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {
         const bool bent = memory->films.rates[h][0][0] + memory->films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
     }
-    const double most = memory->fast.omega_2 < SLOW * SLOW ? 2.0 * d : elastic_longest_step(model->modes);
+    const double most = slow ? 2.0 * d : elastic_longest_step(model->modes);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(d, 1.0 / (memory->pocket * model->modes->wall_mobility));
     return fmin(most, fmin(lands, pockets));
@@ -122,7 +124,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->touch_r[0], 2 * LANES, motion) &&
            values_are_within(fast->touch_chi[0], 2 * LANES, 2.0 * motion) &&
            values_are_within(fast->touch_radius[0], 2 * LANES, 10.0 * motion) &&
-           values_are_within(&fast->omega_2, 1, elastic ? 1e18 : 0.0) &&
+           values_are_within(&fast->omega_2, 1, 1e18) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
            values_are_within(memory->films.force[0], 2 * RIM, load) &&

@@ -25,7 +25,6 @@ from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_loads,
     cage_elastic_preload,
     cage_elastic_pull,
-    cage_elastic_speed_2,
     cage_elastic_stiffness,
 )
 from bearing_model.cage.elastic.elastic_half import circle, joints_in, joints_out
@@ -63,7 +62,6 @@ class FastState:
     e: np.ndarray  # motions of the joints out of the plane [3, Z]
     u: np.ndarray  # their offsets in it [2, Z]
     touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [8, Z]
-    omega_2: float  # square of the halves' speed in space
     modes: np.ndarray  # accelerations by joints and springs [2, n]
     rigid: np.ndarray  # accelerations of the relative motions at the joints [6]
 
@@ -142,8 +140,7 @@ def cage_substeps_split(model, y, w, f):
         f[block][: half.n] -= change
     f[WORK] += e.dissipated
     touch = [np.array([getattr(e, f"touch_{name}")[h] for name in TOUCH]) for h in range(2)]
-    omega_2 = float(np.squeeze(cage_elastic_speed_2(w)))
-    return FastState(j.e.copy(), j.u.copy(), touch, omega_2, modes, rigid)
+    return FastState(j.e.copy(), j.u.copy(), touch, modes, rigid)
 
 
 def turn(t, rates):
@@ -174,14 +171,14 @@ def add_spin(spin, t, middle, slow, moved, relative):
     return turned
 
 
-def cage_substeps_advance(model, h, fast, f, state, y, films, w):
-    """Substeps of a step of length h from `fast` under the slow rates f; state, w: state and kinematics in the middle of the
+def cage_substeps_advance(model, h, memory, f, state, y, films, w):
+    """Substeps of a step of length h from `memory` (CageMemory) under the slow rates f; state, w: state and kinematics in the middle of the
     step; films: RimFilmsStep; changes y as cage_substeps.c does.
 
     Returns the slow accelerations at the step's end as they foresee them (of the modes [2, n], changes of those of the halves
     [6, 2]), and the JointStep.
     """
-    half, d, h0 = model.modes, model.d, w.half[0]
+    half, d, h0, fast = model.modes, model.d, w.half[0], memory.fast
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
     sub = h / steps
     q, v, slow_modes = (
@@ -191,7 +188,7 @@ def cage_substeps_advance(model, h, fast, f, state, y, films, w):
     slow, speed, moved = between_halves(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
     loads, held, modes = WallLoads(model, h, fast, f, state, y, q, w), slow_modes, fast.modes
     gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
-    P, k_in = cage_elastic_preload(model, fast.omega_2), cage_elastic_stiffness(model)
+    P, k_in = cage_elastic_preload(model, memory.omega_2), cage_elastic_stiffness(model)
 
     # the joints at the step's start; their velocities by modes and relative rigid motions, and those by the slow motion
     # of the rigid halves in the middle of the step

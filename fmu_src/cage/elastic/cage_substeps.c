@@ -136,7 +136,6 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
     const ElasticHalf *half = model->modes;
     const ElasticJoints *joints = &w->elastic.joints;
     fast_accelerations(model, y, joints, fast->modes, fast->rigid);
-    fast->omega_2 = cage_elastic_speed_2(w);
     for (int h = 0; h < 2; h++) {
         memcpy(fast->touch_x[h], w->elastic.touch_x[h], sizeof fast->touch_x[h]);
         memcpy(fast->touch_t[h], w->elastic.touch_t[h], sizeof fast->touch_t[h]);
