@@ -279,7 +279,7 @@ def test_life_and_summary_name_both(tmp_path):
     )
     found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())["raceways"]
     assert found["cleanliness"] == "high" and 0.0 < found["L_10r_h"] < found["L_10mr_h"]
-    done = command("summary", "trial.toml", "--target", "0.001 h", folder=tmp_path)
+    done = command("summary", "trial.toml", "--target", "1e-9 h", folder=tmp_path)
     assert "Meets the target" in done.stdout and "raceways L_10mr" in done.stdout, done.stderr
 
 
