@@ -347,7 +347,7 @@ def cage_slide(model, before, y, w):
 
 
 SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
-SLOW = 60.0  # speed of a slow cage [rad/s]
+SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of the longest step that it has at least
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
@@ -374,14 +374,14 @@ def rigid_fastest(p, d):
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, but two substeps at least, of a pocket one.  Of slow halves half of it, or two substeps.
+    not follow in the substeps, but two substeps at least, of a pocket one.  Slow halves have a part of it, by their speed.
     """
-    slow = memory.omega_2 < SLOW**2
+    part = min(max(np.sqrt(memory.omega_2) / SLOW, LEAST_PART), 1.0)
     if not model.modes:
-        return (0.5 if slow else 1.0) * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
+        return part * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
-    most = 2.0 * d if slow else model.modes.longest_step
+    most = part * model.modes.longest_step
     lands, pockets = rate / model.p.cage.m, memory.pocket * model.modes.wall_mobility
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (1.0, pockets))))
 

@@ -60,8 +60,7 @@ static const double TENTH_OF_A_PULSE = 1e-5;
 
 // Angles by which the fastest vibration between rigid halves turns at most: in equal steps velocity Verlet is stable up to 2, whatever
 // the matrix of the step has of joints that open or slip in it; in others Fox and Goodwin's method is up to the root of 6.
-// In longer ones balls that press lightly or jam the cage feed it: below 2,300 r/min stress was up to five times too large.  Jams of a
-// slow cage feed it up to half of that.
+// In longer ones balls that press lightly or jam the cage feed it: below 2,300 r/min stress was up to five times too large.
 static const double RIGID_TURN = 2.0, LONGEST_TURN = 2.449;
 
 // Square of that vibration's frequency [1/s2], all joints closed and sticking: along the axis and of the tilts, in the plane
@@ -77,22 +76,22 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has three substeps at most.  What is left of them walks the joints a little in each step, and a slow cage has
-// many of them in a turn: below SLOW two substeps.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
+// that it has three substeps at most.  A slow cage has many steps in a turn, and what is left shakes it: below SLOW
+// its steps are shorter in proportion to its speed.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
 // which are always stable; one of a pocket 1/A, A by the wall's mobility, or one substep: in longer steps the halves shake on thick oil.
-static const double SLOW = 60.0;  // [rad/s]
+static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the longest step
 
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
 {
-    const bool slow = memory->fast.omega_2 < SLOW * SLOW;
-    if (!model->modes) return (slow ? 0.5 : 1.0) * LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
+    const double part = fmin(fmax(sqrt(memory->fast.omega_2) / SLOW, LEAST_PART), 1.0);
+    if (!model->modes) return part * LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
     const double d = model->modes->substep;
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {
         const bool bent = memory->films.rates[h][0][0] + memory->films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
     }
-    const double most = slow ? 2.0 * d : elastic_longest_step(model->modes);
+    const double most = part * elastic_longest_step(model->modes);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(d, 1.0 / (memory->pocket * model->modes->wall_mobility));
     return fmin(most, fmin(lands, pockets));
