@@ -149,8 +149,10 @@ def model_of(fmu):
 
 
 def times(omega):
-    """Settling time and span [s]: a turn of the cage each, which turns with two fifths of the shaft's speed omega [rad/s]."""
-    turn = 2.0 * math.pi / (0.4 * abs(omega))
+    """Settling time and span [s], whole numbers of STEP: a turn of the cage each, which turns with two fifths of the shaft's speed omega
+    [rad/s].
+    """
+    turn = math.ceil(2.0 * math.pi / (0.4 * abs(omega)) / STEP) * STEP
     return tuple(min(max(least, turn), LONGEST) for least in (SETTLE, SPAN))
 
 
