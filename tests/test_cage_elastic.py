@@ -695,3 +695,24 @@ def test_quiet_bearings_stay_quiet(core, scene, record_property):
     bias = figures[0] / figures[1] - 1.0
     record_property("bias", bias.tolist())
     assert np.all(np.abs(bias) < [0.01, 0.02, 0.01, 0.02]), bias
+
+
+@pytest.mark.c_only
+def test_a_joint_that_sticks_is_deflected_by_its_displacement(core):
+    """Where nothing slips, the friction states less the displacements of the joints' places stay what they were, whatever a turning
+    load does: to 1e-13 m, rounding of 1e4 steps (they drifted by 0.1 nm in each).
+    """
+    parameters = ELASTIC | {"joint.mu": 1.0, "joint.preload": 300.0}
+    inputs = {"shaft.tilt_y": np.radians(0.3)}
+    bearing, c = Instance(core, parameters, inputs), core.model(parameters, inputs)
+    apart, moved = [], []
+    for t in (0.01, 0.03, 0.1):
+        y = bearing.step(t).y
+        c.rhs(0.0, y)
+        joints = c.work.elastic.joints
+        places = np.array([list(joints.u_y)[:Z], list(joints.u_z)[:Z]])
+        states = np.array([y[JOINT_PLATE_Y], y[JOINT_PLATE_Z]])
+        apart.append(states - places)
+        moved.append(places)
+    assert np.max(np.abs(moved[2] - moved[0])) > 1e-9
+    np.testing.assert_allclose(apart[1:], [apart[0]] * 2, rtol=0.0, atol=1e-13)
