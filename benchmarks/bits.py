@@ -14,7 +14,7 @@ import hashlib
 import numpy as np
 from common import FMU, Model, load_scene
 
-from riveted_bearing.runner import simulate
+from riveted_bearing.running.runner import simulate
 
 TILT = {"inputs": {"shaft.tilt_z": "0.5 deg"}}
 RIGID = {"parameters": {"scene.cage": "two_half"}}

@@ -26,9 +26,9 @@ from fmpy.fmi1 import FMICallException
 from scipy import stats
 
 from riveted_bearing import UserError
-from riveted_bearing.fmu import Instance, Model
-from riveted_bearing.runner import closing_values
-from riveted_bearing.scene import load_scene
+from riveted_bearing.running.fmu import Instance, Model
+from riveted_bearing.running.runner import closing_values
+from riveted_bearing.running.scene import load_scene
 
 # [s]: statistics run over at least SPAN after SETTLE, at most over LONGEST each, sampled outputs at each STEP
 SETTLE, SPAN, LONGEST, STEP = 0.05, 0.2, 0.75, 1e-4

@@ -21,8 +21,8 @@ from library import LIBRARY, Core  # noqa: E402
 from mechanics import Instance  # noqa: E402
 
 from bearing_model.generated import variables  # noqa: E402
-from riveted_bearing.fmu import Model, codes  # noqa: E402
-from riveted_bearing.scene import load_scene  # noqa: E402
+from riveted_bearing.running.fmu import Model, codes  # noqa: E402
+from riveted_bearing.running.scene import load_scene  # noqa: E402
 
 FMU = ROOT / "fmus" / "RivetedBearing.fmu"
 BUILD = ROOT / "build"

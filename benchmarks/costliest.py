@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
-from riveted_bearing.fmu import Instance, Model, codes
+from riveted_bearing.running.fmu import Instance, Model, codes
 
 STEP = 1e-4  # of an honest host [s]
 BOUND = 0.2  # processor time that a step of 0.1 ms may take [s]

@@ -31,8 +31,8 @@ from riveted_bearing.duty.assess import Runs
 from riveted_bearing.duty.confidence import until_sure
 from riveted_bearing.duty.miner import lives
 from riveted_bearing.duty.mission import load_mission
-from riveted_bearing.fmu import Model
-from riveted_bearing.sweep import cluster
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import cluster
 
 MISSIONS, SEEDS = 40, 12  # and runs that a mission may ask for at each point
 TWO_POINTS = """

@@ -20,18 +20,18 @@ from records import newest_record
 import riveted_bearing as rb
 from rivet_model import table
 from rivet_model.build import make_table
-from riveted_bearing import scaling
-from riveted_bearing.assumed import OF_RULES
-from riveted_bearing.assumed import RULES as RULES_TABLE
-from riveted_bearing.bearings import RIVET, bearing_case
-from riveted_bearing.rivet import geometry_of
+from riveted_bearing.bearing import scaling
+from riveted_bearing.bearing.assumed import OF_RULES
+from riveted_bearing.bearing.assumed import RULES as RULES_TABLE
+from riveted_bearing.bearing.bearing_file import RIVET, bearing_case
+from riveted_bearing.building.rivet import geometry_of
 
 BEARING, T_END, SEEDS = OF_RULES, 0.25, 8
 PAGE = ROOT / "docs" / "rules.md"
 INTRO = f"""<!-- Written by benchmarks/rules.py: do not edit. -->
 # Rules for missing values
 
-Values that a bearing file leaves out are scaled from the 6207 of the paper (`riveted_bearing/scaling.py`).
+Values that a bearing file leaves out are scaled from the 6207 of the paper (`riveted_bearing/bearing/scaling.py`).
 The table has the change of the rivets' stress if one value is at either end of its usual range.
 
 Bearing: the {BEARING} by its designation, elastic cage halves, {{seeds}} seeds of {T_END:g} s.

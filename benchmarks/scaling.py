@@ -15,7 +15,7 @@ import numpy as np
 from common import BUILD, FMU, Scene, options, say, write
 
 from riveted_bearing import build
-from riveted_bearing.fmu import Instance, Model
+from riveted_bearing.running.fmu import Instance, Model
 
 BALLS = (5, 9, 16, 32)
 

@@ -32,7 +32,7 @@ from bearing_model.generated import variables
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 from riveted_bearing import build
-from riveted_bearing.fmu import Instance, Model
+from riveted_bearing.running.fmu import Instance, Model
 
 FOLDER = BUILD / "stability"
 HANGS = 600.0  # a scene that takes longer is called hanging [s]

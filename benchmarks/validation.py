@@ -35,11 +35,11 @@ from bearing_model.physics.ring_fit import ring_fit_of
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 from riveted_bearing import build, run
-from riveted_bearing.compare import compare, is_motion
-from riveted_bearing.fmu import Model
-from riveted_bearing.plot import plot_comparison
-from riveted_bearing.scene import load_scene
-from riveted_bearing.summary import settled
+from riveted_bearing.building.compare import compare, is_motion
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.running.summary import settled
+from riveted_bearing.show.plot import plot_comparison
 
 PICTURES = validation_page.PICTURES
 RPM = np.pi / 30.0

@@ -11,7 +11,7 @@ import numpy as np
 from common import ROOT
 from records import newest_record
 
-from riveted_bearing.plot import HEAD, MIDDLE, MUTED, STYLE
+from riveted_bearing.show.plot import HEAD, MIDDLE, MUTED, STYLE
 
 PAGE, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "validation"
 

@@ -37,7 +37,7 @@ HOSTS = {  # (system, machine) -> platform as FMI 2.0 names its folder; others a
 }
 REFERENCE = "extra/org.fmi-standard.fmi-ls-ref"
 STEP, STEPS = 1e-4, 10  # of the reference results [s]
-CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # riveted_bearing/fmu.py reads it
+CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # riveted_bearing/running/fmu.py reads it
 MANIFEST = """<?xml version="1.0" encoding="UTF-8"?>
 <fmiReferences xmlns:fmi-ls="http://fmi-standard.org/fmi-ls-manifest"
     fmi-ls:fmi-ls-name="org.fmi-standard.fmi-ls-ref"

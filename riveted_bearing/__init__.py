@@ -23,12 +23,12 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import UserError
-from .version import __version__
+from .base.errors import UserError
+from .base.version import __version__
 
 if TYPE_CHECKING:
-    from .bearings import Case
-    from .results import Result, read_result, write_result
+    from .bearing.bearing_file import Case
+    from .running.results import Result, read_result, write_result
 
 __all__ = ["Result", "UserError", "__version__", "build", "info", "read_result", "run", "write_result"]
 
@@ -36,7 +36,7 @@ __all__ = ["Result", "UserError", "__version__", "build", "info", "read_result",
 def __getattr__(name):
     """Result, read_result and write_result, when they are first asked for."""
     if name in ("Result", "read_result", "write_result"):
-        from . import results
+        from .running import results
 
         return getattr(results, name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -72,9 +72,9 @@ def run(
         >>> result = rb.run("demo", parameters={"joint.preload": "30 N"}, t_end=0.01)
         >>> result.data["rivet.sigma_head_max"].max() / 1e6     # MPa
     """
-    from .fmu import Model
-    from .runner import simulate
-    from .scene import load_scene
+    from .running.fmu import Model
+    from .running.runner import simulate
+    from .running.scene import load_scene
 
     model = Model(fmu)
     simulation = {"t_end": t_end, "step": step, "outputs": outputs, "tolerance": tolerance}
@@ -98,7 +98,7 @@ def info(target: str | Path | None = None, fmu: str | Path | None = None, *, cag
         >>> import riveted_bearing as rb
         >>> round(rb.info("6207").equilibrium().Q_i.sum())      # N
     """
-    from .bearings import case_of
+    from .bearing.bearing_file import case_of
 
     return case_of(target, fmu, cage)
 
@@ -123,7 +123,7 @@ def build(
     coarse; cage: "machined" or "ribbon", None for the bearing file's, else machined; progress: called with what is
     being done and, if known, the share done. Raises UserError with the reason; `out` is then left as it was.
     """
-    from .builder import build_fmu, platform_names
+    from .building.builder import build_fmu, platform_names
 
     return build_fmu(
         bearing,

@@ -22,7 +22,7 @@ from python_core import python_core
 from slave import Slave
 from threadpoolctl import threadpool_limits
 
-from riveted_bearing.builder import PLATFORMS, build_folder
+from riveted_bearing.building.builder import PLATFORMS, build_folder
 
 
 def pytest_generate_tests(metafunc):

@@ -17,7 +17,9 @@ from pathlib import Path
 from fuzz_corpus import CORPUS, unpack
 
 from bearing_model.rivet import rivet_table
-from riveted_bearing import bearings, errors, fmu, scene, units
+from riveted_bearing.base import errors, units
+from riveted_bearing.bearing import bearing_file as bearings
+from riveted_bearing.running import fmu, scene
 
 ROOT = Path(__file__).resolve().parents[1]
 DATA = ROOT / "riveted_bearing" / "data"

@@ -9,7 +9,7 @@ are those of the folder's variables.py, the rivet table is its own.
 import os
 from pathlib import Path
 
-from riveted_bearing.reference import install
+from riveted_bearing.building.reference import install
 
 BUILD = Path(os.environ["BEARING_BUILD"]).resolve() if "BEARING_BUILD" in os.environ else None
 

@@ -11,7 +11,7 @@ from bearing_model.physics.parameters import Parameters
 from bearing_model.physics.ring_fit import ring_fit_of
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from riveted_bearing import run
-from riveted_bearing.summary import settled
+from riveted_bearing.running.summary import settled
 
 RPM = np.pi / 30.0
 SPEEDS = (3000.0, 10000.0, 17000.0, 24000.0)  # [r/min]

@@ -17,13 +17,13 @@ from fmpy.fmi1 import FMICallException
 from bearing_model.generated.variables import RingMotion
 from bearing_model.physics import ring_load
 from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters
-from riveted_bearing import fmu as reader
-from riveted_bearing.errors import UserError
-from riveted_bearing.report import report_pages
-from riveted_bearing.results import write_result
-from riveted_bearing.runner import simulate
-from riveted_bearing.scene import load_scene
-from riveted_bearing.sweep import MOST_RUNS, load_sweep
+from riveted_bearing.base.errors import UserError
+from riveted_bearing.running import fmu as reader
+from riveted_bearing.running.results import write_result
+from riveted_bearing.running.runner import simulate
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.show.report import report_pages
+from riveted_bearing.studies.sweep import MOST_RUNS, load_sweep
 
 FMU = Path(__file__).resolve().parents[1] / "fmus" / "RivetedBearing.fmu"
 STEP = 1e-4  # [s]

@@ -13,8 +13,8 @@ from library import ROOT
 from mechanics import Instance
 
 from bearing_model.generated import variables
-from riveted_bearing.fmu import Model
-from riveted_bearing.scene import load_scene
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import load_scene
 
 sys.path.insert(0, str(ROOT / "docs" / "site" / "browser"))
 import page as bearing_page

@@ -19,8 +19,8 @@ from riveted_bearing.design.cascade import (
     write_cascades,
     write_picture,
 )
-from riveted_bearing.fmu import Model
-from riveted_bearing.sweep import cluster
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import cluster
 
 
 def states_by(rates_of, parts=lambda gone: False, seeds=3):

@@ -13,10 +13,10 @@ from bearing_model.load_ratings import dynamic_rating, rating_factor_0, static_r
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError
-from riveted_bearing.bearings import bearing_case
-from riveted_bearing.catalogue import CLEARANCE, balls, clearance, entries
-from riveted_bearing.origin import not_given
-from riveted_bearing.scaling import BORE, WIDTH, scaled_parameters, scaled_rivet
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.catalogue import CLEARANCE, balls, clearance, entries
+from riveted_bearing.bearing.origin import not_given
+from riveted_bearing.bearing.scaling import BORE, WIDTH, scaled_parameters, scaled_rivet
 
 # Ratings [kN] and f_0 of NSK's rolling bearing catalogue (E1102), single-row deep groove ball bearings.
 NSK = {

@@ -10,12 +10,12 @@ import pytest
 from typer.testing import CliRunner
 
 from bearing_model.generated.variables import OUTPUTS
+from riveted_bearing.base.errors import UserError
+from riveted_bearing.building.compare import Statistic, compare, family, is_motion, through_reference
 from riveted_bearing.cli import program
-from riveted_bearing.compare import Statistic, compare, family, is_motion, through_reference
-from riveted_bearing.errors import UserError
-from riveted_bearing.fmu import Model
-from riveted_bearing.plot import plot_comparison
-from riveted_bearing.scene import load_scene
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.show.plot import plot_comparison
 
 
 @pytest.fixture(scope="module")
@@ -65,7 +65,7 @@ def test_all_outputs_but_peaks_are_compared(found):
 
 def test_a_wrong_coefficient_shows(model, monkeypatch):
     """A reference with one per mille more stiffness: the difference no longer falls with the tolerance."""
-    import riveted_bearing.compare as module
+    import riveted_bearing.building.compare as module
 
     monkeypatch.setattr(
         module,
@@ -124,7 +124,7 @@ def test_refusals(model, monkeypatch):
         compare(model, scene, seeds=1)
     with pytest.raises(UserError, match="reference: method = 'Euler'"):
         compare(model, scene, short=1e-5, long=0.0, method="Euler")
-    monkeypatch.setattr("riveted_bearing.compare.variables.Z", 8)
+    monkeypatch.setattr("riveted_bearing.building.compare.variables.Z", 8)
     with pytest.raises(UserError, match=r"bearing.Z = 9: .* Z = 8"):
         compare(model, scene)
 

@@ -12,12 +12,12 @@ import pytest
 from commands import command
 
 from riveted_bearing import UserError
+from riveted_bearing.base.units import hours_text
 from riveted_bearing.cli.compare_designs import print_comparison
 from riveted_bearing.duty import designs
 from riveted_bearing.duty.confidence import estimate, ratio_interval
 from riveted_bearing.duty.miner import simple_duty
-from riveted_bearing.fmu import Model
-from riveted_bearing.units import hours_text
+from riveted_bearing.running.fmu import Model
 
 MISSION = """
 scene = "demo"

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from riveted_bearing import build, run
-from riveted_bearing.spectrum import amplitude_spectrum, spectra
-from riveted_bearing.summary import settled
+from riveted_bearing.running.summary import settled
+from riveted_bearing.show.spectrum import amplitude_spectrum, spectra
 
 pytestmark = pytest.mark.slow  # minutes: 13 runs of 1.2 s; an FMU of its own and four runs of 2 s
 Z, A, SHAFT = 9, 5e-8, 10.0  # balls, amplitude of the waves [m], turns of the shaft a second

@@ -10,10 +10,10 @@ import pytest
 
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, build
-from riveted_bearing.bearings import bearing_case
-from riveted_bearing.fmu import Model, codes
-from riveted_bearing.runner import simulate
-from riveted_bearing.scene import load_scene
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.running.fmu import Model, codes
+from riveted_bearing.running.runner import simulate
+from riveted_bearing.running.scene import load_scene
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
 from generate import load_table

@@ -18,13 +18,23 @@ import numpy as np
 import psutil
 import pytest
 
-from riveted_bearing import Result, UserError, read_result, report, run, write_result
-from riveted_bearing import sweep as engine
-from riveted_bearing.animation import needed, number_of_balls
-from riveted_bearing.fmu import Model
-from riveted_bearing.report import render
-from riveted_bearing.results import FORMATS
-from riveted_bearing.sweep import SUPERSEDED, cluster, columns_of, compact, load_sweep, read_rows, schema_of, write_rows
+from riveted_bearing import Result, UserError, read_result, run, write_result
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.results import FORMATS
+from riveted_bearing.show import report
+from riveted_bearing.show.animation import needed, number_of_balls
+from riveted_bearing.show.report import render
+from riveted_bearing.studies import sweep as engine
+from riveted_bearing.studies.sweep import (
+    SUPERSEDED,
+    cluster,
+    columns_of,
+    compact,
+    load_sweep,
+    read_rows,
+    schema_of,
+    write_rows,
+)
 
 ROOT = Path(__file__).resolve().parents[1]
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT)}
@@ -88,11 +98,11 @@ def command_on_a_small_disk(after, size, arguments, folder, **environment):
 
 RUN = ["run", "demo", "--t-end", "2 ms", "--set", "scene.stress=off", "--set", "start.settle=0", "--out", "out"]
 SIMULATED, READ, ASKED = (
-    "riveted_bearing.runner:simulate",
-    "riveted_bearing.report:read_result",
-    "riveted_bearing.builder:bearing_case",
+    "riveted_bearing.running.runner:simulate",
+    "riveted_bearing.show.report:read_result",
+    "riveted_bearing.building.builder:bearing_case",
 )
-STARTED = "riveted_bearing.sweep:cluster.__enter__"
+STARTED = "riveted_bearing.studies.sweep:cluster.__enter__"
 # command line, what it has done when the disk becomes full, largest file [bytes], name of the file in the message
 WRITERS = {
     "parquet": ([*RUN, "--no-plot"], SIMULATED, 4000, "out/demo.parquet"),
@@ -289,7 +299,7 @@ def test_two_users_and_one_cache(tmp_path, monkeypatch):
     whom tests may run, has permission everywhere: os.access answers for another user.
     """
     from rivet_model.geometry import Geometry
-    from riveted_bearing.rivet import table_of
+    from riveted_bearing.building.rivet import table_of
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     path = table_of("here", Geometry(shank_diameter=1.4e-3), "closed-form")
@@ -300,7 +310,7 @@ def test_two_users_and_one_cache(tmp_path, monkeypatch):
 
 
 def test_a_damaged_table_of_the_cache_is_made_anew(tmp_path, monkeypatch):
-    from riveted_bearing.rivet import is_table, table_of
+    from riveted_bearing.building.rivet import is_table, table_of
 
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     from bearing_model.rivet import rivet_table

@@ -16,13 +16,13 @@ from typer.testing import CliRunner
 from bearing_model.generated.variables import ESSENTIALS
 from rivet_model.half_modes import default_count
 from riveted_bearing import __version__, run
+from riveted_bearing.base.variable_list import essentials, matching
 from riveted_bearing.cli import program
 from riveted_bearing.cli.terminal import FULL
-from riveted_bearing.fmu import Model
-from riveted_bearing.results import Result
-from riveted_bearing.scene import load_scene
-from riveted_bearing.summary import settle_note
-from riveted_bearing.variable_list import essentials, matching
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.results import Result
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.running.summary import settle_note
 
 ROOT = Path(__file__).resolve().parents[1]
 

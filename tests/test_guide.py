@@ -11,11 +11,11 @@ from commands import run_in_shell
 from typer.main import get_command
 
 from bearing_model.generated import variables
-from riveted_bearing.bearings import bearing_case
+from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.duty.mission import load_mission
-from riveted_bearing.fmu import Model
-from riveted_bearing.scene import load_scene
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import load_scene
 
 ROOT = Path(__file__).parents[1]
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")

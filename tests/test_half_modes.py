@@ -18,8 +18,8 @@ from bearing_model.rivet import rivet_table
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
 from rivet_model import cage_half, closed_form, embed, half, half_loads, half_modes, half_shape, impacts, table
 from rivet_model.geometry import Geometry
-from riveted_bearing.fmu import Model, codes
-from riveted_bearing.scene import load_scene
+from riveted_bearing.running.fmu import Model, codes
+from riveted_bearing.running.scene import load_scene
 
 G = Geometry()
 RING = {"R": 25e-3, "t": 0.5e-3, "Z": 12}

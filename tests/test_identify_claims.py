@@ -7,7 +7,6 @@ import pytest
 from library import ROOT
 
 from riveted_bearing import UserError
-from riveted_bearing.fmu import Model
 from riveted_bearing.identify import claims
 from riveted_bearing.identify.claims import (
     FEW,
@@ -26,8 +25,9 @@ from riveted_bearing.identify.claims import (
 )
 from riveted_bearing.paper_study.claims import PICTURES
 from riveted_bearing.paper_study.study import Runs
-from riveted_bearing.scene import read_toml
-from riveted_bearing.sweep import cluster
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import read_toml
+from riveted_bearing.studies.sweep import cluster
 
 DOCUMENT = {
     "scene": "paper",

@@ -76,8 +76,8 @@ def test_all_modules_are_read():
     assert len(FILES) > 70 and {package_of(name) for name in FILES} == set(PACKAGES)
     assert sum(package_of(target) in PACKAGES for targets in GRAPH.values() for target in targets) > 200
     assert ("rivet_model.reduction", "bearing_model.rivet.rivet_rom") in arrows("rivet_model", "bearing_model")
-    assert "riveted_bearing.fmu" in GRAPH["riveted_bearing"], "an import inside a function"
-    assert "riveted_bearing.sweep" in GRAPH["riveted_bearing.paper_study.study"], "a relative import"
+    assert "riveted_bearing.running.fmu" in GRAPH["riveted_bearing"], "an import inside a function"
+    assert "riveted_bearing.studies.sweep" in GRAPH["riveted_bearing.paper_study.study"], "a relative import"
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from riveted_bearing import run
-from riveted_bearing.in_run import alone_note, break_lines, change_lines
-from riveted_bearing.report import render, setting_rows
-from riveted_bearing.summary import breaks
+from riveted_bearing.running.in_run import alone_note, break_lines, change_lines
+from riveted_bearing.running.summary import breaks
+from riveted_bearing.show.report import render, setting_rows
 
 PAGE = Path(__file__).parents[1] / "docs" / "changing.md"
 RIGID = {"scene.cage": "two_half", "start.settle": 0.0}

@@ -12,9 +12,9 @@ import distributed
 import pytest
 
 from riveted_bearing import UserError, read_result, run
-from riveted_bearing.fmu import Model
-from riveted_bearing.interrupts import held_interrupts
-from riveted_bearing.sweep import alone_in, cluster, load_sweep, run_sweep
+from riveted_bearing.base.interrupts import held_interrupts
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import alone_in, cluster, load_sweep, run_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 LONG = ("run", "demo", "--t-end", "100 s")
@@ -46,7 +46,7 @@ def interrupted_in(module, name, *arguments, folder):
 
 @pytest.mark.parametrize(
     ("module", "name"),
-    [("riveted_bearing.scene", "read_toml"), ("riveted_bearing.fmu", "read_model_description")],
+    [("riveted_bearing.running.scene", "read_toml"), ("riveted_bearing.running.fmu", "read_model_description")],
 )
 def test_before_the_first_step_nothing_is_left(tmp_path, module, name):
     done = interrupted_in(module, name, *LONG, "--out", tmp_path / "out", folder=tmp_path)
@@ -57,9 +57,9 @@ def test_before_the_first_step_nothing_is_left(tmp_path, module, name):
 @pytest.mark.parametrize(
     ("module", "name", "rows"),
     [
-        ("riveted_bearing.fmu", "extract", 1),  # before the FMU is loaded
-        ("riveted_bearing.runner", "march", 1),  # before the first step
-        ("riveted_bearing.runner", "is_peak", 1),
+        ("riveted_bearing.running.fmu", "extract", 1),  # before the FMU is loaded
+        ("riveted_bearing.running.runner", "march", 1),  # before the first step
+        ("riveted_bearing.running.runner", "is_peak", 1),
     ],
 )
 def test_at_the_first_step_the_start_is_kept(tmp_path, module, name, rows):
@@ -77,7 +77,7 @@ def test_at_the_first_step_the_start_is_kept(tmp_path, module, name, rows):
 
 
 @pytest.mark.parametrize(
-    ("module", "name"), [("riveted_bearing.results", "write_parquet"), ("riveted_bearing.plot", "plot_result")]
+    ("module", "name"), [("riveted_bearing.running.results", "write_parquet"), ("riveted_bearing.show.plot", "plot_result")]
 )
 def test_files_under_way_are_finished(tmp_path, module, name):
     """The dictionary WRITERS holds the function itself, so the interrupt comes in its first call of a library for

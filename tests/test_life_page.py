@@ -17,8 +17,8 @@ from riveted_bearing.design.optimize import plan_optimize
 from riveted_bearing.design.sensitivity import plan_sensitivity
 from riveted_bearing.duty.mission import load_mission
 from riveted_bearing.duty.tolerances import read_tolerances
-from riveted_bearing.fmu import Model
-from riveted_bearing.scene import read_toml
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import read_toml
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "life.md").read_text(encoding="utf-8")

@@ -7,9 +7,9 @@ import re
 import pytest
 
 from riveted_bearing import UserError
-from riveted_bearing.bearings import bearing_case, unit_of, unit_scales
-from riveted_bearing.catalogue import entries
-from riveted_bearing.units import to_si
+from riveted_bearing.base.units import to_si
+from riveted_bearing.bearing.bearing_file import bearing_case, unit_of, unit_scales
+from riveted_bearing.bearing.catalogue import entries
 
 BASE = {"designation": '"6308"'}  # what a file leaves out follows by catalogue and rule
 

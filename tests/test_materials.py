@@ -15,14 +15,14 @@ from bearing_model.physics.parameters import Parameters
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, build, run
-from riveted_bearing.bearings import bearing_case
-from riveted_bearing.builder import case_with, check_material, fmu_description, start_document
-from riveted_bearing.fmu import Instance, Model
-from riveted_bearing.materials import PARTS, library, names_for
-from riveted_bearing.origin import not_given
-from riveted_bearing.rivet import read_table, table_of
-from riveted_bearing.rivet_heads import heads
-from riveted_bearing.scene import History, Scene, load_scene, shipped_scenes, warm
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.materials import PARTS, library, names_for
+from riveted_bearing.bearing.origin import not_given
+from riveted_bearing.bearing.rivet_heads import heads
+from riveted_bearing.building.builder import case_with, check_material, fmu_description, start_document
+from riveted_bearing.building.rivet import read_table, table_of
+from riveted_bearing.running.fmu import Instance, Model
+from riveted_bearing.running.scene import History, Scene, load_scene, shipped_scenes, warm
 
 
 def case_of(tmp_path, text, name="mine.toml"):

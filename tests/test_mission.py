@@ -17,6 +17,8 @@ import pytest
 from scipy.stats import t as student
 
 from riveted_bearing import UserError
+from riveted_bearing.base.tables import BLOCK, Wanted
+from riveted_bearing.base.units import SECONDS
 from riveted_bearing.cli.life import write_life
 from riveted_bearing.cli.summary import folder_of
 from riveted_bearing.duty.assess import Runs, assess, check_folder, is_current, record, write_record
@@ -27,11 +29,9 @@ from riveted_bearing.duty.mission import LIFE, plan_mission
 from riveted_bearing.duty.notes import matrix_warnings, notes
 from riveted_bearing.duty.page import life_density, write_page, write_picture
 from riveted_bearing.duty.starts import started
-from riveted_bearing.fmu import Model
-from riveted_bearing.runner import simulate
-from riveted_bearing.scene import History
-from riveted_bearing.tables import BLOCK, Wanted
-from riveted_bearing.units import SECONDS
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.runner import simulate
+from riveted_bearing.running.scene import History
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}

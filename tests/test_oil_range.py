@@ -12,7 +12,7 @@ from riveted_bearing import UserError
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.notes import oil_in_pockets
 from riveted_bearing.duty.oil_range import FILLING, has_filling, plan_ends
-from riveted_bearing.fmu import Model
+from riveted_bearing.running.fmu import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 POINT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}, "point": [{"hours": 1}]}

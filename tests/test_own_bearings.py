@@ -23,7 +23,7 @@ from bearing_model.cage.two_half.joint_open import joints_open
 from bearing_model.rivet.rivet_rom import HEAD_P1, RivetLoad, rivet_rom_stress
 from rivet_model import build, half, half_loads, half_modes, half_shape, joint_contact, load_cases
 from rivet_model.geometry import Geometry
-from riveted_bearing.bearings import bearing_case
+from riveted_bearing.bearing.bearing_file import bearing_case
 
 # The test's own numbers, of no data sheet.
 MATERIALS = {"steel": by_hand.Material(206e9, 0.30, 7850.0), "brass": by_hand.Material(100e9, 0.34, 8400.0)}

@@ -19,24 +19,26 @@ from rivet_model import stiffness
 from rivet_model.closed_form import stack_stiffness
 from rivet_model.geometry import Geometry
 from rivet_model.load_cases import COARSE, Joint
-from riveted_bearing import UserError, assumed, preload, run, summary
-from riveted_bearing import oil as oils
-from riveted_bearing.basis import basis
-from riveted_bearing.bearings import bearing_case, case_of, known_bearings
+from riveted_bearing import UserError, run
+from riveted_bearing.base.file_kinds import KINDS, check_keys
+from riveted_bearing.bearing import assumed
+from riveted_bearing.bearing import oil as oils
+from riveted_bearing.bearing.bearing_file import bearing_case, case_of, known_bearings
+from riveted_bearing.bearing.oil import viscosity
+from riveted_bearing.bearing.plausible import doubts
 from riveted_bearing.cli import program
 from riveted_bearing.cli.info import geometry, oil
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.design.cascade import default_document
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
-from riveted_bearing.file_kinds import KINDS, check_keys
-from riveted_bearing.fmu import Model
-from riveted_bearing.matrices import scene_at
-from riveted_bearing.oil import viscosity
-from riveted_bearing.plausible import doubts
-from riveted_bearing.report import render
-from riveted_bearing.results import to_toml
-from riveted_bearing.scene import load_scene
+from riveted_bearing.running import preload, summary
+from riveted_bearing.running.basis import basis
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.results import to_toml
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.show.report import render
+from riveted_bearing.studies.matrices import scene_at
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
 from generate import load_table, write_description

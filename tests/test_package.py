@@ -34,8 +34,9 @@ from slave import Slave, describe
 
 from bearing_model.generated import variables
 from bearing_model.rivet.rivet_table import DEFAULT_TABLE
-from riveted_bearing import UserError, builder
-from riveted_bearing.builder import build_folder
+from riveted_bearing import UserError
+from riveted_bearing.building import builder
+from riveted_bearing.building.builder import build_folder
 
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3"  # FMI 2.0.4 takes terminals and icons from 3.0

@@ -11,10 +11,12 @@ from pictures import faults
 
 from rivet_model import load_cases, pictures
 from rivet_model.geometry import Geometry
-from riveted_bearing import charts, report, rivet, run
-from riveted_bearing.life import rivet_life
-from riveted_bearing.plot import STYLE, plot_result
-from riveted_bearing.rivet import rivet_curves, seat_note, write_pictures
+from riveted_bearing import run
+from riveted_bearing.building import rivet
+from riveted_bearing.building.rivet import rivet_curves, seat_note, write_pictures
+from riveted_bearing.running.rainflow import rivet_life
+from riveted_bearing.show import charts, report
+from riveted_bearing.show.plot import STYLE, plot_result
 
 SETTLE = {"start.settle": 2e-3}
 PULSE = {"t": [0.0, 4e-3, 5e-3], "value": [0.0, 0.0, 800.0]}

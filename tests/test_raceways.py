@@ -18,16 +18,16 @@ from bearing_model.load_ratings import (
     life_factor,
     rating_factor_0,
 )
-from riveted_bearing import UserError, raceways
-from riveted_bearing.bearings import bearing_case
+from riveted_bearing import UserError
+from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.cli.optimize import go_apart
-from riveted_bearing.duty import designs, page, sheet
+from riveted_bearing.duty import designs, page, raceways, sheet
 from riveted_bearing.duty.mission import plan_mission
-from riveted_bearing.fmu import Model
-from riveted_bearing.runner import simulate, turns
-from riveted_bearing.scene import History, load_scene
-from riveted_bearing.summary import count_note, settle_note, speed_note, static_and_swing
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.runner import simulate, turns
+from riveted_bearing.running.scene import History, load_scene
+from riveted_bearing.running.summary import count_note, settle_note, speed_note, static_and_swing
 
 TURN = 2.0 * math.pi
 

@@ -7,14 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from riveted_bearing import read_result, record, run, write_result
+from riveted_bearing import read_result, run, write_result
+from riveted_bearing.running import record
 
 ROOT = Path(__file__).resolve().parents[1]
 
 GROWTH = """
 import re, sys
 import numpy as np
-from riveted_bearing.record import Record
+from riveted_bearing.running.record import Record
 
 def anonymous():
     return int(re.search(r"RssAnon:\\s+(\\d+)", open("/proc/self/status").read())[1]) / 1024

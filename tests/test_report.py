@@ -17,12 +17,22 @@ from bearing_model.generated.variables import CageModel, Z
 from bearing_model.instance import fatigue
 from bearing_model.physics.model import Model
 from riveted_bearing import UserError, run, write_result
-from riveted_bearing.animation import BUDGET, exaggeration, frames, thinned
-from riveted_bearing.charts import PAGE_COLOURS, azimuth_of, by_bin, joint_spectra, loaded_rivet, section, section_sizes
-from riveted_bearing.charts import thinned as thinned_result
 from riveted_bearing.design.sensitivity import Sensitivity
-from riveted_bearing.life import fatigue_law, rivet_life
-from riveted_bearing.report import (
+from riveted_bearing.running.rainflow import fatigue_law, rivet_life
+from riveted_bearing.running.results import Result
+from riveted_bearing.running.summary import breaks, gone_from
+from riveted_bearing.show.animation import BUDGET, exaggeration, frames, thinned
+from riveted_bearing.show.charts import (
+    PAGE_COLOURS,
+    azimuth_of,
+    by_bin,
+    joint_spectra,
+    loaded_rivet,
+    section,
+    section_sizes,
+)
+from riveted_bearing.show.charts import thinned as thinned_result
+from riveted_bearing.show.report import (
     CHARTS,
     OF_ELASTIC,
     duration,
@@ -32,8 +42,6 @@ from riveted_bearing.report import (
     report_pages,
     setting_rows,
 )
-from riveted_bearing.results import Result
-from riveted_bearing.summary import breaks, gone_from
 
 OF_HOUSING = ("vibration",)  # charts of a housing that vibrates
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from rivet_model import half_shape, ribbon_shape
-from riveted_bearing import ribbon
-from riveted_bearing.bearings import bearing_case
-from riveted_bearing.errors import UserError
-from riveted_bearing.rivet import geometry_of
+from riveted_bearing.base.errors import UserError
+from riveted_bearing.bearing import ribbon
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.building.rivet import geometry_of
 
 MM = 1e-3
 

@@ -13,11 +13,11 @@ from commands import command
 
 import riveted_bearing as rb
 from riveted_bearing import UserError
-from riveted_bearing.assumed import assumed_ranges
+from riveted_bearing.bearing.assumed import assumed_ranges
 from riveted_bearing.design.cascade import Cascade, State, run_single
 from riveted_bearing.duty.notes import oil_in_pockets
 from riveted_bearing.duty.oil_range import FILLING, plan_ends
-from riveted_bearing.fmu import Model
+from riveted_bearing.running.fmu import Model
 
 ROOT = Path(__file__).resolve().parents[1]
 

@@ -6,11 +6,11 @@ import pytest
 from typer.testing import CliRunner
 
 from riveted_bearing import UserError
-from riveted_bearing.bearings import bearing_case
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.seats import UP_TO, deviations, interference
 from riveted_bearing.cli import program
-from riveted_bearing.fmu import Model
-from riveted_bearing.scene import load_scene
-from riveted_bearing.seats import UP_TO, deviations, interference
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.scene import load_scene
 
 # class, diameter [mm], lower and upper deviation [um] of ISO 286-2
 SHAFTS = [

@@ -15,7 +15,7 @@ from slave import OK, Slave
 
 from bearing_model.rivet.rivet_table import read
 from riveted_bearing import build, run
-from riveted_bearing.builder import build_folder
+from riveted_bearing.building.builder import build_folder
 
 H = 1e-4  # communication step [s]
 TESTS = "derivatives or jacobian or start or outputs or power_is_rate"

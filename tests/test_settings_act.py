@@ -11,17 +11,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from riveted_bearing import UserError, spectrum
-from riveted_bearing.bearings import case_at
+from riveted_bearing import UserError
+from riveted_bearing.bearing.bearing_file import case_at
 from riveted_bearing.cli import info
 from riveted_bearing.duty.cycles import outputs_of
 from riveted_bearing.duty.mission import FORCED, plan_mission
-from riveted_bearing.effects import all_figures, without_effect
-from riveted_bearing.fmu import Model, codes
-from riveted_bearing.matrices import idle_settings, quasi_static_matrices
-from riveted_bearing.raceways import rated
-from riveted_bearing.runner import simulate
-from riveted_bearing.scene import ALWAYS, load_scene, own_names
+from riveted_bearing.duty.raceways import rated
+from riveted_bearing.running.effects import all_figures, without_effect
+from riveted_bearing.running.fmu import Model, codes
+from riveted_bearing.running.runner import simulate
+from riveted_bearing.running.scene import ALWAYS, load_scene, own_names
+from riveted_bearing.show import spectrum
+from riveted_bearing.studies.matrices import idle_settings, quasi_static_matrices
 
 SHORT = {"simulation": {"t_end": 0.032}, "parameters": {"start.settle": 0.004}}
 WHOLE = {"length": 2e-3, "width": 2e-3, "depth": 2e-5}  # of a spall, whose sizes are refused alone

@@ -14,12 +14,13 @@ from commands import command
 
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
-from riveted_bearing import UserError, raceways, report, run
-from riveted_bearing.duty import sheet
+from riveted_bearing import UserError, run
+from riveted_bearing.duty import raceways, sheet
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
-from riveted_bearing.fmu import Model
-from riveted_bearing.life import cycle_damages
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.rainflow import cycle_damages
+from riveted_bearing.show import report
 
 SHORT = {"simulation": {"t_end": 0.012}, "parameters": {"start.settle": 0.004}}
 LIMIT = 297.0 / 25.4 * 96.0  # pixels of a sheet of A4
@@ -121,7 +122,7 @@ def test_a_mission_at_its_own_life_has_utilisation_one(tmp_path):
     }
     plan = plan_mission("trial", document, model, tmp_path / "trial.toml")
     (tmp_path / "trial.toml").write_text("")
-    from riveted_bearing.sweep import cluster
+    from riveted_bearing.studies.sweep import cluster
 
     with cluster(None, 1) as client:
         runs = Runs(plan, model, tmp_path / "runs", lambda: client)

@@ -7,14 +7,14 @@ import pytest
 from typer.testing import CliRunner
 
 from riveted_bearing import run
+from riveted_bearing.base.errors import UserError
+from riveted_bearing.bearing.surfaces import waves_of
 from riveted_bearing.cli import program
-from riveted_bearing.dataset import labels, load_dataset
-from riveted_bearing.errors import UserError
-from riveted_bearing.fmu import Model
-from riveted_bearing.results import Result, write_result
-from riveted_bearing.scene import load_scene
-from riveted_bearing.spectrum import amplitude_spectrum, kurtosis_band, spectra, squared, write_spectra
-from riveted_bearing.surfaces import waves_of
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.results import Result, write_result
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.show.spectrum import amplitude_spectrum, kurtosis_band, spectra, squared, write_spectra
+from riveted_bearing.studies.dataset import labels, load_dataset
 
 RATE, D, D_M, Z = 25_600.0, 11.1125e-3, 53.5e-3, 9
 BALLS = {f"ball[{j}].dD": 0.0 for j in range(1, Z + 1)}  # by which a result shows how many balls there are

@@ -15,10 +15,10 @@ from bearing_model.rivet import rivet_table
 from rivet_model import table
 from riveted_bearing import build, run
 from riveted_bearing.cli.study import FIGURES
-from riveted_bearing.fmu import Model
 from riveted_bearing.paper_study import claims, paper, study
 from riveted_bearing.paper_study.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
-from riveted_bearing.sweep import about_run, plan_sweep, read_toml, run_sweep
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import about_run, plan_sweep, read_toml, run_sweep
 
 
 @pytest.fixture(scope="module")

@@ -15,10 +15,10 @@ import pytest
 from commands import command
 
 from riveted_bearing import UserError, run
-from riveted_bearing import sweep as engine
-from riveted_bearing.fmu import Model
-from riveted_bearing.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, read_rows, run_sweep
-from riveted_bearing.sweep_table import lines, sweep_table, write_page, write_picture
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies import sweep as engine
+from riveted_bearing.studies.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, read_rows, run_sweep
+from riveted_bearing.studies.sweep_table import lines, sweep_table, write_page, write_picture
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = '[simulation]\nt_end = 2e-3\n[parameters]\nstart.settle = "0.5 ms"\n'  # 4 ms of processor time a run

@@ -11,9 +11,9 @@ import pytest
 from library import ROOT
 
 from bearing_model.generated.variables import UNITS
-from riveted_bearing.errors import UserError
-from riveted_bearing.tables import Table, Wanted, read
-from riveted_bearing.units import BASE, SECONDS, conversion, parsed, plain, scales_of
+from riveted_bearing.base.errors import UserError
+from riveted_bearing.base.tables import Table, Wanted, read
+from riveted_bearing.base.units import BASE, SECONDS, conversion, parsed, plain, scales_of
 
 RPM = math.pi / 30.0
 UNITS_OF = {  # SI value of one unit by definition: SI brochure, NIST SP 811

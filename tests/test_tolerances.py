@@ -11,12 +11,12 @@ from scipy import stats
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 from riveted_bearing import UserError
-from riveted_bearing.design.weibull import fit_weibull, write_weibull_plot
+from riveted_bearing.bearing.strength import cycles_to_failure, damage_of_matrix, read_strength
 from riveted_bearing.duty.assess import assess
 from riveted_bearing.duty.mission import plan_mission
-from riveted_bearing.duty.sn import cycles_to_failure, damage_of_matrix, read_strength
 from riveted_bearing.duty.tolerances import read_tolerances, scatter, write_scatter
-from riveted_bearing.fmu import Model
+from riveted_bearing.duty.weibull import fit_weibull, write_weibull_plot
+from riveted_bearing.running.fmu import Model
 
 # h, failures of cages of 1,703 aircraft engines: Abernethy, Breneman, Medlin and Reinman (1983)
 CAGES = (230, 334, 423, 990, 1009, 1510)

@@ -12,10 +12,10 @@ from importlib.resources import files
 
 from bearing_model.generated import variables
 
+from ..base.units import suffix
 from .oil import name_of
 from .origin import EXAMPLE
 from .ribbon import is_guided_by_balls, is_ribbon
-from .units import suffix
 
 RULES = files("riveted_bearing") / "data" / "rules.csv"
 OF_RULES = "6309"  # in which benchmarks/rules.py measures the effects of values by rule

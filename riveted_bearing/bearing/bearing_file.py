@@ -37,12 +37,12 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from rivet_model.geometry import Geometry
 
+from ..base.errors import UserError, is_file, unknown
+from ..base.file_kinds import OF_BEARINGS, check_keys
+from ..base.units import scales_of, suffix, symbol_of, to_si
+from ..running.scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
 from . import catalogue, limits, materials, oil, ribbon, rivet_heads, scaling, seats
-from .errors import UserError, is_file, unknown
-from .file_kinds import OF_BEARINGS, check_keys
 from .origin import EXAMPLE, SOURCE
-from .scene import load_scene, positive, read_toml, refusal, section_of, shipped_scenes
-from .units import scales_of, suffix, symbol_of, to_si
 
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 LARGEST_RIVET = 1.0  # m
@@ -815,7 +815,7 @@ def case_of(target=None, fmu=None, cage=None):
         return bearing_case(target, cage=cage)
     if cage is not None:
         raise UserError(f"--cage {cage}: a scene runs in an FMU, whose cage is fixed; name a bearing")
-    from .fmu import Model
+    from ..running.fmu import Model
 
     return scene_case(target, Model(fmu))
 

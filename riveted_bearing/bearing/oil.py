@@ -21,7 +21,7 @@ from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.temperature import oil_ratios
 from bearing_model.physics.viscosity import Oil
 
-from .errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, unknown
 
 TABLE = files("riveted_bearing") / "data" / "oils.toml"
 KEYS = ("kind", "grade")

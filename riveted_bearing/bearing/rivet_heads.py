@@ -10,8 +10,8 @@ import math
 from functools import cache
 from importlib.resources import files
 
-from .errors import unknown
-from .scene import refusal
+from ..base.errors import unknown
+from ..running.scene import refusal
 
 TABLE = files("riveted_bearing") / "data" / "rivet_heads.csv"
 

@@ -19,8 +19,8 @@ from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
+from ..running.scene import PARTS_TEMPERATURES
 from . import oil, ribbon
-from .scene import PARTS_TEMPERATURES
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
 BY_BALL = ("cage.guide_clearance",)

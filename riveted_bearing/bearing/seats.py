@@ -11,7 +11,7 @@ Sources: ISO 286-1:2010 (grades and deviations), ISO 492:2014, table 1 and 2 (ri
 import re
 from bisect import bisect_left
 
-from .errors import UserError
+from ..base.errors import UserError
 
 UP_TO = (6, 10, 18, 30, 50, 80, 120, 180, 250)  # mm; from 3 mm on
 GRADES = {  # um

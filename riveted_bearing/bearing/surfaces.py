@@ -4,7 +4,7 @@ import numpy as np
 
 from bearing_model.generated.variables import PARAMETERS
 
-from .errors import UserError
+from ..base.errors import UserError
 
 ORDERS = PARAMETERS["outer.waviness[n]"].count
 

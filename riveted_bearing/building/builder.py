@@ -29,15 +29,15 @@ from filelock import FileLock, Timeout
 from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
 
-from .bearings import CAGE_MEANT, RIVET, bearing_case
-from .errors import UserError, extra, unknown
-from .fmu import FMU_NAME, PACKAGE, Instance, Model
-from .materials import PARTS
-from .results import cache_folder, make_folder, to_toml, write_atomically
-from .ribbon import is_ribbon
+from ..base.errors import UserError, extra, unknown
+from ..bearing.bearing_file import CAGE_MEANT, RIVET, bearing_case
+from ..bearing.materials import PARTS
+from ..bearing.ribbon import is_ribbon
+from ..running.fmu import FMU_NAME, PACKAGE, Instance, Model
+from ..running.results import cache_folder, make_folder, to_toml, write_atomically
+from ..running.scene import Scene
+from ..running.summary import TABLE_TITLE
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
-from .scene import Scene
-from .summary import TABLE_TITLE
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"

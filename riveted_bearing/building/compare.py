@@ -19,9 +19,9 @@ from rich.table import Column, Table
 from bearing_model.generated import variables
 from bearing_model.solver import integrator
 
-from .errors import UserError
+from ..base.errors import UserError
+from ..running.runner import simulate
 from .reference import is_installed
-from .runner import simulate
 
 POINTS = 20  # instants of the short horizon
 FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's

@@ -29,9 +29,9 @@ def is_installed(model):
 
 def folder_of(model):
     """The build folder that has left this very FMU; UserError if there is none."""
+    from ..base.errors import UserError
+    from ..running.fmu import FMU_NAME
     from .builder import build_folder, source_folder
-    from .errors import UserError
-    from .fmu import FMU_NAME
 
     folders = build_folder(source_folder(), None).parent
     for path in sorted(folders.glob(f"*/{FMU_NAME}")) + sorted(folders.glob(f"*/archive/{FMU_NAME}")):
@@ -48,7 +48,7 @@ def folder_of(model):
 def run_again(folder, arguments):
     """Run the program with the reference of a build folder in a fresh interpreter; returns its exit code."""
     here = Path(__file__).resolve()
-    path = os.pathsep.join(filter(None, [str(here.parents[1]), os.environ.get("PYTHONPATH")]))
+    path = os.pathsep.join(filter(None, [str(here.parents[2]), os.environ.get("PYTHONPATH")]))
     command = [sys.executable, "-c", AGAIN, str(here), str(folder), *arguments]
     return subprocess.run(command, env=os.environ | {"PYTHONPATH": path}, check=False).returncode
 

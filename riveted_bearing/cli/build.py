@@ -49,9 +49,9 @@ def build(
     ] = None,
 ):
     """Make an FMU for a bearing: needs a C compiler, takes two to five minutes; with --table full half an hour more."""
-    from ..builder import build_fmu, case_with, platform_names, table_copy
-    from ..fmu import Model
-    from ..plausible import doubts
+    from ..bearing.plausible import doubts
+    from ..building.builder import build_fmu, case_with, platform_names, table_copy
+    from ..running.fmu import Model
 
     for text in doubts(case_with(bearing, rivet, cage)):
         messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
@@ -75,7 +75,7 @@ def build(
         f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True
     )
     if rivet:
-        from ..rivet import given_geometry, seat_note, write_drawing
+        from ..building.rivet import given_geometry, seat_note, write_drawing
 
         geometry = given_geometry(rivet, bearing or "6207")
         drawing = write_drawing(geometry, path.with_name(f"{path.stem}_rivet.png"))

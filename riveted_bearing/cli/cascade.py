@@ -7,9 +7,9 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
-from ..scene import read_toml
-from ..units import hours_text
+from ..base.units import hours_text
+from ..running.results import make_folder
+from ..running.scene import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "cascade.toml"
@@ -38,9 +38,9 @@ def cascade(
     """What happens when the first rivet goes: order, times and loads until three are gone, and why it ends; a second
     call does only missing runs.
     """
+    from ..base.errors import UserError
     from ..design.cascade import default_document, plan_cascade, run_cascades, run_single, write_cascades, write_picture
-    from ..errors import UserError
-    from ..fmu import Model
+    from ..running.fmu import Model
 
     if study is not None and not study.is_file():
         raise UserError(f"{study}: no such cascade file")

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
+from ..running.results import make_folder
 from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text, print_warnings
 
 MOST_DIFFERENCES = 12  # on the terminal
@@ -30,9 +30,9 @@ def compare_designs(
     workers: WORKERS = None,
 ):
     """Designs under the same mission and seeds: ratios of lives and stresses with intervals, and what differs."""
+    from ..base.errors import UserError
+    from ..base.units import hours_text
     from ..duty.designs import PAGE, compare_designs, read_designs, write_page, write_record
-    from ..errors import UserError
-    from ..units import hours_text
 
     if not mission.is_file():
         raise UserError(f"{mission}: no such mission file")
@@ -55,7 +55,7 @@ def compare_designs(
 def other_figures(found):
     """Static stress and swing where the first rivet fails, and the raceways' life, design by design."""
     from ..duty.designs import parts_text
-    from ..raceways import card
+    from ..duty.raceways import card
 
     heads = "where it fails: static + swing", "raceways"
     table = Table("design", *(Column(head, justify="right") for head in heads), "", box=None, pad_edge=False)

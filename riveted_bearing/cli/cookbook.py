@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from ..errors import UserError, unknown
+from ..base.errors import UserError, unknown
 from .terminal import command, console
 
 PACKAGE = Path(__file__).resolve().parents[1]

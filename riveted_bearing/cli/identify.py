@@ -7,8 +7,8 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
-from ..scene import read_toml
+from ..running.results import make_folder
+from ..running.scene import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -31,13 +31,13 @@ def identify(
     """Which values of unknown parameters measurements decide, and which they do not; a second call does only missing
     runs.
     """
+    from ..base.errors import UserError
     from ..design.sensitivity import salib
-    from ..errors import UserError
-    from ..fmu import Model
     from ..identify.answer import write_answer, write_page, write_scene
     from ..identify.fit import identify as fit
     from ..identify.rig import Rig
     from ..identify.study import plan_identify
+    from ..running.fmu import Model
 
     if not study.is_file():
         raise UserError(f"{study}: no such study file")
@@ -65,14 +65,7 @@ def identify(
 
 def identify_paper(study, document, model, folder, scheduler, workers):
     """The paper's claims as targets, in stages."""
-    from ..identify.claims import (
-        Bench,
-        identify_claims,
-        plan_claims,
-        set_rows,
-        write_claims,
-        write_claims_page,
-    )
+    from ..identify.claims import Bench, identify_claims, plan_claims, set_rows, write_claims, write_claims_page
 
     plan = plan_claims(study, document, model)
     make_folder(folder)

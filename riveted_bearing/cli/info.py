@@ -13,9 +13,9 @@ from bearing_model.generated import variables
 from bearing_model.kinematics import fault_frequencies
 from rivet_model.geometry import Geometry
 
-from ..errors import UserError
-from ..ribbon import is_ribbon
-from ..summary import DEG, RPM
+from ..base.errors import UserError
+from ..bearing.ribbon import is_ribbon
+from ..running.summary import DEG, RPM
 from .terminal import CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
 
 BOUNDARY = ("bore", "outside_diameter", "width")
@@ -53,12 +53,12 @@ def info(
     cleanliness: CLEANLINESS = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..basis import basis
-    from ..bearings import CAGE_MEANT, EXAMPLE, case_of, is_bearing
-    from ..fmu import Model
-    from ..plausible import doubts
-    from ..raceways import too_little_load
-    from ..scene import load_scene
+    from ..bearing.bearing_file import CAGE_MEANT, EXAMPLE, case_of, is_bearing
+    from ..bearing.plausible import doubts
+    from ..duty.raceways import too_little_load
+    from ..running.basis import basis
+    from ..running.fmu import Model
+    from ..running.scene import load_scene
 
     case, scene, model = case_of(target, fmu, cage), None, None
     case = replace(case, cleanliness=chosen_cleanliness(cleanliness))
@@ -126,7 +126,7 @@ def read_as_scene(names):
 
 def info_tables(case):
     """Tables for the terminal: (title, rich table) for geometry, frequencies, equilibrium and the single balls."""
-    from ..origin import not_given
+    from ..bearing.origin import not_given
 
     state = case.equilibrium()
     return [
@@ -200,7 +200,7 @@ def preload(case):
     """Preload of the rivets as given and at the cage's temperature, the latter of a bearing by rule: an FMU's own table
     has it exactly.
     """
-    from ..preload import of_fmu, of_geometry
+    from ..running.preload import of_fmu, of_geometry
 
     given, T = case.values["joint.preload"], case.values["cage.T"]
     thermal = of_fmu(case.model) if case.model else of_geometry(Geometry(**case.joint))
@@ -216,7 +216,7 @@ def preload(case):
 
 def oil(case):
     """Name, value, unit and origin of oil and temperatures."""
-    from ..oil import POINTS, largest_traction, plain
+    from ..bearing.oil import POINTS, largest_traction, plain
 
     own = {name: value for name, value in case.values.items() if name.startswith("oil.")}
     T, it = own.pop("oil.T"), plain(own)
@@ -249,7 +249,7 @@ def oil(case):
 
 def source_of(case, *names):
     """Who gave these values of the oil, or where they come from."""
-    from ..oil import source_of as of_oil
+    from ..bearing.oil import source_of as of_oil
 
     given = [name for name in names if case.values[name] != variables.PARAMETERS[name].start]
     if case.oil and (source := of_oil(case.oil, names[0])) and case.origin.get(names[0], "oil").endswith("oil"):
@@ -330,7 +330,7 @@ def equilibrium(case, state):
 
 def rating_lives(case):
     """Name, value and unit of the raceways' lives by the standards."""
-    from ..raceways import KINDS, in_words, rated, why_unrated
+    from ..duty.raceways import KINDS, in_words, rated, why_unrated
 
     if why_unrated(case) is not None:
         return

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
+from ..running.results import make_folder
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis, print_warnings
 
 SHEET = "summary.html"  # of the command `summary`, in the same folder
@@ -45,7 +45,7 @@ def life(
     from ..duty.oil_range import plan_ends, remarks, rows, write_oil_range
     from ..duty.page import percent
     from ..duty.tolerances import RECORD, read_tolerances, scatter, write_scatter
-    from ..fmu import Model
+    from ..running.fmu import Model
 
     model = Model(fmu)
     plan = load_mission(mission, model)
@@ -85,7 +85,7 @@ def life(
     if ends:
         files.append(("results", write_oil_range(ends, folder)))
     if of_bearings:
-        from ..design.weibull import write_weibull_plot
+        from ..duty.weibull import write_weibull_plot
 
         files.append(("results", write_scatter(of_bearings, folder / RECORD)))
         files.append(

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Column, Table
 
-from ..results import make_folder
+from ..running.results import make_folder
 from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
 SPEEDS = 6  # up to that of the scene, if none is given
@@ -44,11 +44,13 @@ def matrices(
     """
     import math
 
-    from ..basis import basis
-    from ..bearings import scene_case
-    from ..effects import in_words
-    from ..fmu import Model
-    from ..matrices import (
+    from ..base.units import to_si
+    from ..bearing.bearing_file import scene_case
+    from ..running.basis import basis
+    from ..running.effects import in_words
+    from ..running.fmu import Model
+    from ..running.scene import load_scene
+    from ..studies.matrices import (
         dynamic_matrices,
         idle_settings,
         plot_matrices,
@@ -57,8 +59,6 @@ def matrices(
         write_ross,
         write_table,
     )
-    from ..scene import load_scene
-    from ..units import to_si
 
     model = Model(fmu)
     plan = load_scene(scene, model)
@@ -100,7 +100,7 @@ def matrices(
 
 def speed_of(text, variable, model, to_si):
     """A speed [rad/s] from a text with its unit; UserError names what is allowed."""
-    from ..errors import UserError
+    from ..base.errors import UserError
 
     try:
         value = to_si(number_or_text(text), model.units[variable.unit])

@@ -8,8 +8,8 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
-from ..scene import read_toml
+from ..running.results import make_folder
+from ..running.scene import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -29,10 +29,10 @@ def optimize(
     """Which values to choose: a search under the noise of the seeds, its best points again with fresh seeds; a second
     call does only missing runs.
     """
+    from ..base.errors import UserError
     from ..design.bench import Bench
     from ..design.optimize import optuna_library, plan_optimize, search, write_optimum, write_picture
-    from ..errors import UserError
-    from ..fmu import Model
+    from ..running.fmu import Model
 
     if not study.is_file():
         raise UserError(f"{study}: no such study file")

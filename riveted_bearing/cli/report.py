@@ -33,10 +33,10 @@ def report(
     ] = None,
 ):
     """One self-contained HTML page per run: figures, charts, and the motion to play and scrub."""
+    from ..base.errors import UserError
     from ..design.sensitivity import read_indices
-    from ..errors import UserError
-    from ..overlay import assigned
-    from ..report import report_pages
+    from ..show.overlay import assigned
+    from ..show.report import report_pages
 
     if column and not overlay:
         raise UserError(f"--column {column[0]}: needs --overlay with the file of the column")

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..results import make_folder
+from ..running.results import make_folder
 from .terminal import command, console, messages
 
 
@@ -29,7 +29,7 @@ def rivet(
     """Stress of the rivet over preload, fit and transverse load; drawing, curves, mesh, deformed section with its
     stress, modes of a cage half.
     """
-    from ..rivet import curve_tables, rivet_curves, seat_note, source_geometry, write_pictures
+    from ..building.rivet import curve_tables, rivet_curves, seat_note, source_geometry, write_pictures
 
     if source or bearing:
         source_geometry(source, bearing)  # a wrong file leaves no folder

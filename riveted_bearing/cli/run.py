@@ -9,10 +9,10 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..errors import UserError, extra, unknown
-from ..interrupts import held_interrupts
-from ..results import FORMATS, make_folder, write_result
-from ..scene import load_scene, shipped_scenes
+from ..base.errors import UserError, extra, unknown
+from ..base.interrupts import held_interrupts
+from ..running.results import FORMATS, make_folder, write_result
+from ..running.scene import load_scene, shipped_scenes
 from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, print_basis, simulation_progress
 
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
@@ -38,9 +38,9 @@ def run(
     plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
 ):
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
-    from ..fmu import Model
-    from ..plausible import odd_materials
-    from ..runner import simulate
+    from ..bearing.plausible import odd_materials
+    from ..running.fmu import Model
+    from ..running.runner import simulate
 
     model = Model(fmu)
     target = result_path(scene or model.path, out, format or lean_format(out))
@@ -55,7 +55,7 @@ def run(
         print_without_effect(model, plan, result)
         paths = [write_result(result, target)]
         if plot and is_there("matplotlib", "the picture"):
-            from ..plot import plot_result
+            from ..show.plot import plot_result
 
             paths.append(plot_result(result, target.with_suffix(".png")))
     for label, path in zip(("results", "picture"), paths, strict=False):
@@ -64,8 +64,8 @@ def run(
         f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
         soft_wrap=True,
     )
-    from ..in_run import break_lines
-    from ..summary import accelerated
+    from ..running.in_run import break_lines
+    from ..running.summary import accelerated
 
     for line in break_lines(result):
         console.print(line)
@@ -78,7 +78,7 @@ def run(
 
 def print_without_effect(model, scene, result):
     """What the scene sets without effect; of a run that was interrupted nothing."""
-    from ..effects import all_figures, in_words, without_effect
+    from ..running.effects import all_figures, in_words, without_effect
 
     if result.stopped and result.stopped.startswith("interrupted"):
         return
@@ -126,7 +126,7 @@ def looks_like_a_file(path):
 
 def statistics_table(result):
     """Mean, RMS, 99.9 % quantile and largest value after settling."""
-    from ..summary import summary_rows
+    from ..running.summary import summary_rows
 
     table = Table(
         Column("", no_wrap=True),
@@ -146,7 +146,7 @@ def statistics_table(result):
 
 def early_table(result):
     """What there is without statistics."""
-    from ..summary import early_rows
+    from ..running.summary import early_rows
 
     table = Table(
         Column("", no_wrap=True),
@@ -167,9 +167,9 @@ def four_digits(value):
 
 def print_summary(result):
     """The figures of a run on the terminal."""
-    from ..assumed import assumed_as_bronze, assumed_rows, measured_in
-    from ..in_run import alone_note, change_lines
-    from ..summary import (
+    from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
+    from ..running.in_run import alone_note, change_lines
+    from ..running.summary import (
         count_note,
         flag_note,
         has_statistics,

@@ -8,8 +8,8 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
-from ..scene import read_toml
+from ..running.results import make_folder
+from ..running.scene import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -31,11 +31,11 @@ def sensitivity(
     """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second
     call does only missing runs.
     """
-    from ..assumed import assumed_ranges
+    from ..base.errors import UserError
+    from ..bearing.assumed import assumed_ranges
     from ..design.bench import Bench
     from ..design.sensitivity import analyse, plan_sensitivity, salib, write_indices, write_picture
-    from ..errors import UserError
-    from ..fmu import Model
+    from ..running.fmu import Model
 
     if not study.is_file():
         raise UserError(f"{study}: no such study file")

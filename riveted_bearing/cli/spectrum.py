@@ -29,9 +29,9 @@ def spectrum(
     out: Annotated[Path | None, typer.Option(help="folder for the files; default: beside the result")] = None,
 ):
     """Spectrum and envelope spectrum of a run, with the lines of cage, balls and races: table, CSV and picture."""
-    from ..effects import in_words
-    from ..results import make_folder, read_result
-    from ..spectrum import idle_settings, plot_spectra, spectra, squared, write_spectra
+    from ..running.effects import in_words
+    from ..running.results import make_folder, read_result
+    from ..show.spectrum import idle_settings, plot_spectra, spectra, squared, write_spectra
 
     run = read_result(result)
     found = spectra(run, channel, band)

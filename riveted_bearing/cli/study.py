@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..results import make_folder
+from ..running.results import make_folder
 from .terminal import FMU, SCHEDULER, SETTINGS, WORKERS, changes, command, console, resumable, sweep_progress
 
 FIGURES = {  # of the paper, by the sweep that makes them
@@ -44,10 +44,10 @@ def study(
     """The paper's figures again and its claims one by one, in the scenes `paper` and `physical`: runs, pictures and
     paper.md; a second call does only missing runs. With --set: scene `paper` beside the same with your parameters.
     """
-    from ..fmu import Model
     from ..paper_study.paper import counted, write_paper
     from ..paper_study.study import check_names, run_columns
-    from ..sweep import cluster
+    from ..running.fmu import Model
+    from ..studies.sweep import cluster
 
     model = Model(fmu)
     check_names(names or [])

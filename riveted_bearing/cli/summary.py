@@ -6,8 +6,8 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..errors import UserError
-from ..results import FORMATS, make_folder
+from ..base.errors import UserError
+from ..running.results import FORMATS, make_folder
 from .life import SHEET, write_life
 from .terminal import (
     CLEANLINESS,
@@ -52,7 +52,7 @@ def summary(
     """
     from ..design.sensitivity import read_indices
     from ..duty.sheet import result_sheet, write_sheet
-    from ..results import read_result
+    from ..running.results import read_result
 
     hours, clean = target_hours(target), chosen_cleanliness(cleanliness)
     decides = read_indices(sensitivity) if sensitivity else None
@@ -78,8 +78,8 @@ def summary(
 
 def target_hours(target):
     """Hours of the option --target."""
+    from ..base.units import to_si
     from ..duty.mission import HOURS
-    from ..units import to_si
 
     if target is None:
         return None
@@ -98,7 +98,7 @@ def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
     from ..duty.mission import load_mission
     from ..duty.notes import matrix_warnings, notes
     from ..duty.sheet import mission_sheet, of_mission
-    from ..fmu import Model
+    from ..running.fmu import Model
 
     model = Model(fmu)
     plan = load_mission(path, model)

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..results import make_folder
+from ..running.results import make_folder
 from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
 
 
@@ -24,9 +24,9 @@ def sweep(
     report: Annotated[bool, typer.Option("--report", help="write a page with table and charts, sweep.html")] = False,
 ):
     """Run a design of experiments on a Dask cluster, one row a run; a second call does only missing runs."""
-    from ..fmu import Model
-    from ..sweep import load_sweep, run_sweep
-    from ..sweep_table import sweep_table, write_page, write_picture
+    from ..running.fmu import Model
+    from ..studies.sweep import load_sweep, run_sweep
+    from ..studies.sweep_table import sweep_table, write_page, write_picture
 
     plan = load_sweep(study, Model(fmu))
     folder = out or Path("results") / plan.name
@@ -62,7 +62,7 @@ def sweep(
 
 def print_table(table):
     """Means over seeds with their confidence, the first lines of the design."""
-    from ..sweep_table import CONFIDENCE, LARGEST, lines
+    from ..studies.sweep_table import CONFIDENCE, LARGEST, lines
 
     heads, cells = lines(table)
     shown = Table(*(Column(escape(head), justify="right") for head in heads), box=None, pad_edge=False)

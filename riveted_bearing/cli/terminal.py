@@ -14,8 +14,8 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from ..errors import UserError, extra, refusal, unknown
-from ..version import __version__
+from ..base.errors import UserError, extra, refusal, unknown
+from ..base.version import __version__
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
 # Libraries of the extra "full": a run needs none of them.
@@ -67,7 +67,7 @@ CLEANLINESS = Annotated[
 
 def chosen_cleanliness(value):
     """The cleanliness of the option --cleanliness, None if it was not given."""
-    from ..raceways import cleanliness_of
+    from ..duty.raceways import cleanliness_of
 
     try:
         return None if value is None else cleanliness_of(value)
@@ -175,7 +175,7 @@ def is_of_rivet(name):
     """Whether a name is that of a dimension of the rivet in a bearing file."""
     if not name.startswith("rivet."):
         return False
-    from ..bearings import RIVET_SIZES
+    from ..bearing.bearing_file import RIVET_SIZES
 
     return name.removeprefix("rivet.") in RIVET_SIZES
 
@@ -207,7 +207,7 @@ def design_runs(name, folder, scheduler, workers):
     """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a
     function for progress.
     """
-    from ..sweep import cluster
+    from ..studies.sweep import cluster
 
     with resumable(folder), contextlib.ExitStack() as stack:
         progress = stack.enter_context(sweep_progress())

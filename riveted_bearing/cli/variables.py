@@ -18,8 +18,8 @@ def variables(
     fmu: FMU = None,
 ):
     """Inputs, parameters and outputs with unit, start value and limits: the essential ones, or those that match."""
-    from ..fmu import Model
-    from ..variable_list import essentials, matching, row
+    from ..base.variable_list import essentials, matching, row
+    from ..running.fmu import Model
 
     model = Model(fmu) if fmu else None
     groups = essentials() if pattern is None else matching(pattern)

@@ -22,12 +22,13 @@ import numpy as np
 
 from bearing_model.generated import variables
 
-from ..basis import basis
+from ..base.errors import UserError, unknown
+from ..base.variable_list import KNOWN
 from ..duty.mission import curves
-from ..errors import UserError, unknown
-from ..scene import leaves, load_scene, refusal, section_of
-from ..summary import static_and_swing
-from ..sweep import (
+from ..running.basis import basis
+from ..running.scene import leaves, load_scene, refusal, section_of
+from ..running.summary import static_and_swing
+from ..studies.sweep import (
     Sweep,
     beside,
     bounds,
@@ -40,7 +41,6 @@ from ..sweep import (
     schema_of,
     sections_of,
 )
-from ..variable_list import KNOWN
 
 COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]

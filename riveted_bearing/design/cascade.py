@@ -31,13 +31,13 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from ..errors import UserError
-from ..file_kinds import check_keys
-from ..plot import HEAD, MIDDLE, MUTED, STYLE, plt
-from ..results import write_atomically
-from ..scene import leaves, refusal, section_of
-from ..sweep import count_of, known_names
-from ..units import hours_text, to_si
+from ..base.errors import UserError
+from ..base.file_kinds import check_keys
+from ..base.units import hours_text, to_si
+from ..running.results import write_atomically
+from ..running.scene import leaves, refusal, section_of
+from ..show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
+from ..studies.sweep import count_of, known_names
 from .bench import COMMON, Bench
 
 KEYS = (*(key for key in COMMON if key != "between"), "breaks", "until", "case")

@@ -24,12 +24,12 @@ from pathlib import Path
 
 import numpy as np
 
-from ..errors import UserError, extra, unknown
-from ..file_kinds import check_keys
-from ..plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
-from ..results import write_atomically
-from ..scene import refusal, section_of
-from ..sweep import count_of
+from ..base.errors import UserError, extra, unknown
+from ..base.file_kinds import check_keys
+from ..running.results import write_atomically
+from ..running.scene import refusal, section_of
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..studies.sweep import count_of
 from .bench import COMMON, Box, display_of, noise_variance, response_names
 
 KEYS = (*COMMON, "responses", "morris", "sobol")

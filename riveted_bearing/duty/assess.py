@@ -11,17 +11,17 @@ import numpy as np
 
 from bearing_model.generated.variables import INPUTS
 
-from ..errors import UserError
-from ..life import fatigue_law, fatigue_law_at
-from ..raceways import finite
-from ..raceways import record as raceway_record
-from ..results import write_atomically
-from ..sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
+from ..base.errors import UserError
+from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
+from ..running.rainflow import fatigue_law, fatigue_law_at
+from ..running.results import write_atomically
+from ..studies.sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
 from .confidence import Estimate, until_sure
 from .cycles import outputs_of, rainflow_columns, rainflow_fields, stored_cycles
 from .miner import Duty, part_rates
 from .mission import Mission
-from .sn import Strength, damage_of_cycles, damage_of_matrix, read_strength
+from .raceways import finite
+from .raceways import record as raceway_record
 from .starts import started
 
 PLACES = ("head", "mid")

@@ -10,7 +10,7 @@ the head, 2 k + 1 for the middle of rivet k + 1), range and mean [Pa], count.
 import numpy as np
 import rainflow
 
-from ..life import CHANNELS, stress_history
+from ..running.rainflow import CHANNELS, stress_history
 
 RANGE_STEP, MEAN_STEP, LEAST = 0.02, 1e6, 1e4  # of ln range; [Pa]; smaller ranges do no damage
 COLUMNS = ("channel", "range", "mean", "count")

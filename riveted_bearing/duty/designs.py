@@ -18,22 +18,22 @@ import numpy as np
 from matplotlib.ticker import NullFormatter
 from scipy.stats import t as student
 
-from ..errors import UserError, refusal, unknown
-from ..fmu import Model
-from ..pages import save_page
-from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING
-from ..raceways import Raceways, card, finite
-from ..raceways import record as raceway_record
-from ..results import write_atomically
-from ..scene import in_words, leaves, read_toml, section_of
-from ..summary import static_and_swing
-from ..sweep import columns_of
-from ..units import LONGEST, hours_text
+from ..base.errors import UserError, refusal, unknown
+from ..base.units import LONGEST, hours_text
+from ..running.fmu import Model
+from ..running.results import write_atomically
+from ..running.scene import in_words, leaves, read_toml, section_of
+from ..running.summary import static_and_swing
+from ..show.pages import save_page
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING
+from ..studies.sweep import columns_of
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission, tables
 from .notes import matrix_warnings
 from .page import OPEN, interval_text, open_ends, open_text
+from .raceways import Raceways, card, finite
+from .raceways import record as raceway_record
 
 RESPONSES = {  # column of a run, or part of the stress (summary.static_and_swing): in words, unit and its factor
     "head_static": ("head, static", "MPa", 1e-6),
@@ -503,7 +503,7 @@ def ratio_chart(fig, found):
 
 def write_page(found, path):
     """Write the page, whole or not at all; returns its path."""
-    from .. import charts
+    from ..show import charts
 
     height = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
     return save_page(

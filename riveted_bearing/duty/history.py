@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from ..errors import UserError
-from ..tables import Table
+from ..base.errors import UserError
+from ..base.tables import Table
 
 
 def binned(path, time, columns, bins, gap=None):

@@ -58,23 +58,23 @@ from pathlib import Path
 
 import numpy as np
 
-from ..assumed import given_names
-from ..basis import basis, loads, speeds
-from ..bearings import case_at
-from ..effects import acts, without_effect
-from ..errors import UserError, unknown
-from ..file_kinds import check_keys
-from ..life import fatigue_law
-from ..raceways import Raceways, cleanliness_of, of_parts, rated, slip_warning, why_unrated
-from ..scene import Scene, leaves, load_scene, own_names, read_toml, refusal, section_of
-from ..sweep import beside, count_of, key_of
-from ..tables import Wanted, read
-from ..units import SECONDS, scale, to_si
+from ..base.errors import UserError, unknown
+from ..base.file_kinds import check_keys
+from ..base.tables import Wanted, read
+from ..base.units import SECONDS, scale, to_si
+from ..bearing.assumed import given_names
+from ..bearing.bearing_file import case_at
+from ..bearing.strength import assumed, in_words, read_strength
+from ..running.basis import basis, loads, speeds
+from ..running.effects import acts, without_effect
+from ..running.rainflow import fatigue_law
+from ..running.scene import Scene, leaves, load_scene, own_names, read_toml, refusal, section_of
+from ..studies.sweep import beside, count_of, key_of
 from .cycles import outputs_of
 from .history import binned
 from .miner import Duty
+from .raceways import Raceways, cleanliness_of, of_parts, rated, slip_warning, why_unrated
 from .slow import slow_warnings
-from .sn import assumed, in_words, read_strength
 
 SECTIONS = (
     "description",

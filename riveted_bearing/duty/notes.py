@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from .. import raceways
-from ..effects import in_words
-from ..units import hours_text
+from ..base.units import hours_text
+from ..running.effects import in_words
+from . import raceways
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
 from .page import ends_of, open_ends, percent, width_text

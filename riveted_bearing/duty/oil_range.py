@@ -7,14 +7,14 @@ with a high power of the stress.
 import json
 from dataclasses import dataclass
 
-from ..errors import UserError
-from ..raceways import finite
-from ..results import make_folder, write_atomically
-from ..scene import leaves, section_of
-from ..units import hours_text
+from ..base.errors import UserError
+from ..base.units import hours_text
+from ..running.results import make_folder, write_atomically
+from ..running.scene import leaves, section_of
 from .assess import Life, write_record
 from .mission import changed_points, plan_mission, tables
 from .page import ends_of, interval_text
+from .raceways import finite
 
 FILLING = "cage.pocket_filling"
 ENDS = {"dry": 0.0, "flooded": 1.0}

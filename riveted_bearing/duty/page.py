@@ -6,14 +6,14 @@ import matplotlib
 import numpy as np
 from scipy.stats import t as student
 
-from .. import charts
-from ..pages import save_page
-from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
-from ..raceways import card
-from ..report import figure
-from ..results import write_atomically
-from ..summary import RPM
-from ..units import LONGEST, hours_text
+from ..base.units import LONGEST, hours_text
+from ..running.results import write_atomically
+from ..running.summary import RPM
+from ..show import charts
+from ..show.pages import save_page
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
+from ..show.report import figure
+from .raceways import card
 
 MOST_BARS = 14
 OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
@@ -274,7 +274,7 @@ CHARTS = {
 
 def write_picture(life, path):
     """The four charts as one PNG, whole or not at all; returns the path."""
-    from ..plot import STYLE
+    from ..show.plot import STYLE
 
     with plt.rc_context(STYLE):
         whole = plt.figure(figsize=(11, 7.4), layout="constrained")

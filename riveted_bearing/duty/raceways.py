@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from .bearings import scene_case
-from .errors import UserError, shortlist
-from .units import hours_text
+from ..base.errors import UserError, shortlist
+from ..base.units import hours_text
+from ..bearing.bearing_file import scene_case
 
 MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ASSUMED = "normal"  # cleanliness where nobody gave one
@@ -218,7 +218,7 @@ def of_parts(model, parts, cleanliness=None):
 
 def of_result(model, result, cleanliness=None):
     """The Raceways under a Result that goes on as it did; model: its FMU, None if it is not there."""
-    from .scene import History
+    from ..running.scene import History
 
     if model is None:
         return Raceways((), None, "the run's FMU is not there, which has the load ratings")

@@ -21,35 +21,27 @@ import numpy as np
 
 from bearing_model.instance.fatigue import fully_reversed
 
-from .. import charts
-from ..assumed import assumed_rows, measured_in
+from ..base.errors import UserError, shortlist
+from ..base.units import hours_text
+from ..base.version import __version__
+from ..bearing.assumed import assumed_rows, measured_in
+from ..bearing.strength import damage_of_matrix
 from ..design.bench import display_of
-from ..errors import UserError, shortlist
-from ..fmu import Model
-from ..in_run import alone_note, change_lines
-from ..life import CHANNELS, cycle_damages, fatigue_law_at
-from ..pages import save_page
-from ..plot import FORCE, HEAD, MIDDLE, MUTED, plt
-from ..raceways import Raceways, life_text
-from ..raceways import of_result as raceways_of
-from ..report import curve, figure
-from ..runner import simulate
-from ..summary import (
-    breaks,
-    columns,
-    flag_note,
-    has_statistics,
-    life_is_known,
-    settled,
-    table_note,
-)
-from ..units import hours_text
-from ..version import __version__
+from ..running.fmu import Model
+from ..running.in_run import alone_note, change_lines
+from ..running.rainflow import CHANNELS, cycle_damages, fatigue_law_at
+from ..running.runner import simulate
+from ..running.summary import breaks, columns, flag_note, has_statistics, life_is_known, settled, table_note
+from ..show import charts
+from ..show.pages import save_page
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, plt
+from ..show.report import curve, figure
 from .assess import part_duty, places, used_cases
 from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
 from .page import ends_of, interval_text, mission_text, part_rows, share_text
-from .sn import damage_of_matrix
+from .raceways import Raceways, life_text
+from .raceways import of_result as raceways_of
 from .starts import started
 
 MIXED = 1.0  # film over roughness: below it asperities carry

@@ -1,8 +1,8 @@
 """Points of a mission at which the shaft turns too few times to settle or to count."""
 
-from ..errors import shortlist
-from ..runner import turns
-from ..summary import COUNTED, SETTLED, fewer
+from ..base.errors import shortlist
+from ..running.runner import turns
+from ..running.summary import COUNTED, SETTLED, fewer
 
 KINDS = {  # of turns(): revolutions wanted, what happens with fewer, and the key that makes more
     "settle_turns": (SETTLED, "damage begins to count after", "parameters.start.settle"),

@@ -17,14 +17,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..design.weibull import Weibull, fit_weibull
-from ..errors import UserError, unknown
-from ..results import write_atomically
-from ..scene import leaves, refusal, section_of
-from ..sweep import count_of
-from ..units import to_si
+from ..base.errors import UserError, unknown
+from ..base.units import to_si
+from ..running.results import write_atomically
+from ..running.scene import leaves, refusal, section_of
+from ..studies.sweep import count_of
 from .assess import Runs, places
 from .mission import SHARES, Case, loosened, number
+from .weibull import Weibull, fit_weibull
 
 KEYS = ("bearings", "seeds", "share", "parameters")
 DISTRIBUTIONS = {

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import UserError, extra
-from ..plot import FORCE, HEAD, MIDDLE, STYLE, plt
-from ..results import write_atomically
-from ..units import hours_text
+from ..base.errors import UserError, extra
+from ..base.units import hours_text
+from ..running.results import write_atomically
+from ..show.plot import FORCE, HEAD, MIDDLE, STYLE, plt
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,12 @@ import json
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from .. import charts
+from ..base.version import __version__
 from ..design.bench import display_of, displayed, shown, titled
-from ..pages import save_page
-from ..plot import FORCE, HEAD, MIDDLE, MUTED
-from ..results import to_toml, write_atomically
-from ..version import __version__
+from ..running.results import to_toml, write_atomically
+from ..show import charts
+from ..show.pages import save_page
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
 
 VERDICTS = {"both": "decided", "below": "bounded from below", "above": "bounded from above", "no": "not decided"}
 

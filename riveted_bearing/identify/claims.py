@@ -25,16 +25,16 @@ import numpy as np
 from scipy.stats import qmc, spearmanr
 from scipy.stats import t as student
 
-from .. import charts
+from ..base.errors import refusal, unknown
 from ..design.bench import displayed, titled
-from ..errors import refusal, unknown
-from ..pages import save_page
 from ..paper_study.claims import MEASURES, PICTURES, figures_of, others, repeated, sweep_of
 from ..paper_study.study import Runs, runs_of, study_sweep
-from ..plot import HEAD, MUTED
-from ..results import make_folder, write_atomically
-from ..scene import leaves, section_of
-from ..sweep import count_of, key_of, run_sweep
+from ..running.results import make_folder, write_atomically
+from ..running.scene import leaves, section_of
+from ..show import charts
+from ..show.pages import save_page
+from ..show.plot import HEAD, MUTED
+from ..studies.sweep import count_of, key_of, run_sweep
 from .fit import FRESH
 from .study import parameters_of
 

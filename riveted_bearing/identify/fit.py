@@ -18,8 +18,8 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2, qmc
 from threadpoolctl import threadpool_limits
 
+from ..base.errors import UserError
 from ..design.sensitivity import salib
-from ..errors import UserError
 from .surrogate import Surrogate, Together, pruned
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen

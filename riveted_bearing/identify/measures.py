@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import welch
 
-from ..errors import UserError
-from ..summary import settled
+from ..base.errors import UserError
+from ..running.summary import settled
 
 STATISTICS = {
     "std": np.std,

@@ -6,21 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..basis import basis
+from ..base.errors import UserError, unknown
 from ..design.bench import response
-from ..errors import UserError, unknown
-from ..scene import load_scene
-from ..sweep import (
-    Sweep,
-    beside,
-    columns_of,
-    compact,
-    key_of,
-    run_sweep,
-    schema_of,
-    section_of,
-    sections_of,
-)
+from ..running.basis import basis
+from ..running.scene import load_scene
+from ..studies.sweep import Sweep, beside, columns_of, compact, key_of, run_sweep, schema_of, section_of, sections_of
 from .measures import of_result
 
 

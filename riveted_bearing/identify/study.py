@@ -48,12 +48,12 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import norm
 
+from ..base.errors import UserError, refusal, unknown
+from ..base.tables import Table, Wanted
+from ..base.units import SECONDS, scales_of, to_si
 from ..design.bench import COLUMNS as RESPONSES
-from ..errors import UserError, refusal, unknown
-from ..scene import leaves, load_scene, section_of
-from ..sweep import KINDS, beside, bounds, count_of, known_names
-from ..tables import Table, Wanted
-from ..units import SECONDS, scales_of, to_si
+from ..running.scene import leaves, load_scene, section_of
+from ..studies.sweep import KINDS, beside, bounds, count_of, known_names
 from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
 
 KEYS = (

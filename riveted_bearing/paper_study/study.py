@@ -25,12 +25,12 @@ from bearing_model.cage.common import joint_law
 from bearing_model.physics.derived import default_table
 from bearing_model.rivet import rivet_rom
 
-from ..errors import unknown
-from ..plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
-from ..results import write_atomically
-from ..scene import leaves
-from ..summary import DEG, RPM
-from ..sweep import load_sweep, plan_sweep, run_sweep
+from ..base.errors import unknown
+from ..running.results import write_atomically
+from ..running.scene import leaves
+from ..running.summary import DEG, RPM
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
+from ..studies.sweep import load_sweep, plan_sweep, run_sweep
 
 SHIPPED = files("riveted_bearing") / "data" / "studies"
 SCENES = {"paper": "the paper's equations", "physical": "centrifugal load, elastic halves"}

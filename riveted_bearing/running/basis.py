@@ -6,9 +6,9 @@ import itertools
 
 import numpy as np
 
-from . import oil as oils
+from ..base.errors import UserError, shortlist
+from ..bearing import oil as oils
 from . import preload as preloads
-from .errors import UserError, shortlist
 from .scene import in_words
 
 LOADS = (

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from .errors import UserError
+from ..base.errors import UserError
 from .runner import simulate
 from .scene import ALWAYS
 

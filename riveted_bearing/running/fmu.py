@@ -27,12 +27,12 @@ from fmpy.logging import addLoggerProxy
 
 from bearing_model.generated.variables import MODEL_IDENTIFIER, RETIRED_ITEMS
 
-from .errors import UserError, shortlist
-from .units import suffix, symbol_of, to_si, unit_table
+from ..base.errors import UserError, shortlist
+from ..base.units import suffix, symbol_of, to_si, unit_table
 
 FMU_NAME = "RivetedBearing.fmu"
 CAGE_MODES = "extra/riveted-bearing/cage_modes.json"  # fmus/package.py writes it
-PACKAGE = Path(__file__).resolve().parent
+PACKAGE = Path(__file__).resolve().parents[1]
 MOST_UNPACKED = 500e6  # of an FMU [B]: with binaries for all platforms a tenth of it
 MOST_FILES = 10_000  # of an FMU
 KEPT = ("logStatusError", "logStatusWarning")  # categories of messages

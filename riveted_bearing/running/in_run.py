@@ -4,8 +4,8 @@ import re
 
 from bearing_model.generated import variables
 
+from ..base.units import scales_of, suffix
 from .summary import breaks, rivets_of
-from .units import scales_of, suffix
 
 ALONE = (
     "all rivets are gone: the halves come apart, held by pockets and lands alone, and there is no stress of rivets; "

@@ -7,7 +7,7 @@ is the temperature at which the rivets are set.
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
-from .errors import UserError
+from ..base.errors import UserError
 from .fmu import Instance
 from .scene import History, Scene
 

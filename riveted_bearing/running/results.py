@@ -23,7 +23,7 @@ import numpy as np
 from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.parameters import TYPES
 
-from .errors import UserError, extra
+from ..base.errors import UserError, extra
 
 FORMATS = ("parquet", "csv", "mat")
 FORMAT_VERSION = 1

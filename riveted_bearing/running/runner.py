@@ -10,15 +10,15 @@ from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
-from .assumed import TEMPERATURES, given_names, is_example, ruled_names
+from ..base.interrupts import held_interrupts
+from ..base.version import __version__
+from ..bearing.assumed import TEMPERATURES, given_names, is_example, ruled_names
+from ..bearing.origin import not_given
 from .basis import basis, values
 from .fmu import Instance
-from .interrupts import held_interrupts
-from .origin import not_given
 from .record import Record
 from .results import Result
 from .scene import own_names
-from .version import __version__
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 

@@ -34,12 +34,13 @@ from pathlib import Path
 
 import numpy as np
 
-from . import seats, tables
-from .errors import UserError, is_file, refusal, shortlist, unknown
-from .file_kinds import check_keys
-from .oil import OF_PROPERTY, check_given, merged, named
-from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
-from .variable_list import is_like
+from ..base import tables
+from ..base.errors import UserError, is_file, refusal, shortlist, unknown
+from ..base.file_kinds import check_keys
+from ..base.units import SECONDS, canonical, scale, suffix, symbol_of, to_si
+from ..base.variable_list import is_like
+from ..bearing import seats
+from ..bearing.oil import OF_PROPERTY, check_given, merged, named
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change", "oil")
@@ -414,7 +415,7 @@ def profile_waves(race, value, model, folder):
 
     The mean height is left out: it belongs to the groove's diameter.
     """
-    from .surfaces import waves_of
+    from ..bearing.surfaces import waves_of
 
     if not isinstance(value, dict):
         raise UserError('not a table such as { file = "race.csv", angle = "phi", height = "h" }')

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .plausible import fast
-from .ribbon import is_guided_by_balls
+from ..bearing.plausible import fast
+from ..bearing.ribbon import is_guided_by_balls
 
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi

@@ -6,9 +6,9 @@ import base64
 
 import numpy as np
 
-from .ribbon import is_guided_by_balls
-from .runner import is_peak
-from .summary import clearance_of_cage, gone_from, settled
+from ..bearing.ribbon import is_guided_by_balls
+from ..running.runner import is_peak
+from ..running.summary import clearance_of_cage, gone_from, settled
 
 BUDGET = 650_000  # characters of all channels in the page
 SCALARS = (

@@ -8,10 +8,10 @@ from dataclasses import replace
 import numpy as np
 from scipy.signal import welch
 
+from ..base.errors import UserError
+from ..running.summary import columns, settled
 from . import plot, spectrum
-from .errors import UserError
 from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, wanted
-from .summary import columns, settled
 
 import matplotlib.pyplot as plt  # isort: skip  (after plot has chosen the backend)
 from matplotlib.colors import LogNorm

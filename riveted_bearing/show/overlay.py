@@ -15,12 +15,12 @@ from scipy.signal import welch
 
 from bearing_model.generated import variables
 
-from . import tables
-from .errors import UserError, unknown
+from ..base import tables
+from ..base.errors import UserError, unknown
+from ..base.units import SECONDS, canonical, scale, scales_of, suffix
+from ..base.variable_list import KNOWN
+from ..running.summary import settled
 from .plot import FORCE, HEAD, MUTED
-from .summary import settled
-from .units import SECONDS, canonical, scale, scales_of, suffix
-from .variable_list import KNOWN
 
 UNEVEN = 0.01  # of the mean step: times beyond it have no spectrum
 FEWEST = 16

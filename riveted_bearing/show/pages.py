@@ -4,9 +4,9 @@ from pathlib import Path
 
 import jinja2
 
-from .results import write_atomically
+from ..running.results import write_atomically
 
-PARTS = Path(__file__).parent / "data" / "report"
+PARTS = Path(__file__).parents[1] / "data" / "report"
 
 
 def page_text(template, style="style.css", **values):

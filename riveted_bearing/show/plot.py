@@ -10,9 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.patches import Circle
 
-from .in_run import changes
-from .results import write_atomically
-from .summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
+from ..running.in_run import changes
+from ..running.results import write_atomically
+from ..running.summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
 NOTHING = 1e-3  # um; an orbit below a nanometre is a point
@@ -279,7 +279,7 @@ def overlay(ax, t, channel, title):
 
 def differences(ax, found):
     """Largest difference of all motion (full lines) and of all loads and stresses (dashed) over time, by tolerance."""
-    from .compare import is_motion
+    from ..building.compare import is_motion
 
     for i, (tolerance, colour) in enumerate(zip(found.tolerances, (HEAD, MIDDLE, RING), strict=True)):
         for motion, style in ((True, "-"), (False, "--")):

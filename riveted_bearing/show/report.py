@@ -8,19 +8,16 @@ import numpy as np
 
 from bearing_model.generated import variables
 
-from . import charts, plot
-from .animation import frames, number_of_balls
-from .assumed import assumed_as_bronze, assumed_rows, measured_in
-from .design.bench import display_of
-from .duty.sn import Strength, assumed, in_words
-from .errors import UserError
-from .in_run import alone_note, change_lines, later_values, unit_of, variable_of
-from .life import fatigue_law, rivet_life
-from .overlay import read_measured, views
-from .pages import PARTS, page_text
-from .results import FORMATS, read_result, write_atomically
-from .ribbon import is_guided_by_balls
-from .summary import (
+from ..base.errors import UserError
+from ..base.units import hours_text
+from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
+from ..bearing.ribbon import is_guided_by_balls
+from ..bearing.strength import Strength, assumed, in_words
+from ..design.bench import display_of
+from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
+from ..running.rainflow import fatigue_law, rivet_life
+from ..running.results import FORMATS, read_result, write_atomically
+from ..running.summary import (
     DEG,
     accelerated,
     breaks,
@@ -38,7 +35,10 @@ from .summary import (
     summary_rows,
     table_note,
 )
-from .units import hours_text
+from . import charts, plot
+from .animation import frames, number_of_balls
+from .overlay import read_measured, views
+from .pages import PARTS, page_text
 
 FIRST = 3  # rows without statistics that stand on the cards
 PLACE_NAMES = {"head": "head", "mid": "middle"}

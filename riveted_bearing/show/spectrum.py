@@ -21,13 +21,13 @@ from scipy.interpolate import CubicSpline
 from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram, sosfiltfilt
 from scipy.signal.windows import hann
 
+from ..base.errors import UserError, unknown
+from ..running.effects import without_effect
+from ..running.fmu import Model
+from ..running.results import write_atomically
+from ..running.scene import ALWAYS, History, Scene
+from ..running.summary import settled
 from .animation import number_of_balls
-from .effects import without_effect
-from .errors import UserError, unknown
-from .fmu import Model
-from .results import write_atomically
-from .scene import ALWAYS, History, Scene
-from .summary import settled
 
 CHANNELS = ("housing.a_y", "housing.F_y", "ring.a_y", "ring.y")  # first of these that moves, unless one is named
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")

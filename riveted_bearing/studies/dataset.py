@@ -21,10 +21,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from .errors import UserError, unknown
-from .scene import read_toml, section_of
-from .spectrum import kinematic_frequencies, speed_of
-from .summary import settled
+from ..base.errors import UserError, unknown
+from ..running.scene import read_toml, section_of
+from ..running.summary import settled
+from ..show.spectrum import kinematic_frequencies, speed_of
 from .sweep import plan_sweep
 
 SECTION = ("channels",)

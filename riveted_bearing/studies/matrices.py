@@ -17,12 +17,12 @@ from fmpy.fmi1 import FMICallException
 
 from bearing_model.quasi_static import quasi_static
 
-from .bearings import case_at
-from .effects import acts, all_figures, without_effect
-from .errors import UserError
-from .fmu import Instance
-from .results import write_atomically
-from .scene import History, own_names
+from ..base.errors import UserError
+from ..bearing.bearing_file import case_at
+from ..running.effects import acts, all_figures, without_effect
+from ..running.fmu import Instance
+from ..running.results import write_atomically
+from ..running.scene import History, own_names
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
@@ -276,7 +276,7 @@ def plot_matrices(found, path):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    from .plot import STYLE
+    from ..show.plot import STYLE
 
     loads = list(dict.fromkeys(p.load for p in found))
     with plt.rc_context(STYLE):

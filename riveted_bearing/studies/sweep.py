@@ -45,17 +45,17 @@ from pathlib import Path
 import numpy as np
 from filelock import FileLock, Timeout
 
-from .basis import basis
-from .errors import UserError, is_file, unknown
-from .file_kinds import check_keys
-from .fmu import Model
-from .interrupts import held_interrupts, ignored_interrupts, kept_from_children
-from .results import KEY, make_folder, one_line, read_table, write_atomically, write_table
-from .runner import closing_names, simulate
-from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
-from .summary import has_statistics, settled
-from .units import SECONDS, to_si
-from .version import __version__
+from ..base.errors import UserError, is_file, unknown
+from ..base.file_kinds import check_keys
+from ..base.interrupts import held_interrupts, ignored_interrupts, kept_from_children
+from ..base.units import SECONDS, to_si
+from ..base.version import __version__
+from ..running.basis import basis
+from ..running.fmu import Model
+from ..running.results import KEY, make_folder, one_line, read_table, write_atomically, write_table
+from ..running.runner import closing_names, simulate
+from ..running.scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
+from ..running.summary import has_statistics, settled
 
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
 SAMPLE = ("method", "count", "seed", "between")

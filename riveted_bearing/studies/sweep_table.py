@@ -8,12 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
-from . import charts
-from .basis import basis
-from .pages import save_page
-from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
-from .results import write_atomically
-from .units import suffix
+from ..base.units import suffix
+from ..running.basis import basis
+from ..running.results import write_atomically
+from ..show import charts
+from ..show.pages import save_page
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
