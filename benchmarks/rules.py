@@ -23,7 +23,8 @@ from rivet_model.build import make_table
 from riveted_bearing.bearing import scaling
 from riveted_bearing.bearing.assumed import OF_RULES
 from riveted_bearing.bearing.assumed import RULES as RULES_TABLE
-from riveted_bearing.bearing.bearing_file import RIVET, bearing_case
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.rules import RIVET
 from riveted_bearing.building.rivet import geometry_of
 
 BEARING, T_END, SEEDS = OF_RULES, 0.25, 8

@@ -27,7 +27,7 @@ from .base.errors import UserError
 from .base.version import __version__
 
 if TYPE_CHECKING:
-    from .bearing.bearing_file import Case
+    from .bearing.case import Case
     from .running.results import Result, read_result, write_result
 
 __all__ = ["Result", "UserError", "__version__", "build", "info", "read_result", "run", "write_result"]
@@ -98,7 +98,7 @@ def info(target: str | Path | None = None, fmu: str | Path | None = None, *, cag
         >>> import riveted_bearing as rb
         >>> round(rb.info("6207").equilibrium().Q_i.sum())      # N
     """
-    from .bearing.bearing_file import case_of
+    from .running.scene_case import case_of
 
     return case_of(target, fmu, cage)
 

@@ -17,7 +17,6 @@ from bearing_model.generated.variables import MeanStress
 from riveted_bearing import build, read_result, run
 from riveted_bearing.base.units import hours_text
 from riveted_bearing.bearing.assumed import assumed_ranges, assumed_rows
-from riveted_bearing.bearing.bearing_file import case_of, scene_case
 from riveted_bearing.bearing.strength import Strength, assumed, in_words
 from riveted_bearing.cli import program
 from riveted_bearing.design.bench import Bench
@@ -29,9 +28,11 @@ from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.rainflow import FatigueLaw
 from riveted_bearing.running.runner import provenance
 from riveted_bearing.running.scene import load_scene
+from riveted_bearing.running.scene_case import case_of, scene_case
 from riveted_bearing.show.report import render, setting_rows
 from riveted_bearing.studies.matrices import quasi_static_matrices
-from riveted_bearing.studies.sweep import cluster, plan_sweep, run_sweep
+from riveted_bearing.studies.sweep import cluster, run_sweep
+from riveted_bearing.studies.sweep_file import plan_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 OIL = '[parameters]\noil.nu_1 = "25 mm2/s"\noil.nu_2 = "5 mm2/s"\n[inputs]\noil.T = "40 degC"\nshaft.F_y = "3 kN"\nshaft.x = "20 um"\n'

@@ -23,7 +23,7 @@ from riveted_bearing.running.results import write_result
 from riveted_bearing.running.runner import simulate
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.show.report import report_pages
-from riveted_bearing.studies.sweep import MOST_RUNS, load_sweep
+from riveted_bearing.studies.sweep_file import MOST_RUNS, load_sweep
 
 FMU = Path(__file__).resolve().parents[1] / "fmus" / "RivetedBearing.fmu"
 STEP = 1e-4  # [s]

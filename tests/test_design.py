@@ -13,11 +13,12 @@ from commands import command
 from riveted_bearing import UserError
 from riveted_bearing.bearing.assumed import assumed_ranges
 from riveted_bearing.cli.optimize import present_values, print_optimum
-from riveted_bearing.design.bench import Bench, displayed, response, shown, titled
+from riveted_bearing.design.bench import Bench
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
 from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, read_indices, write_indices, write_picture
 from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.responses import displayed, response, shown, titled
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.studies.sweep import cluster
 

@@ -25,16 +25,9 @@ from riveted_bearing.show import report
 from riveted_bearing.show.animation import needed, number_of_balls
 from riveted_bearing.show.report import render
 from riveted_bearing.studies import sweep as engine
-from riveted_bearing.studies.sweep import (
-    SUPERSEDED,
-    cluster,
-    columns_of,
-    compact,
-    load_sweep,
-    read_rows,
-    schema_of,
-    write_rows,
-)
+from riveted_bearing.studies.rows import SUPERSEDED, columns_of, compact, read_rows, write_rows
+from riveted_bearing.studies.sweep import cluster, schema_of
+from riveted_bearing.studies.sweep_file import load_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 ENVIRONMENT = os.environ | {"PYTHONPATH": str(ROOT)}

@@ -18,6 +18,7 @@ from library import ROOT
 from scipy.stats import binom
 
 from riveted_bearing import UserError
+from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.identify.answer import write_answer, write_page
 from riveted_bearing.identify.claims import plan_claims
 from riveted_bearing.identify.fit import FRESH, identify, prediction
@@ -26,7 +27,7 @@ from riveted_bearing.identify.rig import Rig, figure_of
 from riveted_bearing.identify.study import Parameter, plan_identify
 from riveted_bearing.identify.surrogate import Surrogate, noise_parts, pruned
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.running.scene import load_scene, read_toml
+from riveted_bearing.running.scene import load_scene
 from riveted_bearing.studies.sweep import cluster
 
 sys.path.insert(0, str(ROOT / "examples" / "identify"))

@@ -7,6 +7,7 @@ import pytest
 from library import ROOT
 
 from riveted_bearing import UserError
+from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.identify import claims
 from riveted_bearing.identify.claims import (
     FEW,
@@ -26,7 +27,6 @@ from riveted_bearing.identify.claims import (
 from riveted_bearing.paper_study.claims import PICTURES
 from riveted_bearing.paper_study.study import Runs
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.running.scene import read_toml
 from riveted_bearing.studies.sweep import cluster
 
 DOCUMENT = {

@@ -14,7 +14,9 @@ import pytest
 from riveted_bearing import UserError, read_result, run
 from riveted_bearing.base.interrupts import held_interrupts
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.studies.sweep import alone_in, cluster, load_sweep, run_sweep
+from riveted_bearing.studies.rows import alone_in
+from riveted_bearing.studies.sweep import cluster, run_sweep
+from riveted_bearing.studies.sweep_file import load_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 LONG = ("run", "demo", "--t-end", "100 s")
@@ -77,7 +79,8 @@ def test_at_the_first_step_the_start_is_kept(tmp_path, module, name, rows):
 
 
 @pytest.mark.parametrize(
-    ("module", "name"), [("riveted_bearing.running.results", "write_parquet"), ("riveted_bearing.show.plot", "plot_result")]
+    ("module", "name"),
+    [("riveted_bearing.running.results", "write_parquet"), ("riveted_bearing.show.plot", "plot_result")],
 )
 def test_files_under_way_are_finished(tmp_path, module, name):
     """The dictionary WRITERS holds the function itself, so the interrupt comes in its first call of a library for

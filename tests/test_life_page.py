@@ -11,6 +11,7 @@ import pytest
 import typer
 from typer.main import get_command
 
+from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.cli import program
 from riveted_bearing.design.cascade import plan_cascade
 from riveted_bearing.design.optimize import plan_optimize
@@ -18,7 +19,6 @@ from riveted_bearing.design.sensitivity import plan_sensitivity
 from riveted_bearing.duty.mission import load_mission
 from riveted_bearing.duty.tolerances import read_tolerances
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.running.scene import read_toml
 
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "life.md").read_text(encoding="utf-8")

@@ -8,8 +8,9 @@ import pytest
 
 from riveted_bearing import UserError
 from riveted_bearing.base.units import to_si
-from riveted_bearing.bearing.bearing_file import bearing_case, unit_of, unit_scales
+from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.catalogue import entries
+from riveted_bearing.bearing.file_values import unit_of, unit_scales
 
 BASE = {"designation": '"6308"'}  # what a file leaves out follows by catalogue and rule
 

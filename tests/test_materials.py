@@ -22,7 +22,8 @@ from riveted_bearing.bearing.rivet_heads import heads
 from riveted_bearing.building.builder import case_with, check_material, fmu_description, start_document
 from riveted_bearing.building.rivet import read_table, table_of
 from riveted_bearing.running.fmu import Instance, Model
-from riveted_bearing.running.scene import History, Scene, load_scene, shipped_scenes, warm
+from riveted_bearing.running.inputs import History
+from riveted_bearing.running.scene import Scene, load_scene, shipped_scenes, warm
 
 
 def case_of(tmp_path, text, name="mine.toml"):

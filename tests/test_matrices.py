@@ -11,10 +11,10 @@ from typer.testing import CliRunner
 
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from riveted_bearing import UserError
-from riveted_bearing.bearing.bearing_file import scene_case
 from riveted_bearing.cli import program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
+from riveted_bearing.running.scene_case import scene_case
 from riveted_bearing.studies.matrices import (
     DIRECTIONS,
     Matrices,

@@ -17,7 +17,8 @@ import pytest
 from scipy.stats import t as student
 
 from riveted_bearing import UserError
-from riveted_bearing.base.tables import BLOCK, Wanted
+from riveted_bearing.base.table_rows import BLOCK
+from riveted_bearing.base.tables import Wanted
 from riveted_bearing.base.units import SECONDS
 from riveted_bearing.cli.life import write_life
 from riveted_bearing.cli.summary import folder_of
@@ -30,8 +31,8 @@ from riveted_bearing.duty.notes import matrix_warnings, notes
 from riveted_bearing.duty.page import life_density, write_page, write_picture
 from riveted_bearing.duty.starts import started
 from riveted_bearing.running.fmu import Model
+from riveted_bearing.running.inputs import History
 from riveted_bearing.running.runner import simulate
-from riveted_bearing.running.scene import History
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}

@@ -21,9 +21,11 @@ from rivet_model.geometry import Geometry
 from rivet_model.load_cases import COARSE, Joint
 from riveted_bearing import UserError, run
 from riveted_bearing.base.file_kinds import KINDS, check_keys
+from riveted_bearing.base.toml_files import to_toml
 from riveted_bearing.bearing import assumed
 from riveted_bearing.bearing import oil as oils
-from riveted_bearing.bearing.bearing_file import bearing_case, case_of, known_bearings
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.designations import known_bearings
 from riveted_bearing.bearing.oil import viscosity
 from riveted_bearing.bearing.plausible import doubts
 from riveted_bearing.cli import program
@@ -35,8 +37,8 @@ from riveted_bearing.duty.page import mission_text, time_text
 from riveted_bearing.running import preload, summary
 from riveted_bearing.running.basis import basis
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.running.results import to_toml
 from riveted_bearing.running.scene import load_scene
+from riveted_bearing.running.scene_case import case_of
 from riveted_bearing.show.report import render
 from riveted_bearing.studies.matrices import scene_at
 

@@ -12,15 +12,16 @@ import numpy as np
 import pytest
 
 from riveted_bearing import UserError
-from riveted_bearing.bearing.bearing_file import case_at
 from riveted_bearing.cli import info
 from riveted_bearing.duty.cycles import outputs_of
-from riveted_bearing.duty.mission import FORCED, plan_mission
+from riveted_bearing.duty.mission import plan_mission
+from riveted_bearing.duty.parts import FORCED
 from riveted_bearing.duty.raceways import rated
 from riveted_bearing.running.effects import all_figures, without_effect
 from riveted_bearing.running.fmu import Model, codes
 from riveted_bearing.running.runner import simulate
 from riveted_bearing.running.scene import ALWAYS, load_scene, own_names
+from riveted_bearing.running.scene_case import case_at
 from riveted_bearing.show import spectrum
 from riveted_bearing.studies.matrices import idle_settings, quasi_static_matrices
 

@@ -18,7 +18,8 @@ from riveted_bearing.cli.study import FIGURES
 from riveted_bearing.paper_study import claims, paper, study
 from riveted_bearing.paper_study.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.studies.sweep import about_run, plan_sweep, read_toml, run_sweep
+from riveted_bearing.studies.sweep import about_run, read_toml, run_sweep
+from riveted_bearing.studies.sweep_file import plan_sweep
 
 
 @pytest.fixture(scope="module")

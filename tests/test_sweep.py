@@ -17,7 +17,9 @@ from commands import command
 from riveted_bearing import UserError, run
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies import sweep as engine
-from riveted_bearing.studies.sweep import SUPERSEDED, cluster, columns_of, load_sweep, outcome, read_rows, run_sweep
+from riveted_bearing.studies.rows import SUPERSEDED, columns_of, read_rows
+from riveted_bearing.studies.sweep import cluster, outcome, run_sweep
+from riveted_bearing.studies.sweep_file import load_sweep
 from riveted_bearing.studies.sweep_table import lines, sweep_table, write_page, write_picture
 
 ROOT = Path(__file__).resolve().parents[1]

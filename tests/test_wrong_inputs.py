@@ -12,14 +12,15 @@ import pytest
 from typer.testing import CliRunner
 
 from riveted_bearing import UserError
+from riveted_bearing.base.files import write_atomically
+from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.base.variable_list import is_like
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.duty.mission import load_mission
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.running.results import write_atomically
-from riveted_bearing.running.scene import load_scene, read_toml
-from riveted_bearing.studies.sweep import load_sweep
+from riveted_bearing.running.scene import load_scene
+from riveted_bearing.studies.sweep_file import load_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = {

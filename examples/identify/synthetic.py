@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 from riveted_bearing import run
-from riveted_bearing.running.results import to_toml
+from riveted_bearing.base.toml_files import to_toml
 
 TRUTH = {"oil.eta": 5e-3, "cage.guide_clearance": 0.22e-3, "joint.mu": 0.2}  # Pa.s, m, 1
 SPEEDS = (6000, 12000, 18000)  # r/min

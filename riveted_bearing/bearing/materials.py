@@ -18,9 +18,9 @@ from importlib.resources import files
 
 from bearing_model.generated import variables
 
-from ..base.errors import UserError, unknown
+from ..base.errors import UserError, refusal, unknown
+from ..base.toml_files import positive
 from ..base.units import scales_of, suffix, symbol_of
-from ..running.scene import positive, refusal
 
 TABLE = files("riveted_bearing") / "data" / "materials.toml"
 OWN = "own"

@@ -10,8 +10,7 @@ import math
 from functools import cache
 from importlib.resources import files
 
-from ..base.errors import unknown
-from ..running.scene import refusal
+from ..base.errors import refusal, unknown
 
 TABLE = files("riveted_bearing") / "data" / "rivet_heads.csv"
 

@@ -19,9 +19,9 @@ from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
-from ..running.scene import PARTS_TEMPERATURES
 from . import oil, ribbon
 
+PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
 BY_BALL = ("cage.guide_clearance",)
 BY_SHANK = ("joint.fit", "joint.swell")

@@ -25,10 +25,10 @@ import numpy as np
 from bearing_model.generated.variables import PARAMETERS, MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 
-from ..base.errors import UserError, extra, unknown
+from ..base.errors import UserError, extra, refusal, unknown
 from ..base.tables import Table, Wanted
+from ..base.toml_files import read_toml
 from ..base.units import to_si
-from ..running.scene import read_toml, refusal
 
 PASCAL = {"Pa": (1.0, 0.0), "MPa": (1e-6, 0.0)}
 METRE = {"m": (1.0, 0.0), "um": (1e6, 0.0)}

@@ -30,11 +30,13 @@ from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
 
 from ..base.errors import UserError, extra, unknown
-from ..bearing.bearing_file import CAGE_MEANT, RIVET, bearing_case
+from ..base.files import cache_folder, make_folder, write_atomically
+from ..base.toml_files import to_toml
+from ..bearing.bearing_file import CAGE_MEANT, bearing_case
 from ..bearing.materials import PARTS
 from ..bearing.ribbon import is_ribbon
+from ..bearing.rules import RIVET
 from ..running.fmu import FMU_NAME, PACKAGE, Instance, Model
-from ..running.results import cache_folder, make_folder, to_toml, write_atomically
 from ..running.scene import Scene
 from ..running.summary import TABLE_TITLE
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text

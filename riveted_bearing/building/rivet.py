@@ -21,10 +21,12 @@ from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
-from ..base.errors import UserError
-from ..bearing.bearing_file import CAGE_SIZES, RIVET_SIZES, bearing_case, check_limits, in_cage, is_number, unit_scales
-from ..running.results import cache_folder, cache_path, write_atomically
-from ..running.scene import positive, read_toml, refusal
+from ..base.errors import UserError, refusal
+from ..base.files import cache_folder, cache_path, write_atomically
+from ..base.toml_files import positive, read_toml
+from ..bearing.bearing_file import RIVET_SIZES, bearing_case
+from ..bearing.file_values import is_number, unit_scales
+from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
 OF_6207 = "in the cage of the 6207"

@@ -7,9 +7,9 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
+from ..base.files import make_folder
+from ..base.toml_files import read_toml
 from ..base.units import hours_text
-from ..running.results import make_folder
-from ..running.scene import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "cascade.toml"

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from ..running.scene import load_scene
 from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
 
@@ -34,12 +34,12 @@ def compare(
     ] = "DOP853",
 ):
     """Run a scene through the FMU and through the Python reference: differences in tables and a picture."""
+    from ..base.toml_files import seconds
     from ..building.compare import compare as compare_scene
     from ..building.compare import ledger_table, long_table, short_table
     from ..building.reference import folder_of, is_installed, run_again
     from ..running.basis import basis
     from ..running.fmu import Model
-    from ..running.scene import seconds
     from ..show.plot import plot_comparison
 
     model = Model(fmu)

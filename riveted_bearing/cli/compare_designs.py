@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text, print_warnings
 
 MOST_DIFFERENCES = 12  # on the terminal
@@ -32,7 +32,8 @@ def compare_designs(
     """Designs under the same mission and seeds: ratios of lives and stresses with intervals, and what differs."""
     from ..base.errors import UserError
     from ..base.units import hours_text
-    from ..duty.designs import PAGE, compare_designs, read_designs, write_page, write_record
+    from ..duty.designs import compare_designs, read_designs
+    from ..duty.designs_page import PAGE, write_page, write_record
 
     if not mission.is_file():
         raise UserError(f"{mission}: no such mission file")
@@ -54,7 +55,7 @@ def compare_designs(
 
 def other_figures(found):
     """Static stress and swing where the first rivet fails, and the raceways' life, design by design."""
-    from ..duty.designs import parts_text
+    from ..duty.designs_page import parts_text
     from ..duty.raceways import card
 
     heads = "where it fails: static + swing", "raceways"
@@ -66,7 +67,8 @@ def other_figures(found):
 
 def print_comparison(found, hours_text):
     """Lives, ratios and what differs."""
-    from ..duty.designs import ends_of, ratio_text, verdict
+    from ..duty.designs import ends_of
+    from ..duty.designs_page import ratio_text, verdict
     from ..duty.page import interval_text
 
     table = Table(

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages
 
 
@@ -26,7 +26,8 @@ def dataset(
     """Run a design on a Dask cluster and keep the signals with labels; a second call does only missing runs."""
     from ..running.fmu import Model
     from ..studies.dataset import load_dataset
-    from ..studies.sweep import ROWS, run_sweep
+    from ..studies.rows import ROWS
+    from ..studies.sweep import run_sweep
 
     plan = load_dataset(study, Model(fmu))
     folder = out or Path("results") / plan.name

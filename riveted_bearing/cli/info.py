@@ -53,12 +53,13 @@ def info(
     cleanliness: CLEANLINESS = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..bearing.bearing_file import CAGE_MEANT, EXAMPLE, case_of, is_bearing
+    from ..bearing.bearing_file import CAGE_MEANT, EXAMPLE
     from ..bearing.plausible import doubts
     from ..duty.raceways import too_little_load
     from ..running.basis import basis
     from ..running.fmu import Model
     from ..running.scene import load_scene
+    from ..running.scene_case import case_of, is_bearing
 
     case, scene, model = case_of(target, fmu, cage), None, None
     case = replace(case, cleanliness=chosen_cleanliness(cleanliness))

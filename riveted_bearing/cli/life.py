@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis, print_warnings
 
 SHEET = "summary.html"  # of the command `summary`, in the same folder

@@ -8,7 +8,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn
 from rich.table import Column, Table
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
 SPEEDS = 6  # up to that of the scene, if none is given
@@ -45,11 +45,11 @@ def matrices(
     import math
 
     from ..base.units import to_si
-    from ..bearing.bearing_file import scene_case
     from ..running.basis import basis
     from ..running.effects import in_words
     from ..running.fmu import Model
     from ..running.scene import load_scene
+    from ..running.scene_case import scene_case
     from ..studies.matrices import (
         dynamic_matrices,
         idle_settings,

@@ -8,8 +8,8 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..running.results import make_folder
-from ..running.scene import read_toml
+from ..base.files import make_folder
+from ..base.toml_files import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -67,8 +67,8 @@ def parts_of_stress(found, bench):
     """Static stress and swing of the points simulated again and of the present design, means over the fresh seeds [n, 2]
     [Pa]; None without statistics.  It needs no new runs.
     """
-    from ..design.bench import PARTS
     from ..design.optimize import fresh_seeds
+    from ..running.responses import PARTS
 
     if bench.scene.parameters["scene.statistics"] == "off":
         return None
@@ -81,8 +81,8 @@ def print_optimum(found, present, parts=None):
     """The points simulated again, the recommended one marked, the present design with its values, and the criterion;
     parts: as of parts_of_stress.
     """
-    from ..design.bench import PARTS, shown, titled
     from ..design.optimize import criterion
+    from ..running.responses import PARTS, shown, titled
 
     study = found.study
     missing = [] if parts is None else [name for name in PARTS if name not in study.responses]
@@ -119,7 +119,7 @@ def go_apart(was, now):
 
 def cells(study, point, mean, error):
     """Values of a point and its responses as text."""
-    from ..design.bench import display_of, displayed
+    from ..running.responses import display_of, displayed
 
     values = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, point, strict=True)]
     return values + [

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import command, console, messages
 
 

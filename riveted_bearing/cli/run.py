@@ -10,8 +10,9 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..base.errors import UserError, extra, unknown
+from ..base.files import make_folder
 from ..base.interrupts import held_interrupts
-from ..running.results import FORMATS, make_folder, write_result
+from ..running.results import FORMATS, write_result
 from ..running.scene import load_scene, shipped_scenes
 from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, print_basis, simulation_progress
 

@@ -8,8 +8,8 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..running.results import make_folder
-from ..running.scene import read_toml
+from ..base.files import make_folder
+from ..base.toml_files import read_toml
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -59,8 +59,8 @@ def sensitivity(
 
 def print_indices(found, box):
     """One table for each response; box: of the factors' ranges."""
-    from ..design.bench import display_of, displayed, titled
     from ..design.sensitivity import order
+    from ..running.responses import display_of, displayed, titled
 
     ends = [
         f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}"

@@ -29,8 +29,9 @@ def spectrum(
     out: Annotated[Path | None, typer.Option(help="folder for the files; default: beside the result")] = None,
 ):
     """Spectrum and envelope spectrum of a run, with the lines of cage, balls and races: table, CSV and picture."""
+    from ..base.files import make_folder
     from ..running.effects import in_words
-    from ..running.results import make_folder, read_result
+    from ..running.results import read_result
     from ..show.spectrum import idle_settings, plot_spectra, spectra, squared, write_spectra
 
     run = read_result(result)

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import FMU, SCHEDULER, SETTINGS, WORKERS, changes, command, console, resumable, sweep_progress
 
 FIGURES = {  # of the paper, by the sweep that makes them

@@ -7,7 +7,8 @@ import typer
 from rich.markup import escape
 
 from ..base.errors import UserError
-from ..running.results import FORMATS, make_folder
+from ..base.files import make_folder
+from ..running.results import FORMATS
 from .life import SHEET, write_life
 from .terminal import (
     CLEANLINESS,
@@ -79,7 +80,7 @@ def summary(
 def target_hours(target):
     """Hours of the option --target."""
     from ..base.units import to_si
-    from ..duty.mission import HOURS
+    from ..duty.parts import HOURS
 
     if target is None:
         return None
@@ -95,9 +96,10 @@ def target_hours(target):
 def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
     """The Sheet of a mission, and the folder of its runs, of which a second call does only missing ones."""
     from ..duty.assess import RECORD, Runs, assess, is_current
+    from ..duty.evidence import of_mission
     from ..duty.mission import load_mission
     from ..duty.notes import matrix_warnings, notes
-    from ..duty.sheet import mission_sheet, of_mission
+    from ..duty.sheet import mission_sheet
     from ..running.fmu import Model
 
     model = Model(fmu)

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..running.results import make_folder
+from ..base.files import make_folder
 from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
 
 
@@ -25,7 +25,8 @@ def sweep(
 ):
     """Run a design of experiments on a Dask cluster, one row a run; a second call does only missing runs."""
     from ..running.fmu import Model
-    from ..studies.sweep import load_sweep, run_sweep
+    from ..studies.sweep import run_sweep
+    from ..studies.sweep_file import load_sweep
     from ..studies.sweep_table import sweep_table, write_page, write_picture
 
     plan = load_sweep(study, Model(fmu))

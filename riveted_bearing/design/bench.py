@@ -14,47 +14,23 @@ second of which does the damage.
 """
 
 import hashlib
-import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
-from bearing_model.generated import variables
-
-from ..base.errors import UserError, unknown
-from ..base.variable_list import KNOWN
+from ..base.errors import UserError, refusal, unknown
+from ..base.toml_files import leaves, section_of
 from ..duty.mission import curves
 from ..running.basis import basis
-from ..running.scene import leaves, load_scene, refusal, section_of
-from ..running.summary import static_and_swing
-from ..studies.sweep import (
-    Sweep,
-    beside,
-    bounds,
-    columns_of,
-    compact,
-    count_of,
-    key_of,
-    known_names,
-    run_sweep,
-    schema_of,
-    sections_of,
-)
+from ..running.responses import COLUMNS, response, shown
+from ..running.scene import load_scene
+from ..studies.rows import columns_of, compact
+from ..studies.sweep import run_sweep, schema_of
+from ..studies.sweep_file import Sweep, beside, bounds, count_of, key_of, known_names, sections_of
 
 COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
-COLUMNS = {
-    "stress": "stat.sigma_head_p999",
-    "static": "stat.rivet_head_mean[1]",  # of all rivets
-    "swing": "stat.rivet_head_p999[1]",
-    "dislocation": "max(cage.dislocation)",
-    "friction": "mean(bearing.friction_torque)",
-    "pocket_force": "stat.Q_c_rms",
-}
-PARTS = ("static", "swing")
-DAMAGE_UNIT = "log10 per hour"
-NO_DAMAGE = 1e-300
 
 
 class Box:
@@ -198,66 +174,6 @@ class Bench:
     def point_text(self, names, rows, i):
         """A point in words."""
         return ", ".join(f"{name} = {shown(name, rows[name][i])}" for name in names if name in rows)
-
-
-def response(path, rows, name):
-    """A response of all rows."""
-    if name == "damage":
-        damage = np.column_stack(
-            [rows[column] for column in rows if column.startswith("rivet[") and ".damage_" in column]
-        )
-        hours = (rows["simulated_time"] - rows["start.settle"]) / 3600.0
-        return np.log10(np.maximum(np.nanmax(np.nan_to_num(damage), axis=1) / np.maximum(hours, 1e-12), NO_DAMAGE))
-    if name in PARTS:
-        return static_and_swing(rows, "head")[PARTS.index(name)]
-    column = COLUMNS.get(name, name)
-    if column not in rows or not np.issubdtype(np.asarray(rows[column]).dtype, np.number):
-        raise unknown(
-            path,
-            "response",
-            name,
-            ["damage", *COLUMNS, *(key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number))],
-        )
-    return np.asarray(rows[column], float)
-
-
-def display_of(name):
-    """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the
-    SI value.
-    """
-    if name == "damage":
-        return DAMAGE_UNIT, 1.0, 0.0
-    inner = re.fullmatch(r"(?:\w+\()?([^()]*)\)?", COLUMNS.get(name, name))
-    variable = next(
-        (
-            KNOWN[key]
-            for index in ("[j]", "[k]", "[n]")
-            if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN
-        ),
-        None,
-    )
-    if variable is None:
-        return "", 1.0, 0.0
-    symbol = variable.display or variable.unit
-    return "" if symbol == "1" else symbol, *variables.UNITS[variable.unit][symbol]
-
-
-def titled(name):
-    """A name with the unit in which its values are shown."""
-    unit = display_of(name)[0]
-    return f"{name} [{unit}]" if unit else name
-
-
-def displayed(name, values):
-    """SI values in the unit in which people read them."""
-    _, factor, offset = display_of(name)
-    return factor * np.asarray(values, float) + offset
-
-
-def shown(name, value):
-    """An SI value as text with its unit."""
-    unit = display_of(name)[0]
-    return f"{displayed(name, value):.4g}{unit and f' {unit}'}"
 
 
 def response_names(path, key, value):

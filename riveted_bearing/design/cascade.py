@@ -31,13 +31,13 @@ from dataclasses import asdict, dataclass, replace
 
 import numpy as np
 
-from ..base.errors import UserError
+from ..base.errors import UserError, refusal
 from ..base.file_kinds import check_keys
+from ..base.files import write_atomically
+from ..base.toml_files import leaves, section_of
 from ..base.units import hours_text, to_si
-from ..running.results import write_atomically
-from ..running.scene import leaves, refusal, section_of
 from ..show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
-from ..studies.sweep import count_of, known_names
+from ..studies.sweep_file import count_of, known_names
 from .bench import COMMON, Bench
 
 KEYS = (*(key for key in COMMON if key != "between"), "breaks", "until", "case")

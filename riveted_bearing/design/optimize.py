@@ -22,14 +22,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.errors import UserError, extra, unknown
+from ..base.errors import UserError, extra, refusal, unknown
 from ..base.file_kinds import check_keys
+from ..base.files import write_atomically
+from ..base.toml_files import section_of
 from ..base.units import to_si
-from ..running.results import write_atomically
-from ..running.scene import refusal, section_of
+from ..running.responses import COLUMNS, display_of, displayed, shown, titled
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
-from ..studies.sweep import count_of
-from .bench import COLUMNS, COMMON, Box, display_of, displayed, response_names, shown, titled
+from ..studies.sweep_file import count_of
+from .bench import COMMON, Box, response_names
 
 KEYS = (*COMMON, "objectives", "limits", "trials", "batch", "check_seeds", "candidates")
 COUNTS = {"trials": 40, "batch": 4, "check_seeds": 8, "candidates": 5}

@@ -24,13 +24,14 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.errors import UserError, extra, unknown
+from ..base.errors import UserError, extra, refusal, unknown
 from ..base.file_kinds import check_keys
-from ..running.results import write_atomically
-from ..running.scene import refusal, section_of
+from ..base.files import write_atomically
+from ..base.toml_files import section_of
+from ..running.responses import display_of
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
-from ..studies.sweep import count_of
-from .bench import COMMON, Box, display_of, noise_variance, response_names
+from ..studies.sweep_file import count_of
+from .bench import COMMON, Box, noise_variance, response_names
 
 KEYS = (*COMMON, "responses", "morris", "sobol")
 METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}

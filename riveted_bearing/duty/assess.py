@@ -12,10 +12,12 @@ import numpy as np
 from bearing_model.generated.variables import INPUTS
 
 from ..base.errors import UserError
+from ..base.files import write_atomically
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
 from ..running.rainflow import fatigue_law, fatigue_law_at
-from ..running.results import write_atomically
-from ..studies.sweep import Sweep, columns_of, compact, key_of, run_sweep, schema_of
+from ..studies.rows import columns_of, compact
+from ..studies.sweep import run_sweep, schema_of
+from ..studies.sweep_file import Sweep, key_of
 from .confidence import Estimate, until_sure
 from .cycles import outputs_of, rainflow_columns, rainflow_fields, stored_cycles
 from .miner import Duty, part_rates

@@ -8,32 +8,27 @@ at all, common seeds may correlate little; the correlation stands beside the res
 """
 
 import hashlib
-import json
 import math
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from matplotlib.ticker import NullFormatter
 from scipy.stats import t as student
 
 from ..base.errors import UserError, refusal, unknown
-from ..base.units import LONGEST, hours_text
+from ..base.toml_files import leaves, read_toml, section_of
 from ..running.fmu import Model
-from ..running.results import write_atomically
-from ..running.scene import in_words, leaves, read_toml, section_of
+from ..running.scene import in_words
 from ..running.summary import static_and_swing
-from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING
-from ..studies.sweep import columns_of
+from ..studies.rows import columns_of
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
-from .mission import plan_mission, tables
+from .mission import plan_mission
 from .notes import matrix_warnings
-from .page import OPEN, interval_text, open_ends, open_text
-from .raceways import Raceways, card, finite
-from .raceways import record as raceway_record
+from .page import open_ends, open_text
+from .parts import tables
+from .raceways import Raceways
 
 RESPONSES = {  # column of a run, or part of the stress (summary.static_and_swing): in words, unit and its factor
     "head_static": ("head, static", "MPa", 1e-6),
@@ -46,9 +41,7 @@ RESPONSES = {  # column of a run, or part of the stress (summary.static_and_swin
 }
 HEAD_STRESS = "stat.sigma_head_p999"
 TABLE_SOURCE = "sources/rivet_table.c"
-RECORD, PAGE = "designs.json", "designs.html"
 LINES = ("loads", "speed", "oil", "temperatures", "preload", "S-N curve", "damage")  # of basis.py
-COLOURS = (FORCE, MIDDLE, HEAD, RING, MUTED)
 SAME_INPUTS = 1e-9
 APART = 1.05  # ratio of static stresses from which on a life that goes the other way needs a word
 
@@ -337,189 +330,6 @@ def lowest_mode(model):
 # What is written ------------------------------------------------------------------------------------------------------
 
 
-def ratio_text(ratio):
-    """A Ratio with its interval, or that it is open; – where there is none."""
-    if ratio is None:
-        return ""
-    if math.isnan(ratio.ratio):
-        return "–"
-    if open_ends(ratio.ratio, ratio.low, ratio.high):
-        return f"{ratio.ratio:.3g} (open)"
-    return f"{ratio.ratio:.3g} ({ratio.low:.3g} … {ratio.high:.3g})"
-
-
 def ends_of(outcome):
     """Life, lower and upper end of its interval [h]."""
     return outcome.estimate.life, outcome.estimate.low, outcome.estimate.high
-
-
-def parts_of_stress(outcome):
-    """Static stress and swing of the place that fails first, at the part with the most damage: two (mean, Ratio)."""
-    place = "middle" if "middle" in outcome.place else "head"
-    return [outcome.responses[outcome.deciding][f"{place}_{part}"] for part in ("static", "swing")]
-
-
-def parts_text(outcome):
-    """These two in words, with their ratios to the first design's."""
-    if not outcome.responses:
-        return ""
-    texts = (
-        f"{1e-6 * mean:.3g}" + (f" ({ratio.ratio:.2g})" if ratio else "") for mean, ratio in parts_of_stress(outcome)
-    )
-    return f"{' + '.join(texts)} MPa"
-
-
-def against_stress(outcome):
-    """Words on a static stress that goes the other way than the life, "" if it does not."""
-    if not outcome.responses:
-        return ""
-    (_, static), (_, swing) = parts_of_stress(outcome)
-    longer = outcome.life.ratio > 1.0
-    if static.ratio > APART if longer else static.ratio < 1.0 / APART:
-        return f" at {static.ratio:.2g} times the static stress: damage follows the swing, {swing.ratio:.2g} times the first's"
-    return ""
-
-
-def verdict(outcome):
-    """A sentence on a design against the first one."""
-    ratio = outcome.life
-    if ratio is None or math.isnan(ratio.ratio):
-        return ""
-    if ratio.low == ratio.high == 1.0:
-        return "the same"
-    if not ratio.differs:
-        return "no difference that the runs show"
-    both = (
-        f", both {hours_text(outcome.estimate.life)}"
-        if min(outcome.estimate.life, outcome.estimate.life / ratio.ratio) > LONGEST
-        else ""
-    )
-    return ("lives longer" if ratio.ratio > 1.0 else "lives shorter") + both + against_stress(outcome)
-
-
-def record(found):
-    """designs.json's content."""
-    return {
-        "mission": found.name,
-        "confidence": found.confidence,
-        "runs_of_cases": list(found.counts),
-        "designs": [
-            {
-                "name": outcome.design.name,
-                "fmu": str(outcome.design.model.path),
-                "fmu_sha256": outcome.design.model.digest,
-                "settings": outcome.design.settings,
-                "life_h": finite(outcome.estimate.life),
-                "low_h": finite(outcome.estimate.low),
-                "high_h": finite(outcome.estimate.high),
-                "place": outcome.place,
-                "life_ratio": ratio_record(outcome.life),
-                "raceways": raceway_record(outcome.raceways),
-                "responses": {
-                    part: {
-                        name: {"mean": float(mean), "ratio": ratio_record(ratio)}
-                        for name, (mean, ratio) in values.items()
-                    }
-                    for part, values in outcome.responses.items()
-                },
-            }
-            for outcome in found.outcomes
-        ],
-        "differences": [{"name": name, "values": list(texts)} for name, texts in found.differences],
-    }
-
-
-def ratio_record(ratio):
-    """A Ratio for JSON."""
-    if ratio is None:
-        return None
-    return {key: finite(getattr(ratio, key)) for key in ("ratio", "low", "high", "correlation")}
-
-
-def write_record(found, folder):
-    """Write designs.json, whole or not at all; returns its path."""
-    path, text = Path(folder) / RECORD, json.dumps(record(found), indent=1) + "\n"
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
-
-
-def life_chart(fig, found):
-    """Life of each design with its interval; in words beyond LONGEST."""
-    ax = fig.subplots()
-    told = [outcome for outcome in found.outcomes if outcome.estimate.life <= LONGEST]
-    for k, outcome in enumerate(found.outcomes):
-        colour = COLOURS[k % len(COLOURS)]
-        if outcome in told:
-            ax.plot(shown_ends(outcome), [k, k], color=colour, lw=3, solid_capstyle="butt")
-            ax.plot(outcome.estimate.life, k, "o", color=colour, ms=7)
-        else:
-            ax.text(
-                0.98,
-                k,
-                f"{hours_text(outcome.estimate.life)} →",
-                transform=ax.get_yaxis_transform(),
-                ha="right",
-                va="center",
-                color=colour,
-            )
-    ends = [x for outcome in told for x in shown_ends(outcome) if math.isfinite(x)]
-    ax.set_xscale("log")
-    if ends and max(ends) < 10.0 * min(ends):
-        ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])
-        ax.set_xticks(ticks, [f"{x:,.0f}" if 1e2 <= x < 1e7 else f"{x:.3g}" for x in ticks])
-        ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.set_yticks(range(len(found.outcomes)), [short(outcome.design.name) for outcome in found.outcomes])
-    ax.set(xlabel="life [h]", ylim=(len(found.outcomes) - 0.5, -0.5))
-    ax.grid(axis="y", visible=False)
-
-
-def shown_ends(outcome):
-    """Ends of the interval of life [h] as the picture shows them, an open one at OPEN times the life."""
-    life, low, high = ends_of(outcome)
-    return max(low, life / OPEN), min(high, life * OPEN)
-
-
-def short(name, length=26):
-    """A design's name for an axis."""
-    return name if len(name) <= length else f"{name[: length - 1]}…"
-
-
-def ratio_chart(fig, found):
-    """Ratio of the head stress to the first design's, part by part."""
-    ax, response = fig.subplots(), HEAD_STRESS
-    names = list(found.outcomes[0].responses)
-    for k, outcome in enumerate(found.outcomes[1:], 1):
-        for i, part in enumerate(names):
-            ratio = outcome.responses[part][response][1]
-            if not math.isnan(ratio.ratio):
-                y = i + 0.16 * (k - 0.5 * len(found.outcomes))
-                ax.plot([ratio.low, ratio.high], [y, y], color=COLOURS[k % len(COLOURS)], lw=2.4)
-                ax.plot(ratio.ratio, y, "o", color=COLOURS[k % len(COLOURS)], ms=5)
-    ax.axvline(1.0, color=MUTED, lw=1.0, ls="--")
-    ax.set_yticks(range(len(names)), [short(name) for name in names])
-    ax.set(xlabel=f"{RESPONSES[response][0]}, over the first design's", ylim=(len(names) - 0.5, -0.5))
-    ax.grid(axis="y", visible=False)
-
-
-def write_page(found, path):
-    """Write the page, whole or not at all; returns its path."""
-    from ..show import charts
-
-    height = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
-    return save_page(
-        path,
-        "designs.html",
-        found=found,
-        responses=RESPONSES,
-        hours_text=hours_text,
-        raceway_card=card,
-        interval_text=lambda outcome: interval_text(*ends_of(outcome)),
-        ratio_text=ratio_text,
-        verdict=verdict,
-        charts={
-            "life": charts.svg(lambda fig: life_chart(fig, found), (4.9, max(1.8, height[0])), "Life of the designs"),
-            "ratios": charts.svg(
-                lambda fig: ratio_chart(fig, found), (4.9, max(1.8, height[1])), "Head stress of the designs"
-            ),
-        },
-    )

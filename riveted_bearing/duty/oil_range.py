@@ -8,12 +8,14 @@ import json
 from dataclasses import dataclass
 
 from ..base.errors import UserError
+from ..base.files import make_folder, write_atomically
+from ..base.toml_files import leaves, section_of
 from ..base.units import hours_text
-from ..running.results import make_folder, write_atomically
-from ..running.scene import leaves, section_of
 from .assess import Life, write_record
-from .mission import changed_points, plan_mission, tables
+from .mission import plan_mission
 from .page import ends_of, interval_text
+from .parts import tables
+from .points import changed_points
 from .raceways import finite
 
 FILLING = "cage.pocket_filling"

@@ -6,8 +6,8 @@ import matplotlib
 import numpy as np
 from scipy.stats import t as student
 
+from ..base.files import write_atomically
 from ..base.units import LONGEST, hours_text
-from ..running.results import write_atomically
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page

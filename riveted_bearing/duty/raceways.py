@@ -16,7 +16,7 @@ import numpy as np
 
 from ..base.errors import UserError, shortlist
 from ..base.units import hours_text
-from ..bearing.bearing_file import scene_case
+from ..running.scene_case import scene_case
 
 MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ASSUMED = "normal"  # cleanliness where nobody gave one
@@ -218,7 +218,7 @@ def of_parts(model, parts, cleanliness=None):
 
 def of_result(model, result, cleanliness=None):
     """The Raceways under a Result that goes on as it did; model: its FMU, None if it is not there."""
-    from ..running.scene import History
+    from ..running.inputs import History
 
     if model is None:
         return Raceways((), None, "the run's FMU is not there, which has the load ratings")

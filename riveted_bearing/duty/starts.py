@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..running.scene import History
+from ..running.inputs import History
 
 SPEED = "shaft.omega"
 RUN_UP = 0.02  # s; 0.2 s give the same stress

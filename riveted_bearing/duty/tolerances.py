@@ -17,13 +17,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from ..base.errors import UserError, unknown
+from ..base.errors import UserError, refusal, unknown
+from ..base.files import write_atomically
+from ..base.toml_files import leaves, section_of
 from ..base.units import to_si
-from ..running.results import write_atomically
-from ..running.scene import leaves, refusal, section_of
-from ..studies.sweep import count_of
+from ..studies.sweep_file import count_of
 from .assess import Runs, places
-from .mission import SHARES, Case, loosened, number
+from .blends import Case, loosened
+from .parts import SHARES, number
 from .weibull import Weibull, fit_weibull
 
 KEYS = ("bearings", "seeds", "share", "parameters")

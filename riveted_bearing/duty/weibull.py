@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.errors import UserError, extra
+from ..base.files import write_atomically
 from ..base.units import hours_text
-from ..running.results import write_atomically
 from ..show.plot import FORCE, HEAD, MIDDLE, STYLE, plt
 
 

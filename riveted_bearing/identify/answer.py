@@ -5,9 +5,10 @@ import json
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
+from ..base.files import write_atomically
+from ..base.toml_files import to_toml
 from ..base.version import __version__
-from ..design.bench import display_of, displayed, shown, titled
-from ..running.results import to_toml, write_atomically
+from ..running.responses import display_of, displayed, shown, titled
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED

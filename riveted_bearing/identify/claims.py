@@ -26,15 +26,16 @@ from scipy.stats import qmc, spearmanr
 from scipy.stats import t as student
 
 from ..base.errors import refusal, unknown
-from ..design.bench import displayed, titled
+from ..base.files import make_folder, write_atomically
+from ..base.toml_files import leaves, section_of
 from ..paper_study.claims import MEASURES, PICTURES, figures_of, others, repeated, sweep_of
 from ..paper_study.study import Runs, runs_of, study_sweep
-from ..running.results import make_folder, write_atomically
-from ..running.scene import leaves, section_of
+from ..running.responses import displayed, titled
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import HEAD, MUTED
-from ..studies.sweep import count_of, key_of, run_sweep
+from ..studies.sweep import run_sweep
+from ..studies.sweep_file import count_of, key_of
 from .fit import FRESH
 from .study import parameters_of
 

@@ -7,10 +7,13 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.errors import UserError, unknown
-from ..design.bench import response
+from ..base.toml_files import section_of
 from ..running.basis import basis
+from ..running.responses import response
 from ..running.scene import load_scene
-from ..studies.sweep import Sweep, beside, columns_of, compact, key_of, run_sweep, schema_of, section_of, sections_of
+from ..studies.rows import columns_of, compact
+from ..studies.sweep import run_sweep, schema_of
+from ..studies.sweep_file import Sweep, beside, key_of, sections_of
 from .measures import of_result
 
 

@@ -41,7 +41,6 @@
 A weight is 1/uncertainty^2.  Without an uncertainty a target has no weight and is refused.
 """
 
-import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -49,12 +48,10 @@ import numpy as np
 from scipy.stats import norm
 
 from ..base.errors import UserError, refusal, unknown
-from ..base.tables import Table, Wanted
-from ..base.units import SECONDS, scales_of, to_si
-from ..design.bench import COLUMNS as RESPONSES
-from ..running.scene import leaves, load_scene, section_of
-from ..studies.sweep import KINDS, beside, bounds, count_of, known_names
-from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
+from ..base.toml_files import leaves, section_of
+from ..running.scene import load_scene
+from ..studies.sweep_file import beside, bounds, count_of, known_names
+from .targets import Reader, quantity, spread
 
 KEYS = (
     *("description", "scene", "simulation", "parameters", "inputs", "seeds", "seed", "check_seeds", "held_out"),
@@ -64,11 +61,6 @@ PARAMETER = ("low", "high", "scale", "mean", "sd")
 SCREEN = {"method": "latin_hypercube", "count": 40, "trajectories": 6, "levels": 4}
 SEARCH = {"rounds": 2, "points": 12}
 POINT = ("name", "inputs", "parameters", "simulation")
-COMMON = ("point", "over", "minus", "uncertainty", "held_out")
-TARGET = ("measure", "line", "frequency", "width", "value", *COMMON)
-SERIES = ("file", "time", "longest_gap", "columns", "statistics", "bands", *COMMON)
-HERTZ = {"Hz": (1.0, 0.0), "kHz": (1e-3, 0.0)}
-SHORT = {"slip": "mean(cage.slip_ratio)", "cage_speed": "stat.cage_omega", "heat": "mean(bearing.power_loss)"}
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
 
 
@@ -109,30 +101,6 @@ class Parameter:
         z = norm.ppf(0.5 + half) * self.sd
         ends = np.clip([self.mean - z, self.mean + z], self.low, self.high)
         return tuple(map(float, self.share(ends)))
-
-
-@dataclass(frozen=True)
-class Target:
-    """A measured figure: of an operating point, as its ratio or difference ("over", "minus") to another, or of it alone.
-
-    column: of a row; value, uncertainty: in SI, the latter one standard deviation; origin: where the value is from.
-    """
-
-    name: str
-    point: int
-    column: str
-    value: float
-    uncertainty: float
-    held_out: bool
-    unit: str = "1"
-    operation: str = ""
-    other: int = 0
-    origin: str = "given"
-
-    @property
-    def weight(self):
-        """Of its squared deviation in the fit."""
-        return self.uncertainty**-2
 
 
 @dataclass(frozen=True)
@@ -320,238 +288,7 @@ def parameters_of(path, document, model, points):
     return found
 
 
-def quantity(path, key, value, scales):
-    """An SI value; UserError naming the key."""
-    try:
-        return to_si(value, scales)
-    except UserError as problem:
-        raise refusal(path, key, value, problem) from None
-
-
-def text_of(path, key, value):
-    """A text; UserError naming the key."""
-    if not isinstance(value, str):
-        raise refusal(path, key, value, "a text is needed")
-    return value
-
-
-def spread(path, key, value, scales, mean):
-    """A standard deviation in SI: of a unit, or in percent of the mean; offsets of units do not count."""
-    relative = isinstance(value, str) and value.strip().endswith("%")
-    if relative:
-        found = abs(mean) * quantity(path, key, value, scales_of("1", {}))
-    else:
-        found = quantity(path, key, value, {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()})
-    if not found > 0.0:
-        zero = f"{value} of {mean:g} is 0" if relative and found == 0.0 else "one standard deviation"
-        raise refusal(path, key, value, f"{zero}: greater than 0 is needed")
-    return found
-
-
 def scene_of(path, document, model, changes):
     """The scene of an operating point, before the outputs that the targets need."""
     common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
     return load_scene(beside(path, document.get("scene")), model, (str(path), common), (str(path), changes))
-
-
-class Reader:
-    """Targets as they are read, with the measures and outputs that they need."""
-
-    def __init__(self, path, model, points, scenes, every):
-        self.path, self.model, self.points, self.scenes, self.every = path, model, points, scenes, every
-        self.targets, self.measures, self.outputs = [], [], []
-
-    def target(self, where, block):
-        """One [[target]]."""
-        where = f"{self.path}: {where}"
-        for key in block:
-            if key not in TARGET:
-                raise unknown(where, "key", key, TARGET)
-        if ("measure" in block) == ("line" in block):
-            raise UserError(f"{where}: either measure or line is needed")
-        point, operation, other = self.place(where, block)
-        if "line" in block:
-            column, unit, scales = self.line(where, block, point)
-        else:
-            column, unit, scales = self.column(where, block["measure"])
-        if operation == "over":
-            unit, scales = "1", scales_of("1", {})
-        elif operation == "minus":
-            scales = {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
-        for key in ("value", "uncertainty"):
-            if key not in block:
-                raise UserError(f"{where}: {key} is missing: its weight follows from value and uncertainty")
-        value = quantity(where, "value", block["value"], scales)
-        uncertainty = spread(where, "uncertainty", block["uncertainty"], scales, value)
-        self.add(where, block, block.get("measure", column), point, column, value, uncertainty, unit, operation, other)
-
-    def add(self, where, block, label, point, column, value, uncertainty, unit, operation="", other=0, origin="given"):
-        """Append a Target."""
-        held = block.get("held_out", bool(self.every) and (len(self.targets) + 1) % self.every == 0)
-        if not isinstance(held, bool):
-            raise refusal(where, "held_out", held, "true or false is needed")
-        at = self.points[point][0]
-        name = f"{at}: {label}" if at else label
-        if operation:
-            name += f" {operation} {self.points[other][0]}"
-        self.targets.append(Target(name, point, column, value, uncertainty, held, unit, operation, other, origin))
-
-    def place(self, where, block):
-        """Numbers of the operating point and of another, and the operation between."""
-        names = [name for name, _ in self.points]
-
-        def number(key):
-            if block[key] not in names:
-                raise unknown(where, key, block[key], names)
-            return names.index(block[key])
-
-        operations = [key for key in ("over", "minus") if key in block]
-        if len(operations) > 1:
-            raise UserError(f"{where}: either over or minus is needed")
-        operation = operations[0] if operations else ""
-        point = number("point") if "point" in block else 0
-        return point, operation, number(operation) if operation else 0
-
-    def column(self, where, text):
-        """Column, unit and scales of a measure."""
-        if not isinstance(text, str):
-            raise refusal(where, "measure", text, "the name of a response or column is needed")
-        column = (SHORT | RESPONSES).get(text, text)
-        if (measure := parsed(column)) is not None:
-            unit, scales = self.channel(where, "measure", measure.channel)
-            self.measures.append(measure)
-            return measure.column, unit, scales
-        if match := re.fullmatch(rf"({'|'.join(KINDS)})\(([^()]+)\)", column):
-            unit, scales = self.channel(where, "measure", match[2])
-            return column, unit, scales
-        if column in self.model.outputs or column in self.model.locals:
-            variable = (self.model.outputs | self.model.locals)[column]
-            return column, variable.unit or "1", self.model.units[variable.unit]
-        if column == "damage":
-            return column, "1", scales_of("1", {})
-        allowed = ["damage", *SHORT, *RESPONSES, *self.model.outputs]
-        allowed += [f"mean({name})" for name in self.model.outputs]
-        raise unknown(where, "measure", text, allowed)
-
-    def channel(self, where, key, name):
-        """Unit and scales of a channel over time, which the runs then record."""
-        known = self.model.inputs | self.model.outputs
-        if name not in known:
-            raise unknown(where, key, name, known)
-        self.outputs.append(name)
-        return known[name].unit or "1", self.model.units[known[name].unit]
-
-    def line(self, where, block, point):
-        """Column, unit and scales of a line of a spectrum."""
-        unit, scales = self.channel(where, "line", block["line"])
-        for key in ("frequency", "width"):
-            if key not in block:
-                raise UserError(f"{where}: {key} is missing")
-        f, width = (quantity(where, key, block[key], HERTZ) for key in ("frequency", "width"))
-        lowest, highest = self.limits(point)
-        if not 0.0 < width < 2.0 * f:
-            raise refusal(where, "width", block["width"], "more than 0 and less than twice the frequency is allowed")
-        if min(width, f - 0.5 * width) < lowest:
-            raise refusal(
-                where,
-                "width",
-                block["width"],
-                f"at least {lowest:.4g} Hz, as for the lower end, is allowed with this length of the run after start.settle",
-            )
-        if f + 0.5 * width > highest:
-            raise refusal(
-                where,
-                "frequency",
-                block["frequency"],
-                f"at most {highest:.4g} Hz is allowed, half the rate of the run's samples",
-            )
-        measure = Measure("line", block["line"], f - 0.5 * width, f + 0.5 * width)
-        self.measures.append(measure)
-        return measure.column, unit, scales
-
-    def limits(self, point):
-        """Lowest and highest frequency [Hz] of a run's spectrum."""
-        scene = self.scenes[point]
-        settle = scene.parameters.get("start.settle", self.model.default(self.model.parameters["start.settle"]))
-        length = scene.t_end - settle
-        return 1.05 * FEWEST / length if length > 0.0 else np.inf, 0.5 / (scene.step * scene.stride)
-
-    def series(self, where, block):
-        """One [[series]]: statistics and bands of each of its columns as targets."""
-        where = f"{self.path}: {where}"
-        for key in block:
-            if key not in SERIES:
-                raise unknown(where, "key", key, SERIES)
-        if "file" not in block or not isinstance(block["file"], str):
-            raise UserError(f"{where}: file is missing")
-        if "over" in block or "minus" in block:
-            raise UserError(f"{where}: over and minus are for [[target]]")
-        point, _, _ = self.place(where, block)
-        file = self.path.parent / block["file"]
-        table, time = Table(file), Wanted(text_of(where, "time", block.get("time", "time")), SECONDS)
-        gap = quantity(where, "longest_gap", block["longest_gap"], SECONDS) if "longest_gap" in block else None
-        channels = self.model.inputs | self.model.outputs
-        columns = dict(leaves(section_of(where, block, "columns"), channels))
-        if not columns:
-            raise UserError(f"{where}: columns: name at least one channel with the column that was measured")
-        kinds = block.get("statistics", ["mean", "std"])
-        allowed = ["mean", "rms", *STATISTICS]
-        if not isinstance(kinds, list) or any(kind not in allowed for kind in kinds):
-            raise refusal(where, "statistics", kinds, f"a list of {', '.join(allowed)} is needed")
-        count = block.get("bands", 0)
-        if count != 0:
-            count_of(where, "bands", count)
-        for channel, wanted in columns.items():
-            unit, scales = self.channel(where, "channel", channel)
-            t, values = table.series(time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=gap)
-            if len(t) < 16 * SEGMENTS:
-                raise UserError(f"{file}: {len(t)} rows: at least {16 * SEGMENTS} times are needed")
-            head = table.heads[table.place(wanted)]
-            measures = [Measure(kind, channel) for kind in kinds] + self.bands_of(where, channel, point, t, count)
-            for measure in measures:
-                self.measured(where, block, measure, point, t, values, unit, file, head)
-
-    def bands_of(self, where, channel, point, t, count):
-        """Measures of so many bands that run and series both have."""
-        if not count:
-            return []
-        lowest, highest = self.limits(point)
-        lowest = max(lowest, 1.05 * FEWEST * SEGMENTS / (t[-1] - t[0]))
-        highest = min(highest, 0.5 * (len(t) - 1) / (t[-1] - t[0])) * (1.0 - 1e-9)
-        most = int(np.log2(max(highest / lowest, 1.0)))
-        if count > most:
-            raise refusal(
-                where,
-                "bands",
-                count,
-                f"at most {most} octaves lie between {lowest:.4g} and {highest:.4g} Hz, which run and series both have",
-            )
-        return [Measure("band", channel, *map(float, ends)) for ends in bands(lowest, highest, count)]
-
-    def measured(self, where, block, measure, point, t, values, unit, file, column):
-        """The Target of a figure of a measured series."""
-        plain = {"mean": np.mean, "rms": lambda x: np.sqrt(np.mean(x**2))}
-        measure_of = measure if measure.kind not in plain else lambda _, x: float(plain[measure.kind](x))
-        value, scatter = of_series(measure_of, t, values)
-        if not np.isfinite(value) or not np.isfinite(scatter):
-            raise UserError(f'{file}: column "{column}": no {measure.kind}: the times are not equally spaced')
-        if "uncertainty" in block:  # of the sensor
-            scales = {"log10": (1.0, 0.0)} if measure.kind == "band" else self.model.units[unit]
-            relative = isinstance(block["uncertainty"], str) and block["uncertainty"].strip().endswith("%")
-            if measure.kind == "band" and relative:  # a share of the amplitude
-                sensor = spread(where, "uncertainty", block["uncertainty"], scales_of("1", {}), 1.0) / np.log(10.0)
-            elif measure.kind == "band":
-                sensor = 0.0  # a shift of the zero is in no band
-            else:
-                sensor = spread(where, "uncertainty", block["uncertainty"], scales, value)
-            scatter = float(np.hypot(scatter, sensor))
-        if not scatter > 0.0:
-            raise UserError(
-                f'{file}: column "{column}": {measure.column} does not scatter, its uncertainty is 0: give one'
-            )
-        if measure.kind not in plain:
-            self.measures.append(measure)
-        unit = "1" if measure.kind == "band" else unit
-        self.add(
-            where, block, measure.column, point, measure.column, value, scatter, unit, origin=f"{file.name}: {column}"
-        )

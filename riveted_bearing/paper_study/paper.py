@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from scipy.stats import norm
 
-from ..running.results import write_atomically
+from ..base.files import write_atomically
 from .claims import MEASURES, all_claims, number_of_claims, numbers
 from .study import (
     BESIDE,

@@ -26,11 +26,12 @@ from bearing_model.physics.derived import default_table
 from bearing_model.rivet import rivet_rom
 
 from ..base.errors import unknown
-from ..running.results import write_atomically
-from ..running.scene import leaves
+from ..base.files import write_atomically
+from ..base.toml_files import leaves
 from ..running.summary import DEG, RPM
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
-from ..studies.sweep import load_sweep, plan_sweep, run_sweep
+from ..studies.sweep import run_sweep
+from ..studies.sweep_file import load_sweep, plan_sweep
 
 SHIPPED = files("riveted_bearing") / "data" / "studies"
 SCENES = {"paper": "the paper's equations", "physical": "centrifugal load, elastic halves"}

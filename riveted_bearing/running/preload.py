@@ -9,7 +9,8 @@ from weakref import WeakKeyDictionary
 
 from ..base.errors import UserError
 from .fmu import Instance
-from .scene import History, Scene
+from .inputs import History
+from .scene import Scene
 
 PRELOAD, TEMPERATURE, OUTPUT = "joint.preload", "cage.T", "rivet[1].P"
 TRIALS = (293.15, 303.15)  # temperatures at which an FMU tells its preload [K]

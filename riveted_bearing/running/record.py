@@ -6,7 +6,7 @@ import tempfile
 
 import numpy as np
 
-from .results import cache_folder
+from ..base.files import cache_folder
 
 IN_MEMORY = 64 * 2**20  # bytes of a result that stay in memory
 BLOCK = 1024  # rows that are turned into columns together

@@ -11,9 +11,7 @@ import hashlib
 import importlib
 import json
 import math
-import os
 import re
-import secrets
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -24,10 +22,11 @@ from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.parameters import TYPES
 
 from ..base.errors import UserError, extra
+from ..base.files import KEY, one_line, read_table, write_atomically, write_table
+from ..base.toml_files import to_toml
 
 FORMATS = ("parquet", "csv", "mat")
 FORMAT_VERSION = 1
-KEY = "riveted_bearing"
 
 
 @dataclass(frozen=True)
@@ -149,11 +148,6 @@ def read_result(path: str | Path) -> Result:
         raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {one_line(problem)}") from None
 
 
-def one_line(problem):
-    """An error of a library in words for a message of one line."""
-    return " ".join(repr(problem).split())[:300]
-
-
 def digest_of(result):
     """SHA-256 of all that is stored; any two values that are no numbers count as equal."""
     digest = hashlib.sha256(json.dumps(result.metadata(), sort_keys=True).encode())
@@ -234,63 +228,6 @@ def format_of(path):
     return kind
 
 
-def make_folder(folder):
-    """Make a folder unless it is there; UserError if files cannot be written to it."""
-    folder = Path(folder)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as problem:
-        raise UserError(f"{folder}: no folder to write to: {problem.strerror}") from None
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise UserError(f"{folder}: no permission to write to this folder")
-
-
-def cache_path(name):
-    """Path of a folder of the user's cache."""
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
-
-
-def cache_folder(name):
-    """A folder of the user's cache, made if it is not there."""
-    folder = cache_path(name)
-    try:
-        make_folder(folder)
-    except UserError as problem:
-        raise UserError(f"{problem}; the environment variable XDG_CACHE_HOME names another cache") from None
-    return folder
-
-
-def write_atomically(path, write):
-    """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if
-    folder or disk refuse.
-    """
-    make_folder(path.parent)
-    temporary = path.with_name(f".{path.stem}.{secrets.token_hex(8)}{path.suffix}")
-    try:
-        write(temporary)
-        with temporary.open("rb+") as file:  # some file systems say only now that they are full
-            os.fsync(file.fileno())
-        os.replace(temporary, path)
-    except OSError as problem:
-        raise UserError(f"{path}: cannot be written: {problem.strerror or problem}") from None
-    finally:
-        temporary.unlink(missing_ok=True)
-
-
-def write_table(table, path):
-    """Write an Arrow table as Parquet with a checksum for each page."""
-    from pyarrow import parquet
-
-    parquet.write_table(table, path, compression="zstd", write_page_checksum=True)
-
-
-def read_table(path):
-    """The Arrow table of a Parquet file, its checksums compared; errors of pyarrow."""
-    from pyarrow import parquet
-
-    return parquet.read_table(path, page_checksum_verification=True, partitioning=None)
-
-
 def write_parquet(result, metadata, path):
     """Columns with units, metadata in the schema."""
     import pyarrow as pa
@@ -328,30 +265,6 @@ def read_csv(path):
         numbers = file.readlines()
     columns = np.loadtxt(numbers, delimiter=",", ndmin=2) if numbers else np.empty((0, 0))
     return dict(zip(names, columns.T, strict=True)), tomllib.loads("".join(header))
-
-
-def to_toml(document, table=""):
-    """Lines of TOML for nested dicts of numbers, truth values, texts and lists of these."""
-    for key, value in document.items():
-        if not isinstance(value, dict):
-            yield f"{toml_key(key)} = {toml_value(value)}"
-    for key, value in document.items():
-        if isinstance(value, dict):
-            name = f"{table}.{toml_key(key)}" if table else toml_key(key)
-            yield f"[{name}]"
-            yield from to_toml(value, name)
-
-
-def toml_key(key):
-    """A key, quoted unless it is a bare word."""
-    return key if re.fullmatch(r"[\w-]+", key, re.ASCII) else json.dumps(key, ensure_ascii=False)
-
-
-def toml_value(value):
-    """A value as TOML writes it: like JSON but for nan and inf."""
-    if isinstance(value, list):
-        return f"[{', '.join(map(toml_value, value))}]"
-    return repr(value) if isinstance(value, float) else json.dumps(value, ensure_ascii=False)
 
 
 def write_mat(result, metadata, path):

@@ -25,9 +25,6 @@ A number is SI, a text carries its unit.  Inputs are evaluated at the communicat
 Where a scene sets oil.T, parts whose temperature nobody gives have the oil's.
 """
 
-import re
-import reprlib
-import tomllib
 from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from pathlib import Path
@@ -35,41 +32,23 @@ from pathlib import Path
 import numpy as np
 
 from ..base import tables
-from ..base.errors import UserError, is_file, refusal, shortlist, unknown
+from ..base.errors import UserError, is_file, refusal, unknown
 from ..base.file_kinds import check_keys
-from ..base.units import SECONDS, canonical, scale, suffix, symbol_of, to_si
+from ..base.toml_files import leaves, positive, read_toml, section_of, whole_name
+from ..base.units import SECONDS, suffix, to_si
 from ..base.variable_list import is_like
 from ..bearing import seats
 from ..bearing.oil import OF_PROPERTY, check_given, merged, named
+from ..bearing.scaling import PARTS_TEMPERATURES
+from .inputs import check_entries, input_history, unit_of
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change", "oil")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
-HISTORY = ("t", "value", "unit", "interpolation")
-COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
-PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
-DEEPEST = 50  # tables or lists in each other
 MOST_STEPS = 1e12
 ALWAYS = {"scene.statistics": "on"}  # unless a scene sets it
 LARGEST_RESULT = 16 * 2**30  # bytes, on disk
-
-
-@dataclass(frozen=True)
-class History:
-    """An input over time: straight lines between points or, with hold, steps; constant before the first and after the
-    last point.
-    """
-
-    t: np.ndarray
-    value: np.ndarray
-    hold: bool = False
-
-    def __call__(self, t):
-        """Values at the times t [s]."""
-        if self.hold:
-            return self.value[np.maximum(np.searchsorted(self.t, t, side="right") - 1, 0)]
-        return np.interp(t, self.t, self.value)
 
 
 @dataclass(frozen=True)
@@ -210,50 +189,6 @@ def find_scene(source):
     raise unknown("scene", "name", source, shipped_scenes())
 
 
-def read_toml(path):
-    """The document of a TOML file, UTF-8 with or without a mark; UserError if it cannot be read."""
-    try:
-        data = path.read_bytes()
-        text = data.decode("utf-8-sig").replace("\r\n", "\n")
-        document = tomllib.loads(text)
-        check_integers(path, document)
-        return document
-    except UnicodeDecodeError as problem:
-        row = data[: problem.start].count(b"\n") + 1
-        raise UserError(f"{path}: not valid TOML: line {row} is not UTF-8: save the file as UTF-8") from None
-    except tomllib.TOMLDecodeError as problem:
-        raise UserError(f"{path}: not valid TOML: {problem}{quotes_hint(text, problem)}") from None
-    except UserError:
-        raise
-    except ValueError:  # of int()
-        raise UserError(f"{path}: not valid TOML: an integer of thousands of digits") from None
-    except RecursionError:
-        raise UserError(f"{path}: not valid TOML: tables or lists are nested too deeply") from None
-    except OSError as problem:
-        raise UserError(f"{path}: {problem.strerror}") from None
-
-
-def check_integers(path, document, key="", depth=0):
-    """UserError for an integer beyond the 64 bits that TOML has; RecursionError beyond DEEPEST."""
-    if depth > DEEPEST:
-        raise RecursionError
-    for name, value in document.items() if isinstance(document, dict) else enumerate(document, 1):
-        place = f"{key}.{name}".lstrip(".")
-        if isinstance(value, dict | list):
-            check_integers(path, value, place, depth + 1)
-        elif isinstance(value, int) and not -(2**63) <= value < 2**63:
-            raise refusal(path, place, value, "an integer of at most 64 bits is allowed")
-
-
-def quotes_hint(text, problem):
-    """How to write a name with brackets if the line of a TOML error begins with one, else ""."""
-    line = re.search(r"line (\d+)", str(problem))
-    lines = text.splitlines()
-    at = int(line[1]) - 1 if line else len(lines)
-    bare = re.match(r"\s*([\w.]+\[\w+\][\w.]*)\s*=", lines[at]) if at < len(lines) else None
-    return f'; a name with brackets needs quotes: "{bare[1]}" = ...' if bare else ""
-
-
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
     check_keys(where, document, SECTIONS, "scene")
@@ -324,19 +259,6 @@ def read_changes(where, blocks, model):
     return tuple(sorted(found, key=lambda change: change[0]))
 
 
-def unit_of(value):
-    """The unit that the user wrote with a value or a history; None for numbers."""
-    return canonical(value["unit"]) if isinstance(value, dict) and value.get("unit") else symbol_of(value)
-
-
-def section_of(where, document, name):
-    """A document's table of this name, empty if there is none; UserError if it is something else."""
-    section = document.get(name, {})
-    if not isinstance(section, dict):
-        raise refusal(where, name, section, "not a table")
-    return section
-
-
 def read_section(where, kind, section, variables, others, value_of):
     """Settings of one section by full variable name; others: the variables of the other section."""
     settings = {}
@@ -354,24 +276,6 @@ def read_section(where, kind, section, variables, others, value_of):
         except UserError as problem:
             raise refusal(where, f"{kind}.{name}", value, problem) from None
     return settings
-
-
-def whole_name(name, value):
-    """The name that the first key of nested tables gives: rivet.3 with {strength_factor: 0.8} is rivet.3.strength_factor."""
-    while isinstance(value, dict) and value and "t" not in value and "file" not in value:
-        key, value = next(iter(value.items()))
-        name = f"{name}.{key}"
-    return name
-
-
-def leaves(tree, names, prefix=""):
-    """Full names and values of nested tables; a table is entered as long as some variable's name begins like it."""
-    for key, value in tree.items():
-        name = f"{prefix}{key}"
-        if isinstance(value, dict) and any(known.startswith(f"{name}.") for known in names):
-            yield from leaves(value, names, f"{name}.")
-        else:
-            yield name, value
 
 
 def parameter_value(value, variable, model):
@@ -453,25 +357,6 @@ def read_simulation(where, section, model):
     return settings
 
 
-def positive(value, scales):
-    """SI value of a number or text, which must be greater than zero."""
-    number = to_si(value, scales)
-    if number <= 0.0:
-        raise UserError("must be greater than 0")
-    return number
-
-
-def seconds(key, value):
-    """A time [s] of zero or more from a number or a text with a unit; UserError naming the key."""
-    try:
-        time = to_si(value, SECONDS)
-        if time < 0.0:
-            raise UserError("must not be negative")
-        return time
-    except UserError as problem:
-        raise UserError(f"{key} = {reprlib.repr(value)}: {problem}") from None
-
-
 def select(patterns, model):
     """Names of the inputs and outputs that match the patterns (* stands for any text), in the order of the FMU."""
     if not isinstance(patterns, list) or not all(isinstance(pattern, str) for pattern in patterns):
@@ -489,71 +374,6 @@ def select(patterns, model):
 def default_outputs(model):
     """All inputs and outputs but the statistics, which are read once at the end."""
     return tuple(name for name in [*model.inputs, *model.outputs] if not name.startswith("stat."))
-
-
-def input_history(value, variable, model, folder):
-    """The History of an input from a constant, points or a column of a file."""
-    scales = model.units[variable.unit]
-    if not isinstance(value, dict):
-        history = History(np.zeros(1), np.array([to_si(value, scales)]))
-    elif "file" in value:
-        history = from_column(value, scales, folder)
-    else:
-        history = from_points(value, scales)
-    if len(history.t) != len(history.value) or not len(history.t):
-        raise UserError(f"as many times as values are needed, got {len(history.t)} and {len(history.value)}")
-    if not np.all(np.isfinite(history.t)) or not np.all(np.isfinite(history.value)):
-        raise UserError("not all times and values are finite numbers")
-    if not np.all(np.diff(history.t) > 0.0):
-        raise UserError("the times do not increase")
-    for extreme in (history.value.min(), history.value.max()):
-        model.check_range(extreme, variable, unit_of(value))
-    return history
-
-
-def from_points(value, scales):
-    """A History from { t = [...], value = [...] }."""
-    check_entries(value, HISTORY, ("t", "value"))
-    if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
-        raise UserError("t and value must be lists")
-    factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
-    si = [
-        to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor
-        for entry in value["value"]
-    ]
-    return History(np.array([to_si(entry, SECONDS) for entry in value["t"]]), np.array(si), is_hold(value))
-
-
-def from_column(value, scales, folder):
-    """A History from { file = "...", column = "..." }: a table with times in s or in the unit of their head."""
-    check_entries(value, COLUMN, ("file", "column"))
-    gap = seconds("longest_gap", value["longest_gap"]) if "longest_gap" in value else None
-    t, values = tables.Table(folder / value["file"]).series(
-        tables.Wanted(value.get("time", "time"), SECONDS),
-        tables.Wanted(value["column"], scales, value.get("unit", "")),
-        gap=gap,
-    )
-    return History(t, values, is_hold(value))
-
-
-def check_entries(value, allowed, needed):
-    """Keys of an input's table: none unknown, none missing, texts where only t and value hold numbers."""
-    for key, entry in value.items():
-        if key not in allowed:
-            raise UserError(f'unknown key "{key}"; allowed: {shortlist(allowed)}')
-        if key not in ("t", "value", "longest_gap") and not isinstance(entry, str):
-            raise UserError(f"{key} = {reprlib.repr(entry)}: not a text")
-    for key in needed:
-        if key not in value:
-            raise UserError(f'"{key}" is missing; allowed: {shortlist(allowed)}')
-
-
-def is_hold(value):
-    """Whether an input's table asks for steps instead of straight lines."""
-    kind = value.get("interpolation", "linear")
-    if kind not in ("linear", "hold"):
-        raise UserError(f'interpolation "{kind}"; allowed: linear, hold')
-    return kind == "hold"
 
 
 def check_times(scene, where):

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import jinja2
 
-from ..running.results import write_atomically
+from ..base.files import write_atomically
 
 PARTS = Path(__file__).parents[1] / "data" / "report"
 

@@ -9,14 +9,15 @@ import numpy as np
 from bearing_model.generated import variables
 
 from ..base.errors import UserError
+from ..base.files import write_atomically
 from ..base.units import hours_text
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
-from ..design.bench import display_of
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
-from ..running.results import FORMATS, read_result, write_atomically
+from ..running.responses import display_of
+from ..running.results import FORMATS, read_result
 from ..running.summary import (
     DEG,
     accelerated,

@@ -22,10 +22,11 @@ from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram,
 from scipy.signal.windows import hann
 
 from ..base.errors import UserError, unknown
+from ..base.files import write_atomically
 from ..running.effects import without_effect
 from ..running.fmu import Model
-from ..running.results import write_atomically
-from ..running.scene import ALWAYS, History, Scene
+from ..running.inputs import History
+from ..running.scene import ALWAYS, Scene
 from ..running.summary import settled
 from .animation import number_of_balls
 

@@ -22,10 +22,10 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.errors import UserError, unknown
-from ..running.scene import read_toml, section_of
+from ..base.toml_files import read_toml, section_of
 from ..running.summary import settled
 from ..show.spectrum import kinematic_frequencies, speed_of
-from .sweep import plan_sweep
+from .sweep_file import plan_sweep
 
 SECTION = ("channels",)
 CHANNELS = ("housing.a_y",)

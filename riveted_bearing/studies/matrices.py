@@ -18,11 +18,12 @@ from fmpy.fmi1 import FMICallException
 from bearing_model.quasi_static import quasi_static
 
 from ..base.errors import UserError
-from ..bearing.bearing_file import case_at
+from ..base.files import write_atomically
 from ..running.effects import acts, all_figures, without_effect
 from ..running.fmu import Instance
-from ..running.results import write_atomically
-from ..running.scene import History, own_names
+from ..running.inputs import History
+from ..running.scene import own_names
+from ..running.scene_case import case_at
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")

@@ -32,42 +32,26 @@ file whole or not at all; a second call does only runs that are missing or faile
 
 import contextlib
 import hashlib
-import itertools
 import json
 import math
 import time
-import uuid
 from concurrent.futures import CancelledError
-from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
-from filelock import FileLock, Timeout
 
-from ..base.errors import UserError, is_file, unknown
-from ..base.file_kinds import check_keys
-from ..base.interrupts import held_interrupts, ignored_interrupts, kept_from_children
-from ..base.units import SECONDS, to_si
+from ..base.errors import UserError
+from ..base.files import KEY, write_atomically
+from ..base.interrupts import ignored_interrupts, kept_from_children
 from ..base.version import __version__
 from ..running.basis import basis
 from ..running.fmu import Model
-from ..running.results import KEY, make_folder, one_line, read_table, write_atomically, write_table
 from ..running.runner import closing_names, simulate
-from ..running.scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from ..running.summary import has_statistics, settled
+from .rows import RowStore, alone_in, columns_of, compact
+from .sweep_file import ROW_VERSION
 
-SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
-SAMPLE = ("method", "count", "seed", "between")
-RANGE = ("from", "to", "count", "spacing")
-SETTINGS = {
-    "simulation.t_end": SECONDS,
-    "simulation.step": SECONDS,
-    "simulation.output_interval": SECONDS,
-    "simulation.tolerance": {"1": (1.0, 0.0)},
-}
-SAMPLED = ("cage.dislocation", "rivet[*].sigma_head", "rivet[*].sigma_mid")  # unless simulation.outputs names others
-WORDS = ("description", "source", "replaced", "units", "oil")  # of a scene: no other run
 KINDS = {
     "mean": np.mean,
     "rms": lambda x: np.sqrt(np.mean(x**2)),
@@ -76,227 +60,6 @@ KINDS = {
     "p001": lambda x: np.quantile(x, 0.001),
     "p999": lambda x: np.quantile(x, 0.999),
 }
-ROW_VERSION = 2
-MOST_RUNS = 1_000_000  # of a design, all of which is in memory
-RUN_MEMORY = 7e3  # of a run in a design [B], measured
-RUN_PLANNING = 0.01  # time to read and check a run's scene [s], measured
-WRITING = 0.05  # of the time at most goes into files of rows
-ROWS = "runs.parquet"
-SUPERSEDED = "_superseded"  # readers of Parquet datasets pass over names that begin so
-
-
-@dataclass(frozen=True)
-class Sweep:
-    """A design of experiments checked against its Model: scenes by key, and the names that vary."""
-
-    name: str
-    description: str
-    model: Model
-    fmu: bytes = field(repr=False)  # content of the file when the design was made
-    document: dict
-    factors: tuple
-    scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
-    # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
-    further: tuple = ()
-    grows: bool = False  # whether further runs may join the design: rows that do not belong to it are kept
-
-
-def load_sweep(path, model):
-    """Read a sweep's TOML file; raises UserError naming file, key, value and what is allowed."""
-    path = Path(path)
-    if not path.is_file():
-        raise UserError(f"{path}: no such sweep file")
-    return plan_sweep(path.stem, read_toml(path), model, path)
-
-
-def plan_sweep(name, document, model, path):
-    """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it
-    names.
-    """
-    check_keys(path, document, SECTIONS, "sweep")
-    axes = [
-        *vary_axes(path, document.get("vary", []), model),
-        *sample_axes(path, section_of(path, document, "sample"), model),
-    ]
-    if "repeats" in document:
-        axes.insert(0, [{"start.seed": seed} for seed in range(1, points_of(path, "repeats", document["repeats"]) + 1)])
-    limit_runs(path, "design", math.prod(len(axis) for axis in axes))
-    factors = tuple(name for axis in axes for name in axis[0])
-    if twice := {name for name in factors if factors.count(name) > 1}:
-        raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
-    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
-    common["simulation"] = {"outputs": list(SAMPLED)} | common["simulation"]
-    fmu = model.path.read_bytes()
-    fingerprint = hashlib.sha256(fmu).hexdigest()
-    scenes = {}
-    for point in itertools.product(*axes):
-        settings = {name: value for part in point for name, value in part.items()}
-        source = settings.pop("scene", document.get("scene"))
-        scene = load_scene(beside(path, source), model, (str(path), common), (str(path), sections_of(settings, model)))
-        key = key_of(scene, fingerprint)
-        if key in scenes:
-            raise UserError(f"{path}: the same run occurs twice: {settings}")
-        scenes[key] = scene
-    return Sweep(name, str(document.get("description", "")), model, fmu, document, factors, scenes)
-
-
-def vary_axes(path, blocks, model):
-    """The axes of [[vary]]: for each block a list of points, {name: value as in a scene file}."""
-    if not isinstance(blocks, list) or not all(isinstance(block, dict) and block for block in blocks):
-        raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
-    return [vary_axis(path, block, model) for block in blocks]
-
-
-def vary_axis(path, block, model):
-    """One axis: the entries of its names go together."""
-    values = {name: values_of(path, name, value, model) for name, value in leaves(block, known_names(model))}
-    lengths = {name: len(value) for name, value in values.items()}
-    if len(set(lengths.values())) != 1:
-        raise UserError(f"{path}: vary: entries of one block go together, but their numbers differ: {lengths}")
-    return [dict(zip(values, point, strict=True)) for point in zip(*values.values(), strict=True)]
-
-
-def known_names(model):
-    """Names of everything that can vary."""
-    return ["scene", *(f"simulation.{key}" for key in SIMULATION), *model.parameters, *model.inputs]
-
-
-def values_of(path, name, value, model):
-    """The values of a factor from a list or a range."""
-    if name not in known_names(model):
-        raise unknown(path, "parameter, input or setting", name, known_names(model))
-    if isinstance(value, list) and value:
-        return value
-    if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
-        raise refusal(
-            path,
-            f"vary.{name}",
-            value,
-            'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed',
-        )
-    low, high, count = (
-        *bounds(path, name, (value["from"], value["to"]), model),
-        points_of(path, f"vary.{name}.count", value["count"]),
-    )
-    spacing = value.get("spacing", "linear")
-    if spacing not in ("linear", "log"):
-        raise refusal(path, f"vary.{name}.spacing", spacing, "allowed: linear, log")
-    if spacing == "log" and low * high <= 0.0:
-        raise refusal(path, f"vary.{name}", value, "a logarithmic range needs two ends of one sign, not 0")
-    return (np.linspace if spacing == "linear" else np.geomspace)(low, high, count).tolist()
-
-
-def bounds(path, name, pair, model):
-    """Two SI values of a Real parameter, an input or a setting of [simulation]."""
-    variable = (model.parameters | model.inputs).get(name)
-    if name in SETTINGS:
-        scales = SETTINGS[name]
-    elif variable is not None and variable.type == "Real":
-        scales = model.units[variable.unit]
-    else:
-        raise refusal(path, name, list(pair), "only real numbers have ranges: list the values instead")
-    try:
-        return tuple(to_si(value, scales) for value in pair)
-    except UserError as problem:
-        raise refusal(path, name, list(pair), problem) from None
-
-
-def count_of(path, name, value):
-    """A whole number of at least 1."""
-    if isinstance(value, bool) or not isinstance(value, int) or value < 1:
-        raise refusal(path, name, value, "a whole number from 1 on is needed")
-    return value
-
-
-def points_of(path, name, value):
-    """A number of points of a design, checked before there is memory for them."""
-    limit_runs(path, f"{name} = {value}", count_of(path, name, value))
-    return value
-
-
-def limit_runs(path, what, runs):
-    """UserError if a design has more runs than its memory is meant for."""
-    if runs > MOST_RUNS:
-        memory, hours = 1e-9 * RUN_MEMORY * runs, RUN_PLANNING * runs / 3600.0
-        raise UserError(
-            f"{path}: {what}: {runs:,} runs would take {memory:,.0f} GB of memory and {hours:,.0f} h before the first one; at most {MOST_RUNS:,} are allowed"
-        )
-
-
-def sample_axes(path, section, model):
-    """The axis of [sample], if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box
-    `between`.
-    """
-    if not section:
-        return []
-    from scipy.stats import qmc
-
-    for key in section:
-        if key not in SAMPLE:
-            raise unknown(path, "key", f"sample.{key}", [f"sample.{name}" for name in SAMPLE])
-    box = dict(leaves(section_of(f"{path}: sample", section, "between"), known_names(model)))
-    if not box:
-        raise UserError(
-            f"{path}: sample.between: name at least one parameter or input with its lowest and highest value"
-        )
-    for name, pair in box.items():
-        if name not in known_names(model):
-            raise unknown(path, "parameter or input", name, known_names(model))
-        if not isinstance(pair, list) or len(pair) != 2:
-            raise refusal(path, f"sample.between.{name}", pair, "[lowest, highest] is needed")
-    low, high = np.array([bounds(path, name, pair, model) for name, pair in box.items()]).T
-    if not np.all(low < high):
-        raise refusal(path, "sample.between", section["between"], "each lowest value must be below its highest")
-    methods = {"latin_hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}
-    method, seed = section.get("method"), section.get("seed", 0)
-    if not isinstance(method, str) or method not in methods:
-        raise refusal(path, "sample.method", method, f"allowed: {', '.join(methods)}")
-    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-        raise refusal(path, "sample.seed", seed, "a whole number from 0 on is needed")
-    count = points_of(path, "sample.count", section.get("count"))
-    if method == "sobol" and count & (count - 1):
-        raise refusal(path, "sample.count", count, "a Sobol sequence is balanced only for powers of 2")
-    points = methods[method](d=len(box), seed=seed).random(count)
-    return [[dict(zip(box, point, strict=True)) for point in qmc.scale(points, low, high).tolist()]]
-
-
-def beside(path, source):
-    """A scene's name or file, looked for beside the sweep's file; None, the FMU's own parameters and inputs, stays
-    None.
-    """
-    if source is not None and not isinstance(source, str):
-        raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
-    if source is None or source in shipped_scenes() or Path(source).is_absolute():
-        return source
-    file = Path(path).parent / source
-    if not is_file(file):
-        if not file.suffix:
-            raise unknown(f"{path}: scene", "name", source, shipped_scenes())
-        raise UserError(f"{path}: scene: {file}: no such scene file")
-    return file
-
-
-def sections_of(settings, model):
-    """A point of the design as a document like a scene file's."""
-    document = {"simulation": {}, "parameters": {}, "inputs": {}}
-    for name, value in settings.items():
-        if name.startswith("simulation."):
-            document["simulation"][name.removeprefix("simulation.")] = value
-        else:
-            document["inputs" if name in model.inputs else "parameters"][name] = value
-    return document
-
-
-def key_of(scene, fingerprint):
-    """Key of a run: a digest of the FMU's content and of everything in the scene."""
-    content = {name: value for name, value in vars(scene).items() if name not in WORDS} | {
-        "inputs": {
-            name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()
-        },
-        "fmu": fingerprint,
-        "row": ROW_VERSION,
-    }
-    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:24]
 
 
 # What a worker does ---------------------------------------------------------------------------------------------------
@@ -397,19 +160,6 @@ def run_sweep(sweep, folder, client, progress=None, keys=None):
     folder = Path(folder)
     with alone_in(folder):
         return run_missing(sweep, folder, client, progress or (lambda *_: None), keys)
-
-
-@contextlib.contextmanager
-def alone_in(folder):
-    """No second sweep writes to the folder meanwhile; UserError if one does already."""
-    make_folder(folder)
-    try:
-        with FileLock(folder / ".lock", timeout=0):
-            yield
-    except Timeout:
-        raise UserError(
-            f"{folder}: another sweep is writing to this folder: wait until it has ended, or name another folder with --out"
-        ) from None
 
 
 def run_missing(sweep, folder, client, progress, keys):
@@ -523,102 +273,3 @@ def schema_of(sweep):
         "version": __version__,
     }
     return pa.schema(fields, metadata={KEY: json.dumps(about)})
-
-
-class RowStore:
-    """Writes rows as they arrive: one file a row, or several rows a file where single ones would take more than WRITING
-    of the time.
-
-    A process that is killed loses the rows of the last moments, twenty times as long as a file takes: those runs are
-    done again.
-    """
-
-    def __init__(self, folder, schema, clock=time.monotonic):
-        self.folder, self.schema, self.clock, self.rows, self.due = folder, schema, clock, [], 0.0
-
-    def add(self, row):
-        """Take a row, which an interrupt leaves in a file; KeyboardInterrupt once it is there."""
-        self.rows.append(row)
-        if self.clock() < self.due:
-            return
-        with held_interrupts() as interrupts:
-            self.write()
-        if interrupts.pending:
-            raise KeyboardInterrupt
-
-    def write(self):
-        """Write what has been taken."""
-        if self.rows:
-            begin = self.clock()
-            write_rows(self.folder / f"run-{self.rows[0]['key']}.parquet", self.rows, self.schema)
-            end = self.clock()
-            self.rows, self.due = [], end + (end - begin) / WRITING
-
-
-def write_rows(path, rows, schema):
-    """Write rows as a Parquet file, whole or not at all; columns without a value are null."""
-    import pyarrow as pa
-
-    table = pa.Table.from_pylist(rows, schema=schema)
-    write_atomically(path, lambda temporary: write_table(table, temporary))
-
-
-def read_rows(path):
-    """The Arrow table of a file of rows; UserError if it is damaged or something else."""
-    try:
-        table = read_table(path)
-        if KEY.encode() not in (table.schema.metadata or {}) or not {"key", "status", "run"} <= set(table.column_names):
-            raise ValueError("no table of runs")
-        return table
-    except Exception as problem:  # pyarrow has many
-        raise UserError(
-            f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; without this file its runs are done again"
-        ) from None
-
-
-def compact(folder, schema, keys, grows=False):
-    """Put all rows into one file, in the order of the design and each run once; returns the keys of the runs that are
-    done.
-
-    If the design or the FMU has changed, the rows that no longer belong to the design go to a folder that readers pass
-    over, or behind the others if the design grows.  The new file is written before the old ones are removed; a process
-    that is killed in between leaves rows twice, until the next call.
-    """
-    import pyarrow as pa
-
-    whole = folder / ROWS
-    # what an earlier call has put together, then what came after
-    files = sorted(folder.glob("[!._]*.parquet"), key=lambda path: (path != whole, path))
-    if not files:
-        return set()
-    table = pa.concat_tables([schema.empty_table(), *(read_rows(path) for path in files)], promote_options="default")
-    facts = zip(*(table[name].to_pylist() for name in ("key", "status")), strict=True)
-    # whatever the clocks say
-    latest = {key: i for _, i, key in sorted((status == "done", i, key) for i, (key, status) in enumerate(facts))}
-    if grows:
-        keys = list(dict.fromkeys([*keys, *latest]))
-    wanted = set(keys)
-    if foreign := [i for key, i in latest.items() if key not in wanted]:
-        path = folder / SUPERSEDED / f"{datetime.now(UTC):%Y%m%d-%H%M%S}-{uuid.uuid4().hex[:8]}.parquet"
-        write_atomically(path, lambda temporary: write_table(table.take(foreign), temporary))
-    places = {key: place for place, key in enumerate(keys) if key in latest}
-    kept = table.take(pa.array([latest[key] for key in places], pa.int64())).select(schema.names).cast(schema)
-    kept = kept.set_column(
-        schema.get_field_index("run"), schema.field("run"), pa.array(list(places.values()), pa.int64())
-    )
-    write_atomically(whole, lambda temporary: write_table(kept.replace_schema_metadata(schema.metadata), temporary))
-    for path in files:
-        if path != whole:
-            path.unlink()
-    return {
-        key for key, status in zip(kept["key"].to_pylist(), kept["status"].to_pylist(), strict=True) if status == "done"
-    }
-
-
-def columns_of(folder):
-    """The rows of a sweep's folder by column name, as numpy arrays; raises UserError if there are none."""
-    path = Path(folder) / ROWS
-    if not path.is_file():
-        raise UserError(f"{path}: no such sweep result")
-    table = read_rows(path)
-    return {name: table[name].to_numpy() for name in table.column_names}

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import stats
 
+from ..base.files import write_atomically
 from ..base.units import suffix
 from ..running.basis import basis
-from ..running.results import write_atomically
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt

@@ -1,0 +1,159 @@
+"""Values of a bearing file: units, limits and words of each."""
+
+import math
+
+from bearing_model.generated import variables
+
+from ..base.errors import UserError, refusal, unknown
+from ..base.toml_files import positive
+from ..base.units import scales_of, suffix, symbol_of, to_si
+
+LARGEST_RIVET = 1.0  # m
+BOUNDARY = ("bore", "outside_diameter", "width")
+CATALOGUE = (*BOUNDARY, "C", "C_0")
+OF_MAKERS = ("C_u", "minimum_load")  # further forces of a catalogue, by rule where they are missing
+
+
+def defaults():
+    """Start values of the variable table, by item name where they belong to an enumeration."""
+    return {
+        name: named(variable, variable.start) for name, variable in (variables.PARAMETERS | variables.INPUTS).items()
+    }
+
+
+def shown(name, value, written, words=""):
+    """A value in the unit in which the user wrote it, SI for a bare number, else in the one in which people read it; a
+    bound is rounded to the allowed side.
+    """
+    if name == "Z":
+        return f"{value}"
+    unit = unit_of(name)
+    symbol = (
+        (symbol_of(written) or unit) if written is not None else [*variables.UNITS[unit], *variables.UNITS[unit]][1]
+    )
+    factor, offset = unit_scales(unit).get(symbol, (1.0, 0.0))
+    number = factor * value + offset
+    if words:
+        digits = 3 - math.floor(math.log10(abs(number) or 1.0))
+        number = (math.floor if words == "at most" else math.ceil)(
+            number * 10.0**digits + (1e-9 if words == "at most" else -1e-9)
+        ) / 10.0**digits
+    return f"{number:.4g}{suffix(symbol)}"
+
+
+def unit_of(name):
+    """SI unit of a parameter, a rivet's dimension or a catalogue value."""
+    if name in variables.PARAMETERS:
+        return variables.PARAMETERS[name].unit
+    group, _, key = name.partition(".")
+    if group == "rivet":
+        return rivet_unit(key)
+    return "m" if key in BOUNDARY else "N"
+
+
+def rivet_unit(key):
+    """SI unit of a dimension or material constant of the rivet."""
+    if key.startswith(("E_", "yield_", "hardening_")):
+        return "Pa"
+    # alpha: 1/K, without a symbol of its own
+    return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")
+
+
+def rivet_values(path, section, where):
+    """Dimensions of a rivet in SI, each checked; where: in front of the key in messages."""
+    for key, value in section.items():
+        try:
+            number, unit = positive(value, unit_scales(rivet_unit(key))), rivet_unit(key)
+            if unit == "m" and number > LARGEST_RIVET:
+                raise UserError(f"at most {LARGEST_RIVET:g} m is allowed")
+            yield key, number
+        except UserError as problem:
+            raise refusal(path, f"{where}{key}", value, problem) from None
+
+
+def catalogue_values(path, section):
+    """Keys and SI values of the catalogue's data, each checked."""
+    for key, value in section.items():
+        if key not in (*CATALOGUE, *OF_MAKERS):
+            raise unknown(path, "catalogue key", key, (*CATALOGUE, *OF_MAKERS, "clearance"))
+        try:
+            yield key, positive(value, unit_scales("m" if key in BOUNDARY else "N"))
+        except UserError as problem:
+            raise refusal(path, f"catalogue.{key}", value, problem) from None
+
+
+def unit_scales(unit):
+    """Symbols that a text may carry for an SI unit, with their (factor, offset)."""
+    return scales_of(unit, variables.UNITS[unit])
+
+
+def start_values(path, section, tree, known):
+    """Full names and values of one section of a bearing file, each checked."""
+    for name, value in flat(tree):
+        if (
+            name not in known
+            and (
+                other := "inputs"
+                if name in variables.INPUTS
+                else "parameters"
+                if name in variables.PARAMETERS
+                else section
+            )
+            != section
+        ):
+            raise UserError(f"{path}: {section}.{name}: does not belong into [{section}] but into [{other}]")
+        if name not in known:
+            raise unknown(path, section.removesuffix("s"), name, known)
+        variable = known[name]
+        items = (
+            []
+            if variable.type in ("Real", "Integer")
+            else [item.name.lower() for item in getattr(variables, variable.type)]
+        )
+        if items and value not in items:
+            raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
+        written = value
+        try:
+            value = to_si(value, unit_scales(variable.unit)) if isinstance(value, str) and not items else value
+        except UserError as problem:
+            raise refusal(path, f"{section}.{name}", value, problem) from None
+        low, high = (
+            (-math.inf if variable.min is None else variable.min),
+            (math.inf if variable.max is None else variable.max),
+        )
+        whole = variable.type == "Integer"
+        if not items and not (is_number(value) and low <= value <= high and (isinstance(value, int) or not whole)):
+            what, text = ("an integer", "") if whole else ("a number", ", or a text with its unit")
+            raise refusal(
+                path,
+                f"{section}.{name}",
+                written,
+                f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}",
+            )
+        yield name, value
+
+
+def span(low, high, unit, symbol):
+    """The limits of a value in the unit that the user wrote, else in SI."""
+    symbol = symbol or unit
+    factor, offset = unit_scales(unit)[symbol]
+    return f"{factor * low + offset:.4g} ... {factor * high + offset:.4g}{suffix(symbol)}"
+
+
+def named(variable, value):
+    """A value, by item name if it belongs to an enumeration."""
+    return value if variable.type in ("Real", "Integer") else getattr(variables, variable.type)(value).name.lower()
+
+
+def is_number(value):
+    """Whether a TOML value is a finite number."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+def flat(tree, prefix=""):
+    """Full names and values of nested tables."""
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from flat(value, f"{prefix}{key}.")
+        else:
+            yield f"{prefix}{key}", value

@@ -1,0 +1,125 @@
+"""Runs that a mission needs, and the points that are interpolated between them."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from ..base.errors import UserError
+from ..running.scene import Scene
+from ..studies.sweep_file import key_of
+
+PRELOAD = "joint.preload"
+
+
+@dataclass(frozen=True)
+class Case:
+    """What is simulated with several seeds: part number i with the factor of preload at hour number j."""
+
+    part: int
+    scene: Scene = field(repr=False)
+
+
+def cases_of(path, parts, factors, model):
+    """The Cases of all parts at all factors of preload, equal ones once, and the blends of Duty."""
+    simulated = [i for i, part in enumerate(parts) if part.scene is not None]
+    mixtures = {i: mixture(path, parts, i, simulated) for i, part in enumerate(parts) if part.scene is None}
+    cases, places = [], {}
+    for j, factor in enumerate(factors):
+        for i in simulated:
+            scene = loosened(parts[i].scene, factor * parts[i].factor, model)
+            key = (parts[i].event, key_of(scene, ""))
+            if key not in places:
+                places[key] = len(cases)
+                cases.append(Case(i, scene))
+            places[i, j, "at"] = places[key]
+    blends = np.zeros((len(factors), len(parts), len(cases)))
+    for j in range(len(factors)):
+        for i in range(len(parts)):
+            for source, share in mixtures.get(i, {i: 1.0}).items():
+                blends[j, i, places[source, j, "at"]] += share
+    return cases, blends
+
+
+def slopes_of(parts, blends):
+    """Duty.slopes: difference quotients between the neighbours of a class along each axis, times the spread of its
+    values; None without a record.
+    """
+    classes = {part.cell: i for i, part in enumerate(parts) if part.cell}
+    if not classes:
+        return None
+    axes = len(next(iter(classes)))
+    slopes = np.zeros((axes, *blends.shape))
+    for cell, i in classes.items():
+        for axis in range(axes):
+            line = sorted(
+                other for other in classes if other[:axis] + other[axis + 1 :] == cell[:axis] + cell[axis + 1 :]
+            )
+            place = line.index(cell)
+            low, high = classes[line[max(place - 1, 0)]], classes[line[min(place + 1, len(line) - 1)]]
+            if low != high:
+                apart = parts[high].means[axis] - parts[low].means[axis]
+                slopes[axis, :, i] = (blends[:, high] - blends[:, low]) * parts[i].spreads[axis] / apart
+    return slopes
+
+
+def loosened(scene, factor, model):
+    """The scene with its preload times the factor."""
+    if factor == 1.0:
+        return scene
+    preload = scene.parameters.get(PRELOAD, model.default(model.parameters[PRELOAD]))
+    return replace(scene, parameters=scene.parameters | {PRELOAD: factor * preload})
+
+
+def mixture(path, parts, i, simulated):
+    """Shares {part: weight} with which the logarithms of the rates of simulated points make that of point i: linear
+    between the points around it.
+
+    The points that count differ from point i in numbers alone; raises UserError if point i is not between them.
+    """
+    from scipy.spatial import Delaunay, QhullError
+
+    own = parts[i].values
+    comparable = [
+        q
+        for q in simulated
+        if not parts[q].event
+        and parts[q].values.keys() == own.keys()
+        and all(is_close_kind(parts[q].values[n], own[n]) for n in own)
+    ]
+    axes = [n for n in own if len({parts[q].values[n] for q in comparable} | {own[n]}) > 1]
+    outside = UserError(
+        f"{path}: point {parts[i].name}: interpolate: not between the simulated points ({', '.join(axes) or 'none like it'}): simulate it"
+    )
+    if not axes or len(comparable) <= len(axes):
+        raise outside
+    grid = np.array([[parts[q].values[n] for n in axes] for q in comparable])
+    low, width = grid.min(axis=0), np.ptp(grid, axis=0)
+    if not np.all(width > 0.0):
+        raise outside
+    grid, target = (grid - low) / width, (np.array([own[n] for n in axes]) - low) / width
+    if len(axes) == 1:
+        order = np.argsort(grid[:, 0])
+        place = np.searchsorted(grid[order, 0], target[0])
+        if not grid[order[0], 0] <= target[0] <= grid[order[-1], 0]:
+            raise outside
+        corners = order[[max(place - 1, 0), max(place, 1)]]
+        near, far = grid[corners, 0]
+        shares = np.array([far - target[0], target[0] - near]) / (far - near)
+    else:
+        try:
+            net = Delaunay(grid)
+        except QhullError:
+            raise outside from None
+        simplex = int(net.find_simplex(target))
+        if simplex < 0:
+            raise outside
+        corners = net.simplices[simplex]
+        shares = net.transform[simplex, :-1] @ (target - net.transform[simplex, -1])
+        shares = np.append(shares, 1.0 - shares.sum())
+    return {comparable[c]: float(share) for c, share in zip(corners, shares, strict=True) if share > 0.0}
+
+
+def is_close_kind(one, other):
+    """Whether two values may differ and yet be interpolated: numbers; texts and histories must be equal."""
+    numbers = all(isinstance(value, (int, float)) for value in (one, other))
+    return numbers or (one is not None and one == other)

@@ -1,0 +1,220 @@
+"""The figures that a sheet rests on, of a mission or of one run."""
+
+import functools
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bearing_model.instance.fatigue import fully_reversed
+
+from ..base.errors import UserError
+from ..bearing.strength import damage_of_matrix
+from ..running.rainflow import CHANNELS, cycle_damages, fatigue_law_at
+from ..running.runner import simulate
+from ..running.summary import breaks, columns, has_statistics, life_is_known, settled
+from .assess import part_duty, places, used_cases
+from .cycles import rainflow_columns, stored_cycles
+from .miner import lives
+from .page import ends_of, interval_text
+from .raceways import Raceways
+from .starts import started
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What a sheet judges.
+
+    life, low, high [h], None where nothing is known (untold: why not), with place and interval in words; scaled(x): shortest lives [h] of
+    heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
+    [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
+    one that decides; rivet: number of the one that fails first; raceways: their Raceways.
+    """
+
+    life: float | None
+    low: float | None
+    high: float | None
+    place: str
+    interval: str
+    scaled: object = field(repr=False)
+    amplitudes: tuple
+    knees: tuple
+    results: dict = field(repr=False)
+    worst: str
+    rivet: int
+    damage: tuple  # of each rivet in the worst part, at the worse of its places; by it `rivet` is the first to fail
+    untold: str = ""
+    raceways: Raceways = field(default_factory=Raceways, repr=False)
+
+
+def of_mission(life, runs, model, progress=lambda done, total: None):
+    """Evidence of a mission's Life and its Runs; simulates each point and event once more, with all outputs."""
+    mission, duty = life.mission, life.mission.duty
+    used = used_cases(duty, list(life.kept)).tolist()
+    share = dict(zip(life.kept, life.estimate.shares, strict=True))
+    worst = max(share, key=share.get)
+    results, rivet = {}, None
+    chosen = [(i, c) for i in life.kept if (c := first_case(mission, i)) in used]
+    for done, (i, c) in enumerate(chosen):
+        progress(done, len(chosen))
+        damage = np.array(damages_of(runs, c)).reshape(-1, runs.damages[runs.keys[c, 0]].size)
+        judged = damage
+        if mission.settings["rivets"] == "each":
+            judged = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
+        most = np.unravel_index(np.argmax(judged), damage.shape)
+        if i == worst or rivet is None:
+            rivet = int(most[1]) // 2 + 1
+            of_rivets = damage.mean(axis=0) if mission.settings["rivets"] == "each" else damage[most[0]]
+        scene = started(mission.cases[c].scene, model, mission.settings["seed"], int(most[0]))
+        results[mission.parts[i].name] = simulate(model, scene)
+    if mission.parts[worst].name not in results:  # interpolated: from the simulated part with the largest share
+        worst = max((i for i, _ in chosen), key=lambda i: share[i])
+    matrices = [runs.matrices[key] for key in runs.damages]
+    strength = next(iter(runs.strengths.values()), None)
+    laws = matrices[0][1]
+    found = life.estimate
+    return Evidence(
+        found.life,
+        life.low,
+        found.high,
+        life.place,
+        f"{100 * mission.settings['confidence']:g} %: {interval_text(*ends_of(life))}",
+        functools.cache(lambda x: scaled_lives(life, runs, used, x)),
+        largest_amplitudes((matrix, laws) for matrix, laws, _ in matrices),
+        knees_of(strength, laws),
+        results,
+        mission.parts[worst].name,
+        rivet,
+        worse_places(of_rivets),
+        raceways=mission.raceways(),
+    )
+
+
+def worse_places(damage):
+    """Damage of each rivet at the worse of head and middle, from [2 Z] in their order."""
+    return tuple(np.reshape(damage, (-1, 2)).max(axis=1).tolist())
+
+
+def first_case(mission, i):
+    """Number of the case that is part i itself at the start of the mission; None if it is interpolated."""
+    if mission.parts[i].scene is None:
+        return None
+    return int(np.flatnonzero(mission.duty.blends[0, i])[0])
+
+
+def damages_of(runs, c):
+    """Damages of the runs of a case that were asked for."""
+    keys = (runs.keys[c, s] for s in range(runs.mission.settings["max_seeds"]))
+    return [runs.damages[key] for key in keys if key in runs.damages]
+
+
+def scaled_lives(life, runs, used, x):
+    """Shortest lives [h] of head and middle with all stresses x times as large: cycles of the rainflow matrices, scaled
+    so that they give the counted damage at x = 1.
+    """
+    mission, means = life.mission, []
+    for c in used:
+        keys = [key for s in range(mission.settings["max_seeds"]) if (key := runs.keys[c, s]) in runs.damages]
+        means.append(
+            places(np.array([scaled_damage(runs, key, x) for key in keys]), mission.settings["rivets"]).mean(axis=0)
+        )
+    hours, _ = lives(part_duty(mission.duty, list(life.kept)), np.array(means))
+    return float(hours[0::2].min()), float(hours[1::2].min())
+
+
+def scaled_damage(runs, key, x):
+    """Damage of a run's rivets [Z, 2] at x times its stress."""
+    matrix, laws, own = runs.matrices[key]
+    strength = runs.strengths.get(laws[0])
+    plain, scaled = (damage_by(strength, laws, matrix, scale) for scale in (1.0, x))
+    counted = runs.damages[key].reshape(-1)
+    whole = counted.sum() / plain.sum() if plain.sum() > 0.0 else 0.0
+    factor = np.where(plain > 0.0, counted / np.where(plain > 0.0, plain, 1.0), whole)
+    return (scaled * factor).reshape(own.shape)
+
+
+def damage_by(strength, laws, matrix, scale):
+    """Miner's sum of each channel of a matrix at a scale of its stresses; strength: of [sn], None for the FMU's laws of
+    the channels.
+    """
+    channel, span, mean, count = matrix
+    span, mean = scale * span, scale * mean
+    if strength is not None:
+        return damage_of_matrix(strength, (channel, span, mean, count), len(laws))
+    damage = np.zeros(len(laws))
+    for law in dict.fromkeys(laws):
+        mine = np.isin(channel, [c for c, own in enumerate(laws) if own == law])
+        of_cycles = count[mine] * cycle_damages(law, span[mine], mean[mine])
+        damage += np.bincount(channel[mine], of_cycles, minlength=len(laws))
+    return damage
+
+
+def largest_amplitudes(pairs):
+    """Largest fully reversed amplitudes of heads and middles [Pa] in pairs (matrix, laws of the channels)."""
+    largest = [0.0, 0.0]
+    for (channel, span, mean, _), laws in pairs:
+        for place in (0, 1):
+            mine = channel % 2 == place
+            cycles = zip(span[mine].tolist(), mean[mine].tolist())
+            largest[place] = max(
+                largest[place], max((fully_reversed(laws[place], 0.5 * s, m) for s, m in cycles), default=0.0)
+            )
+    return tuple(largest)
+
+
+def knees_of(strength, laws):
+    """Lowest amplitudes at the knees of the S-N curves of heads and middles [Pa], None for a table."""
+    if strength is None:
+        return tuple(min(law.sigma_D for law in laws[place::2]) for place in (0, 1))
+    return (None if strength.table is not None else strength.factor * strength.law.sigma_D,) * 2
+
+
+def of_result(result, name, raceways):
+    """Evidence of one run that is taken to go on as it did, with its Raceways."""
+    if not has_statistics(result) or result.parameters.get("scene.stress") == "off":
+        raise UserError(f"{name}: no stress after start.settle: a summary needs a longer run, with stress")
+    if not columns(result, "rivet[", "].sigma_head"):
+        raise UserError(
+            f'{name}: rivet[1].sigma_head was not recorded: a summary needs it of each rivet (outputs = ["*"])'
+        )
+    rows = rainflow_columns(result)
+    matrix = stored_cycles({key: [column] for key, column in rows.items()}, 0)
+    Z = len(columns(result, "rivet[", "].sigma_head"))
+    laws = [fatigue_law_at(result.parameters, k, place) for k in range(1, Z + 1) for place in CHANNELS]
+    t = result.data["time"][settled(result)]
+    hours = (t[-1] - t[0]) / 3600.0
+
+    def scaled(x):
+        damage = damage_by(None, laws, matrix, x)
+        with np.errstate(divide="ignore"):
+            life = hours / damage
+        return float(life[0::2].min()), float(life[1::2].min())
+
+    damage = damage_by(None, laws, matrix, 1.0)
+    k, place = divmod(int(damage.argmax()), 2)
+    untold = why_no_life(result)
+    life = None if untold else min(scaled(1.0))
+    scene = result.about.get("scene") or "run"
+    return Evidence(
+        life,
+        None,
+        None,
+        f"rivet {k + 1}, {('head', 'middle')[place]}",
+        "of one run: more seeds or a mission give its interval",
+        scaled,
+        largest_amplitudes([(matrix, laws)]),
+        knees_of(None, laws),
+        {scene: result},
+        scene,
+        k + 1,
+        worse_places(damage),
+        untold,
+        raceways,
+    )
+
+
+def why_no_life(result):
+    """Why no life follows from a run that is taken to go on as it did; "" if one does."""
+    if broken := breaks(result):
+        k, place, t = broken[0]
+        return f"rivet {k} broke in the {place} at {1e3 * t:.4g} ms: loads before and after are not alike"
+    return "" if life_is_known(result) else "the rivets' stress rests on closed forms"
