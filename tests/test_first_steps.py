@@ -17,8 +17,7 @@ from bearing_model.generated.variables import ESSENTIALS
 from rivet_model.half_modes import default_count
 from riveted_bearing import __version__, run
 from riveted_bearing.base.variable_list import essentials, matching
-from riveted_bearing.cli import program
-from riveted_bearing.cli.terminal import FULL
+from riveted_bearing.cli.terminal import FULL, program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.results import Result
 from riveted_bearing.running.scene import load_scene

@@ -20,7 +20,6 @@ from scipy.stats import binom
 from riveted_bearing import UserError
 from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.identify.answer import write_answer, write_page
-from riveted_bearing.identify.claims import plan_claims
 from riveted_bearing.identify.fit import FRESH, identify, prediction
 from riveted_bearing.identify.measures import Measure, amplitude_between
 from riveted_bearing.identify.rig import Rig, figure_of
@@ -531,11 +530,10 @@ def test_repeats_of_the_synthetic_rig(tmp_path, model):
 def test_files_of_the_page_can_be_read(model, tmp_path):
     """The study of docs/identify.md, alone and with the series."""
     page = (ROOT / "docs" / "identify.md").read_text(encoding="utf-8")
-    study, added, paper = re.findall(r"```toml\n(.*?)```", page, re.S)
+    study, added = re.findall(r"```toml\n(.*?)```", page, re.S)
     (tmp_path / "rig.csv").write_text(csv_text(*noisy()))
     assert len(plan_identify(tmp_path / "rig.toml", tomllib.loads(study), model).targets) == 3
     assert len(plan_identify(tmp_path / "rig.toml", tomllib.loads(study + added), model).targets) == 8
-    assert plan_claims(tmp_path / "claims.toml", tomllib.loads(paper), model).settings["screens"] == 2000
 
 
 @pytest.mark.parametrize("name", ["heat.toml"])

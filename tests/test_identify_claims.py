@@ -1,5 +1,6 @@
 """The paper's claims as targets: which conditions the search sees, means of few runs, the stages, and what is refused."""
 
+import sys
 from types import SimpleNamespace
 
 import numpy as np
@@ -8,8 +9,15 @@ from library import ROOT
 
 from riveted_bearing import UserError
 from riveted_bearing.base.toml_files import read_toml
-from riveted_bearing.identify import claims
-from riveted_bearing.identify.claims import (
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import cluster
+
+sys.path.insert(0, str(ROOT / "benchmarks" / "paper"))
+
+import fit_claims as claims
+from claims import PICTURES
+from figures import Runs
+from fit_claims import (
     FEW,
     Bench,
     as_means,
@@ -24,10 +32,6 @@ from riveted_bearing.identify.claims import (
     write_claims,
     write_claims_page,
 )
-from riveted_bearing.paper_study.claims import PICTURES
-from riveted_bearing.paper_study.study import Runs
-from riveted_bearing.running.fmu import Model
-from riveted_bearing.studies.sweep import cluster
 
 DOCUMENT = {
     "scene": "paper",
@@ -56,7 +60,7 @@ def test_conditions_are_either_fitted_or_held_out(study):
 
 
 def test_example_can_be_read(model):
-    path = ROOT / "examples" / "identify" / "claims.toml"
+    path = ROOT / "benchmarks" / "paper" / "fit_claims.toml"
     found = plan_claims(path, read_toml(path), model)
     assert len(found.parameters) == 13 and (found.settings["screens"], found.settings["verified"]) == (2000, 20)
 

@@ -29,6 +29,22 @@ READERS = {
     )
 }
 
+# Of riveted_bearing, each of which imports only those before it.
+ROOMS = (
+    "base",
+    "bearing",
+    "running",
+    "building",
+    "show",
+    "studies",
+    "duty",
+    "design",
+    "identify",
+    "cli",
+    "riveted_bearing",
+    "__main__",
+)
+
 
 def name_of(path):
     """The module of a file: riveted_bearing/cli/run.py is riveted_bearing.cli.run."""
@@ -77,7 +93,7 @@ def test_all_modules_are_read():
     assert sum(package_of(target) in PACKAGES for targets in GRAPH.values() for target in targets) > 200
     assert ("rivet_model.reduction", "bearing_model.rivet.rivet_rom") in arrows("rivet_model", "bearing_model")
     assert "riveted_bearing.running.fmu" in GRAPH["riveted_bearing"], "an import inside a function"
-    assert "riveted_bearing.studies.sweep" in GRAPH["riveted_bearing.paper_study.study"], "a relative import"
+    assert "riveted_bearing.studies.rows" in GRAPH["riveted_bearing.studies.sweep"], "a relative import"
 
 
 @pytest.mark.parametrize(
@@ -118,6 +134,29 @@ def test_no_circle():
     between = {package: {to for to in PACKAGES if to != package and arrows(package, to)} for package in PACKAGES}
     assert circle(between) is None
     assert circle({"a": {"b"}, "b": {"c"}, "c": {"a"}}) is not None
+
+
+def room_of(module):
+    """Folder or file of riveted_bearing in which a module lies; "riveted_bearing" for the interface."""
+    return ".".join(module.split(".")[1:2]) or "riveted_bearing"
+
+
+def test_rooms_import_downwards():
+    """Each room imports those before it in ROOMS, and its first words say what lives there."""
+    between = {(room_of(name), room_of(target)) for name, target in arrows("riveted_bearing", "riveted_bearing")}
+    between = {(room, to) for room, to in between if room != to}
+    assert {room for pair in between for room in pair} <= {*ROOMS}
+    assert not [pair for pair in between if ROOMS.index(pair[0]) < ROOMS.index(pair[1])]
+    assert len(ROOMS) <= 15 and 30 < len(between) <= 65  # 44
+    for room in ROOMS[:-2]:
+        words = ast.get_docstring(ast.parse(FILES[f"riveted_bearing.{room}"].read_text(encoding="utf-8")))
+        assert words and ("import" in words or room == "cli"), room
+
+
+def test_no_file_is_long():
+    """A file is read in one go; 447 lines is the longest."""
+    long = {name: len(path.read_text(encoding="utf-8").splitlines()) for name, path in FILES.items()}
+    assert not {name: n for name, n in long.items() if package_of(name) == "riveted_bearing" and n > 450}
 
 
 def test_public_names_are_no_modules():

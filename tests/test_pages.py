@@ -1,7 +1,7 @@
 """The pages' English and length: words, sentences, lines.
 
 Words are those of `wc -w`.  Sentences are those of the running text and of list items: code blocks, tables, headings
-and pictures are left out, and a piece of inline code or a formula counts as one word.  `riveted-bearing study` writes
+and pictures are left out, and a piece of inline code or a formula counts as one word.  benchmarks/paper/study.py writes
 paper.md, fmus/generate.py writes parameters.md.
 """
 

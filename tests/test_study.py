@@ -4,6 +4,7 @@ here.
 
 import copy
 import re
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,12 +15,18 @@ from scipy.stats import binomtest
 from bearing_model.rivet import rivet_table
 from rivet_model import table
 from riveted_bearing import build, run
-from riveted_bearing.cli.study import FIGURES
-from riveted_bearing.paper_study import claims, paper, study
-from riveted_bearing.paper_study.study import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
+from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.studies.sweep import about_run, read_toml, run_sweep
+from riveted_bearing.studies.sweep import about_run, run_sweep
 from riveted_bearing.studies.sweep_file import plan_sweep
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "benchmarks" / "paper"))
+
+import claims
+import figures as study
+import paper_page as paper
+from figures import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
+from study import FIGURES
 
 
 @pytest.fixture(scope="module")
@@ -223,7 +230,7 @@ def test_the_page_in_docs_is_of_the_whole_study():
     page = Path(__file__).parents[1] / "docs" / "paper.md"
     runs = {name: Runs({"seed": np.arange(8)}) for name in study.shipped_studies()}
     judged = {"paper": {"mean": {"all": [None] * claims.number_of_claims()}}}
-    text = paper.introduction({"paper": runs}, judged, study.PICTURES, page.parent, "study --report docs")
+    text = paper.introduction({"paper": runs}, judged, study.PICTURES, page.parent, "study.py --report docs")
     assert page.read_text(encoding="utf-8").startswith(text)
 
 

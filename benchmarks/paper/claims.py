@@ -1,17 +1,16 @@
-"""The paper's claims against the runs of the study: the evaluation of data/claims.toml, which explains itself."""
+"""The paper's claims against the runs of the study: the evaluation of claims.toml, which explains itself."""
 
 import re
 import tomllib
 from dataclasses import dataclass
-from importlib.resources import files
 from itertools import product
+from pathlib import Path
 
 import numpy as np
+from figures import CLEARANCES, SCATTER, Estimate, Runs, clearance_series, estimate
 from scipy.stats import norm
 
-from .study import CLEARANCES, SCATTER, Estimate, Runs, clearance_series, estimate
-
-PICTURES = tomllib.loads((files("riveted_bearing") / "data" / "claims.toml").read_text(encoding="utf-8"))
+PICTURES = tomllib.loads(Path(__file__).with_name("claims.toml").read_text(encoding="utf-8"))
 NUMBERS = PICTURES.pop("numbers")
 MEASURES = {"mean": "", "p99.9": "_peak", "range": "_range"}  # measures of the stress: end of the columns' names
 LOOP = r" for (\$\w+) in ([^$]+?)(?= for \$|$)"

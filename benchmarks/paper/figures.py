@@ -1,6 +1,6 @@
 """The paper's study (Cui et al., Machines 2023, 11, 700, section 4): its figures again.
 
-Every figure is a sweep in riveted_bearing/data/studies, over at least eight seeds, in each of two scenes: `paper`, the
+Every figure is a sweep in studies/, over at least eight seeds, in each of two scenes: `paper`, the
 paper's equations as they read, and `physical`, with the physics that they leave out.  Curves are means over the seeds
 with the 95 % confidence interval of that mean (Student's t).  Stress is shown three ways, because the paper does not
 say which stress it means: the mean over time of the worst rivet, its 99.9 % quantile over every internal step, and the
@@ -9,7 +9,6 @@ difference), in which the preload has no share.
 """
 
 from dataclasses import dataclass, replace
-from importlib.resources import files
 from pathlib import Path
 
 import matplotlib
@@ -24,16 +23,15 @@ from scipy.stats import t as student
 from bearing_model.cage.common import joint_law
 from bearing_model.physics.derived import default_table
 from bearing_model.rivet import rivet_rom
+from riveted_bearing.base.errors import unknown
+from riveted_bearing.base.files import write_atomically
+from riveted_bearing.base.toml_files import leaves
+from riveted_bearing.running.summary import DEG, RPM
+from riveted_bearing.show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
+from riveted_bearing.studies.sweep import run_sweep
+from riveted_bearing.studies.sweep_file import load_sweep, plan_sweep
 
-from ..base.errors import unknown
-from ..base.files import write_atomically
-from ..base.toml_files import leaves
-from ..running.summary import DEG, RPM
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
-from ..studies.sweep import run_sweep
-from ..studies.sweep_file import load_sweep, plan_sweep
-
-SHIPPED = files("riveted_bearing") / "data" / "studies"
+SHIPPED = Path(__file__).parent / "studies"
 SCENES = {"paper": "the paper's equations", "physical": "centrifugal load, elastic halves"}
 BESIDE = ("tolerance", "fretting", "rings_speed", "rings_clearance")  # sweeps beside the figures: scene `paper` only
 T_S = 1.25  # strength of 90 % of the rivets over that of 10 %: machined steel (Haibach, Betriebsfestigkeit)

@@ -1,15 +1,12 @@
-"""docs/paper.md: the page about the paper's study, which `riveted-bearing study` makes from the runs."""
+"""docs/paper.md: the page about the paper's study, which study.py makes from the runs."""
 
 import re
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from scipy.stats import norm
-
-from ..base.files import write_atomically
-from .claims import MEASURES, all_claims, number_of_claims, numbers
-from .study import (
+from claims import MEASURES, all_claims, number_of_claims, numbers
+from figures import (
     BESIDE,
     CLEARANCES,
     LOADS,
@@ -22,10 +19,13 @@ from .study import (
     ratio,
     shipped_studies,
 )
+from scipy.stats import norm
+
+from riveted_bearing.base.files import write_atomically
 
 INTRODUCTION = """# The paper's study, again
 
-<!-- Written by `riveted-bearing {command}`: do not edit. -->
+<!-- Written by `python benchmarks/paper/{command}`: do not edit. -->
 {part}
 Cui et al., *Study on Fatigue Characteristics of Rivets in Bearing Cage for an Aeroengine Transmission System*, Machines 2023, 11, 700: {figures} with
 this model, and each claim of the paper's section 4 and of its conclusions, in two scenes.
@@ -38,7 +38,7 @@ this model, and each claim of the paper's section 4 and of its conclusions, in t
 The paper's clearances, conformities, oil, masses and friction are not published. {parameters} gives those of this model with their
 sources. Both scenes have one set of them for all figures, and none is fitted to the paper's results: a search over thirteen of them on Figs. 10, 11 and 13
 gained nothing on the other claims. Only Fig. 15 prescribes the ring's tilt, because the figure gives the angle. The sweeps are in
-`riveted_bearing/data/studies/`.
+`benchmarks/paper/studies/`.
 
 - Curves are means over seeds; bands and brackets are the 95 % confidence interval of the mean (Student's t). A seed sets the initial spacing of the balls,
   and impacts come at twelve phases, one for each seed. Where balls press on their pockets all the time all seeds end on one periodic motion: the band
@@ -62,9 +62,9 @@ SEEDS = 8  # of each point, from which on half of them have a verdict
 MARKS = {"reproduced": "●", "partly": "◐", "not": "○"}
 
 
-def write_paper(columns, folder, settings=(), command="study --report docs"):
+def write_paper(columns, folder, settings=(), command="study.py --report docs"):
     """Write paper.md and its pictures into a folder from the columns {column: {sweep: Runs}}; settings: of the column
-    `yours`, for the page; command: of the program, which the page names as its author.  Returns the file's path.
+    `yours`, for the page; command: of this folder, which the page names as its author.  Returns the file's path.
     """
     folder = Path(folder)
     judged = judge(columns)
@@ -184,7 +184,7 @@ def summary_text(judged):
         verdict_sentence(judged),
         "",
         "*Reproduced* (●) if all conditions of a claim hold with their confidence, *partly* (◐) if some do, *not* (○) if none does. The conditions stand "
-        'below beside the paper\'s sentences, and for the program in `riveted_bearing/data/claims.toml`. "Before" are the conditions of the first study, in '
+        'below beside the paper\'s sentences, and for the program in `benchmarks/paper/claims.toml`. "Before" are the conditions of the first study, in '
         "all measures together, on the same runs: some were stricter than the sentence, some more lenient.",
         "",
         "| column | stress | reproduced | partly | not |",

@@ -1,4 +1,7 @@
-"""riveted-bearing study: the paper's figures again."""
+"""The paper's figures again and its claims one by one: runs, pictures and docs/paper.md, which takes hours.
+
+python benchmarks/paper/study.py --report docs
+"""
 
 from pathlib import Path
 from typing import Annotated
@@ -6,8 +9,18 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from ..base.files import make_folder
-from .terminal import FMU, SCHEDULER, SETTINGS, WORKERS, changes, command, console, resumable, sweep_progress
+from riveted_bearing.base.files import make_folder
+from riveted_bearing.cli.terminal import (
+    FMU,
+    SCHEDULER,
+    SETTINGS,
+    WORKERS,
+    changes,
+    console,
+    guarded,
+    resumable,
+    sweep_progress,
+)
 
 FIGURES = {  # of the paper, by the sweep that makes them
     "preload": "Figs. 10, 11",
@@ -24,7 +37,7 @@ FIGURES = {  # of the paper, by the sweep that makes them
 SWEEPS = ", ".join(f"{name} ({figures})" for name, figures in FIGURES.items())
 
 
-@command
+@guarded
 def study(
     names: Annotated[
         list[str] | None, typer.Argument(help=f"sweeps of the study; default: all of {SWEEPS}", metavar="NAME")
@@ -44,10 +57,11 @@ def study(
     """The paper's figures again and its claims one by one, in the scenes `paper` and `physical`: runs, pictures and
     paper.md; a second call does only missing runs. With --set: scene `paper` beside the same with your parameters.
     """
-    from ..paper_study.paper import counted, write_paper
-    from ..paper_study.study import check_names, run_columns
-    from ..running.fmu import Model
-    from ..studies.sweep import cluster
+    from figures import check_names, run_columns
+    from paper_page import counted, write_paper
+
+    from riveted_bearing.running.fmu import Model
+    from riveted_bearing.studies.sweep import cluster
 
     model = Model(fmu)
     check_names(names or [])
@@ -63,6 +77,10 @@ def study(
 
 def command_line(names, seeds, settings, folder):
     """The command that writes a page into a folder."""
-    parts = ["study", *(names or []), *(f"--set {setting}" for setting in settings or [])]
+    parts = ["study.py", *(names or []), *(f"--set {setting}" for setting in settings or [])]
     parts += [f"--seeds {seeds}"] if seeds else []
     return " ".join([*parts, f"--report {folder.as_posix()}"])
+
+
+if __name__ == "__main__":
+    typer.run(study)

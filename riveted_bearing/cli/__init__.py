@@ -23,7 +23,6 @@ from . import (
     run,
     sensitivity,
     spectrum,
-    study,
     summary,
     sweep,
     variables,

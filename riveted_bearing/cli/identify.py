@@ -42,8 +42,6 @@ def identify(
     if not study.is_file():
         raise UserError(f"{study}: no such study file")
     model, document = Model(fmu), read_toml(study)
-    if "claims" in document:
-        return identify_paper(study, document, model, out or Path("results") / study.stem, scheduler, workers)
     plan = plan_identify(study, document, model)
     salib("identify")  # before there is a folder
     folder = out or Path("results") / study.stem
@@ -59,24 +57,6 @@ def identify(
         ("results", write_answer(found, basis, folder / "identify.json")),
         ("scene", write_scene(found, rig.scene_at(plan.names, values), folder / "identified.toml")),
         ("page", write_page(found, basis, folder / "identify.html")),
-    ):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
-
-
-def identify_paper(study, document, model, folder, scheduler, workers):
-    """The paper's claims as targets, in stages."""
-    from ..identify.claims import Bench, identify_claims, plan_claims, set_rows, write_claims, write_claims_page
-
-    plan = plan_claims(study, document, model)
-    make_folder(folder)
-    with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
-        found = identify_claims(plan, Bench(plan, model, folder, client, progress))
-    print_table(*set_rows(found))
-    for note in found.notes:
-        console.print(escape(note), soft_wrap=True)
-    for label, path in (
-        ("results", write_claims(found, folder / "claims.json")),
-        ("page", write_claims_page(found, folder / "claims.html")),
     ):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
 

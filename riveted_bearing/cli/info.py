@@ -53,7 +53,8 @@ def info(
     cleanliness: CLEANLINESS = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
-    from ..bearing.bearing_file import CAGE_MEANT, EXAMPLE
+    from ..bearing.bearing_file import CAGE_MEANT
+    from ..bearing.origin import EXAMPLE
     from ..bearing.plausible import doubts
     from ..duty.raceways import too_little_load
     from ..running.basis import basis

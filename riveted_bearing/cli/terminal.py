@@ -93,13 +93,13 @@ def main(
     """riveted-bearing: dynamics of a ball bearing with a two-piece riveted cage, as an FMU."""
 
 
-def command(function):
-    """Add a function to the program as a command; a UserError, and what the system refuses, becomes one line on stderr
-    and exit code 2, Ctrl-C one and 130.
+def guarded(function):
+    """The function of a command, whose UserError, and what the system refuses, becomes one line on stderr and exit code
+    2, Ctrl-C one and 130.
     """
 
     @functools.wraps(function)
-    def guarded(*arguments, **options):
+    def called(*arguments, **options):
         try:
             return function(*arguments, **options)
         except UserError as problem:
@@ -126,7 +126,12 @@ def command(function):
             messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}", soft_wrap=True)
             raise typer.Exit(BAD_INPUT) from None
 
-    return program.command()(guarded)
+    return called
+
+
+def command(function):
+    """Add a function to the program as a guarded command."""
+    return program.command()(guarded(function))
 
 
 @contextlib.contextmanager

@@ -1,5 +1,3 @@
-"""Parameters from measurements: which values of unknown parameters a test rig's figures decide, and which they do not.
-
-measures (statistics and spectral lines of a series), study (the file: points, targets, parameters), rig (the runs),
-surrogate (Gaussian processes), fit (screen, rounds, profiles, fresh seeds), answer (files, page), claims (the paper's).
+"""Parameters from measurements: which values of unknown parameters a rig's figures decide, and which they do not.  It
+imports design and what lies below it.
 """

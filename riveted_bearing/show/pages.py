@@ -10,7 +10,7 @@ PARTS = Path(__file__).parents[1] / "data" / "report"
 
 
 def page_text(template, style="style.css", **values):
-    """A page as text; template and style: files of data/report.
+    """A page as text; template: a file of data/report or the path of another one; style: a file of data/report.
 
     Raises
     ------
@@ -18,13 +18,15 @@ def page_text(template, style="style.css", **values):
         The template names a value that is not given.
     """
     environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(PARTS),
+        loader=jinja2.FileSystemLoader([PARTS, Path(template).parent]),
         autoescape=True,
         trim_blocks=True,
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    return environment.get_template(template).render(style=(PARTS / style).read_text(encoding="utf-8"), **values)
+    return environment.get_template(Path(template).name).render(
+        style=(PARTS / style).read_text(encoding="utf-8"), **values
+    )
 
 
 def save_page(path, template, **values):

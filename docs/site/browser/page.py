@@ -14,7 +14,7 @@ import jinja2
 from bearing_model.generated import variables
 from riveted_bearing.building.builder import find_zig
 from riveted_bearing.show.animation import exaggeration
-from riveted_bearing.show.report import PARTS
+from riveted_bearing.show.pages import PARTS
 
 HERE = Path(__file__).resolve().parent
 LICENCES = ("LICENSE", "THIRD_PARTY_NOTICES.md")  # of the repository
