@@ -21,14 +21,13 @@ from bearing_model.rivet.rivet_table import DEFAULT_TABLE
 from rivet_model import closed_form, table
 from rivet_model.geometry import Geometry
 from riveted_bearing import Result, UserError, read_result, run, write_result
-from riveted_bearing.base.files import write_atomically
+from riveted_bearing.base.files import FORMATS, write_atomically
 from riveted_bearing.base.toml_files import to_toml
 from riveted_bearing.bearing.bearing_file import KEYS, bearing_case
 from riveted_bearing.bearing.designations import find_bearing, shipped_bearings
 from riveted_bearing.bearing.file_values import flat
 from riveted_bearing.building.builder import start_document
 from riveted_bearing.running.fmu import Instance, Model
-from riveted_bearing.running.results import FORMATS
 from riveted_bearing.running.scene import SECTIONS
 from riveted_bearing.running.scene_case import is_bearing
 from riveted_bearing.running.summary import rivet_rows, summary_rows, table_note

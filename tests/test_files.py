@@ -19,8 +19,8 @@ import psutil
 import pytest
 
 from riveted_bearing import Result, UserError, read_result, run, write_result
+from riveted_bearing.base.files import FORMATS
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.running.results import FORMATS
 from riveted_bearing.show import report
 from riveted_bearing.show.animation import needed, number_of_balls
 from riveted_bearing.show.report import render

@@ -8,8 +8,8 @@ from typer.testing import CliRunner
 
 from bearing_model.generated import variables
 from riveted_bearing.bearing.bearing_file import bearing_case
-from riveted_bearing.cli.info import cells, without_effect
 from riveted_bearing.cli import program
+from riveted_bearing.cli.info_tables import cells, without_effect
 from riveted_bearing.show.spectrum import expected_lines
 
 ACTS = dict.fromkeys(("housing.x", "housing.y", "housing.z"), 1e-05)

@@ -15,6 +15,7 @@ from bearing_model.physics.parameters import Parameters
 from rivet_model import half, half_loads, half_modes, half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, build, run
+from riveted_bearing.base.shipped import shipped_scenes
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.materials import PARTS, library, names_for
 from riveted_bearing.bearing.origin import not_given
@@ -23,7 +24,7 @@ from riveted_bearing.building.builder import case_with, check_material, fmu_desc
 from riveted_bearing.building.rivet import read_table, table_of
 from riveted_bearing.running.fmu import Instance, Model
 from riveted_bearing.running.inputs import History
-from riveted_bearing.running.scene import Scene, load_scene, shipped_scenes, warm
+from riveted_bearing.running.scene import Scene, load_scene, warm
 
 
 def case_of(tmp_path, text, name="mine.toml"):

@@ -28,8 +28,8 @@ from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.designations import known_bearings
 from riveted_bearing.bearing.oil import viscosity
 from riveted_bearing.bearing.plausible import doubts
-from riveted_bearing.cli.info import geometry, oil
 from riveted_bearing.cli import program
+from riveted_bearing.cli.info_tables import geometry, oil
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.design.cascade import default_document
 from riveted_bearing.duty.mission import plan_mission

@@ -20,8 +20,8 @@ from bearing_model.load_ratings import (
 )
 from riveted_bearing import UserError
 from riveted_bearing.bearing.bearing_file import bearing_case
-from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.cli import program
+from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, page, raceways, sheet
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.running.fmu import Model

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from .errors import UserError
 
-KEY = "riveted_bearing"
+KEY = "riveted_bearing"  # of the metadata in a Parquet file
+FORMATS = ("parquet", "csv", "mat")
 
 
 def one_line(problem):
@@ -69,3 +70,11 @@ def read_table(path):
     from pyarrow import parquet
 
     return parquet.read_table(path, page_checksum_verification=True, partitioning=None)
+
+
+def format_of(path):
+    """Format by suffix."""
+    kind = path.suffix.removeprefix(".")
+    if kind not in FORMATS:
+        raise UserError(f'{path}: unknown format "{kind}"; allowed: {", ".join(FORMATS)}')
+    return kind

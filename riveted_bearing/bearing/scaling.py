@@ -21,7 +21,6 @@ from rivet_model.geometry import Geometry
 
 from . import oil, ribbon
 
-PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
 BY_BALL = ("cage.guide_clearance",)
 BY_SHANK = ("joint.fit", "joint.swell")
@@ -126,7 +125,7 @@ def oil_by_points(given):
 
 def parts_temperatures(inputs):
     """Temperatures of rings, balls and cage by rule [K]: that of the oil."""
-    return dict.fromkeys(PARTS_TEMPERATURES, inputs.get("oil.T", variables.INPUTS["oil.T"].start))
+    return dict.fromkeys(oil.PARTS_TEMPERATURES, inputs.get("oil.T", variables.INPUTS["oil.T"].start))
 
 
 def shape_of(values, rivet):

@@ -1,32 +1,64 @@
-"""The command line, `riveted-bearing`: each command is a module, which adds the command to the program when it is
-imported.
+"""The command line, `riveted-bearing`: each command is a module of this folder, imported when it is called or shown.
 
-For a further command write its module here and add the module's name to the line below, whose order is that of the
-help.  What the command computes belongs into a module of riveted_bearing.  Slow imports (fmpy, matplotlib, SciPy) stand
-inside the command's function.
+For a further command write its module here and add the module's name to COMMANDS, whose order is that of the help.  What
+the command computes belongs into another room.  Slow imports (NumPy, fmpy, matplotlib, SciPy) stand inside the command's
+function, because the help imports all modules of this list.
 """
 
-from . import (
-    build,
-    cascade,
-    compare,
-    compare_designs,
-    cookbook,
-    dataset,
-    identify,
-    info,
-    life,
-    matrices,
-    optimize,
-    report,
-    rivet,
-    run,
-    sensitivity,
-    spectrum,
-    summary,
-    sweep,
-    variables,
-)
-from .terminal import program
+from importlib import import_module
 
-__all__ = ["program"]
+from typer.core import TyperGroup
+from typer.main import get_command_from_info
+
+from .terminal import main, program
+
+__all__ = ["COMMANDS", "program"]
+
+COMMANDS = (
+    "build",
+    "cascade",
+    "compare",
+    "compare_designs",
+    "cookbook",
+    "dataset",
+    "identify",
+    "info",
+    "life",
+    "matrices",
+    "optimize",
+    "report",
+    "rivet",
+    "run",
+    "sensitivity",
+    "spectrum",
+    "summary",
+    "sweep",
+    "variables",
+)
+
+
+class Commands(TyperGroup):
+    """The commands by name, each imported when it is asked for; a name that is none of them imports all, so that the
+    nearest one can be named.
+    """
+
+    def list_commands(self, ctx):
+        return [name.replace("_", "-") for name in COMMANDS]
+
+    def get_command(self, ctx, cmd_name):
+        known = self.list_commands(ctx)
+        for name in [cmd_name] if cmd_name in known else known:
+            if name not in self.commands:
+                self.commands[name] = self.loaded(name.replace("-", "_"))
+        return self.commands.get(cmd_name)
+
+    def loaded(self, module):
+        """The command that a module of this folder registers."""
+        import_module(f".{module}", __name__)
+        registered = {command.callback.__name__: command for command in program.registered_commands}
+        return get_command_from_info(
+            registered[module], pretty_exceptions_short=False, rich_markup_mode=self.rich_markup_mode
+        )
+
+
+program.callback(cls=Commands)(main)

@@ -8,7 +8,6 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from ..base.files import make_folder
-from ..running.scene import load_scene
 from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
 
 
@@ -40,6 +39,7 @@ def compare(
     from ..building.reference import folder_of, is_installed, run_again
     from ..running.basis import basis
     from ..running.fmu import Model
+    from ..running.scene import load_scene
     from ..show.plot import plot_comparison
 
     model = Model(fmu)

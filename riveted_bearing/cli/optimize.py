@@ -3,7 +3,6 @@
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 from rich.markup import escape
 from rich.table import Column, Table
@@ -67,6 +66,8 @@ def parts_of_stress(found, bench):
     """Static stress and swing of the points simulated again and of the present design, means over the fresh seeds [n, 2]
     [Pa]; None without statistics.  It needs no new runs.
     """
+    import numpy as np
+
     from ..design.optimize import fresh_seeds
     from ..running.responses import PARTS
 
@@ -111,6 +112,8 @@ def print_optimum(found, present, parts=None):
 
 def go_apart(was, now):
     """Whether static stress and swing (arrays) change in opposite directions, the first one by more than APART."""
+    import numpy as np
+
     from ..duty.designs import APART
 
     static, swing = np.log(now / was)

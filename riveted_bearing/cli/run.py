@@ -10,10 +10,9 @@ from rich.markup import escape
 from rich.table import Column, Table
 
 from ..base.errors import UserError, extra, unknown
-from ..base.files import make_folder
+from ..base.files import FORMATS, make_folder
 from ..base.interrupts import held_interrupts
-from ..running.results import FORMATS, write_result
-from ..running.scene import load_scene, shipped_scenes
+from ..base.shipped import shipped_scenes
 from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, print_basis, simulation_progress
 
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
@@ -41,7 +40,9 @@ def run(
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
     from ..bearing.plausible import odd_materials
     from ..running.fmu import Model
+    from ..running.results import write_result
     from ..running.runner import simulate
+    from ..running.scene import load_scene
 
     model = Model(fmu)
     target = result_path(scene or model.path, out, format or lean_format(out))

@@ -7,8 +7,7 @@ import typer
 from rich.markup import escape
 
 from ..base.errors import UserError
-from ..base.files import make_folder
-from ..running.results import FORMATS
+from ..base.files import FORMATS, make_folder
 from .life import SHEET, write_life
 from .terminal import (
     CLEANLINESS,

@@ -84,7 +84,6 @@ def print_version(wanted: bool):
         raise typer.Exit
 
 
-@program.callback()
 def main(
     version: Annotated[
         bool, typer.Option("--version", callback=print_version, is_eager=True, help="print the version and end")

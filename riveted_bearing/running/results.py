@@ -22,10 +22,9 @@ from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.parameters import TYPES
 
 from ..base.errors import UserError, extra
-from ..base.files import KEY, one_line, read_table, write_atomically, write_table
+from ..base.files import KEY, format_of, one_line, read_table, write_atomically, write_table
 from ..base.toml_files import to_toml
 
-FORMATS = ("parquet", "csv", "mat")
 FORMAT_VERSION = 1
 
 
@@ -218,14 +217,6 @@ def parameter_problem(name, value):
 
 def is_number(value):
     return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def format_of(path):
-    """Format by suffix."""
-    kind = path.suffix.removeprefix(".")
-    if kind not in FORMATS:
-        raise UserError(f'{path}: unknown format "{kind}"; allowed: {", ".join(FORMATS)}')
-    return kind
 
 
 def write_parquet(result, metadata, path):

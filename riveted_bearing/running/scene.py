@@ -26,7 +26,6 @@ Where a scene sets oil.T, parts whose temperature nobody gives have the oil's.
 """
 
 from dataclasses import dataclass, field, replace
-from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -34,15 +33,14 @@ import numpy as np
 from ..base import tables
 from ..base.errors import UserError, is_file, refusal, unknown
 from ..base.file_kinds import check_keys
+from ..base.shipped import SHIPPED, shipped_scenes
 from ..base.toml_files import leaves, positive, read_toml, section_of, whole_name
 from ..base.units import SECONDS, suffix, to_si
 from ..base.variable_list import is_like
 from ..bearing import seats
-from ..bearing.oil import OF_PROPERTY, check_given, merged, named
-from ..bearing.scaling import PARTS_TEMPERATURES
+from ..bearing.oil import OF_PROPERTY, PARTS_TEMPERATURES, check_given, merged, named
 from .inputs import check_entries, input_history, unit_of
 
-SHIPPED = files("riveted_bearing") / "data" / "scenes"
 SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change", "oil")
 SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
@@ -79,11 +77,6 @@ class Scene:
         """0, step, 2 step ... t_end [s]; the last step may be shorter."""
         count = int(np.ceil(self.t_end / self.step * (1 - 1e-12)))
         return np.minimum(np.arange(count + 1) * self.step, self.t_end)
-
-
-def shipped_scenes():
-    """Names of the scenes that come with the program."""
-    return sorted(path.name.removesuffix(".toml") for path in SHIPPED.iterdir() if path.name.endswith(".toml"))
 
 
 def load_scene(source, model, *changes):

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from ..base.errors import UserError, is_file
 from ..base.file_kinds import OF_BEARINGS
+from ..base.shipped import shipped_scenes
 from ..base.toml_files import read_toml
 from ..bearing import catalogue, oil
 from ..bearing.bearing_file import bearing_case
@@ -11,7 +12,7 @@ from ..bearing.case import Case
 from ..bearing.designations import known_bearings, shipped_bearings, unknown_designation
 from ..bearing.origin import EXAMPLE
 from ..bearing.rules import SHAPE
-from .scene import load_scene, shipped_scenes
+from .scene import load_scene
 
 
 def is_bearing(source):

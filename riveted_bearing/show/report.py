@@ -9,7 +9,7 @@ import numpy as np
 from bearing_model.generated import variables
 
 from ..base.errors import UserError
-from ..base.files import write_atomically
+from ..base.files import FORMATS, write_atomically
 from ..base.units import hours_text
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
@@ -17,7 +17,7 @@ from ..bearing.strength import Strength, assumed, in_words
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
-from ..running.results import FORMATS, read_result
+from ..running.results import read_result
 from ..running.summary import (
     DEG,
     accelerated,

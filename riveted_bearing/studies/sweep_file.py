@@ -11,10 +11,11 @@ import numpy as np
 
 from ..base.errors import UserError, is_file, refusal, unknown
 from ..base.file_kinds import check_keys
+from ..base.shipped import shipped_scenes
 from ..base.toml_files import leaves, read_toml, section_of
 from ..base.units import SECONDS, to_si
 from ..running.fmu import Model
-from ..running.scene import SIMULATION, load_scene, shipped_scenes
+from ..running.scene import SIMULATION, load_scene
 
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
 SAMPLE = ("method", "count", "seed", "between")
