@@ -133,7 +133,7 @@ def test_a_disk_that_is_full_for_the_picture_keeps_the_results(tmp_path):
     assert done.returncode == 2 and re.search(r"error: out/few.(png|csv): cannot be written: ", done.stderr), (
         done.stderr
     )
-    done = command_on_a_small_disk("riveted_bearing.cli.run:write_result", 20_000, few, tmp_path)
+    done = command_on_a_small_disk("riveted_bearing.running.results:write_result", 20_000, few, tmp_path)
     assert done.returncode == 2 and re.search(r"error: out/few.png: cannot be written: ", done.stderr), done.stderr
     assert files_below(tmp_path) == ["out/few.csv"]
     assert len(read_result(tmp_path / "out" / "few.csv").data["time"]) == 21
@@ -143,8 +143,8 @@ def test_a_full_disk_leaves_the_old_fmu(fmu, tmp_path):
     """The packer of FMUs, and the copy of a finished one to its place: what was there stays."""
     (tmp_path / "my.fmu").write_text("old")
     limit = "import resource, sys; resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, 100_000)); sys.path.insert(0, sys.argv[1]); "
-    copy = limit + "import shutil; from pathlib import Path; from riveted_bearing import results\n"
-    copy += "results.write_atomically(Path('my.fmu'), lambda temporary: shutil.copyfile(sys.argv[2], temporary))"
+    copy = limit + "import shutil; from pathlib import Path; from riveted_bearing.base import files\n"
+    copy += "files.write_atomically(Path('my.fmu'), lambda temporary: shutil.copyfile(sys.argv[2], temporary))"
     pack = limit + "import package; package.main(sys.argv[2:])"
     options = [f"@{ROOT / 'build' / 'fmu' / 'arguments.txt'}", "--out", "my.fmu"]
     for code, words, reason in (
@@ -161,7 +161,8 @@ def test_a_full_disk_leaves_the_old_fmu(fmu, tmp_path):
 
 SLOW = """
 import sys, time; from pathlib import Path
-from riveted_bearing import read_result, results
+from riveted_bearing import read_result
+from riveted_bearing.running import results
 real = results.WRITERS["{kind}"]
 def slow(result, metadata, path):
     real(result, metadata, path)

@@ -22,7 +22,7 @@ from riveted_bearing import UserError
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.cli.optimize import go_apart
-from riveted_bearing.duty import designs, page, raceways, sheet
+from riveted_bearing.duty import designs, designs_page, page, raceways, sheet, verdict
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History
@@ -237,7 +237,7 @@ def raceways_of(L_10mr, L_10r, given):
 )
 def test_the_verdict_is_of_rivets_and_raceways(L_10mr, L_10r, given, state, headline):
     """Rivets that live 50,000 h do not make a bearing whose raceways live 14,000 h meet 20,000 h."""
-    evidence = sheet.Evidence(
+    evidence = Evidence(
         50e3,
         40e3,
         60e3,
@@ -255,12 +255,12 @@ def test_the_verdict_is_of_rivets_and_raceways(L_10mr, L_10r, given, state, head
     found = sheet.judged(evidence, 20e3)
     assert found[:2] == (state, headline)
     assert found[2].startswith("rivets 50,000 h, at least 40,000 h; raceways L_10mr ")
-    (line,) = (check for check in sheet.raceway_checks(evidence, 20e3) if check.title == "Raceways")
+    (line,) = (check for check in verdict.raceway_checks(evidence, 20e3) if check.title == "Raceways")
     assert line.state == state and line.use == pytest.approx(20e3 / (L_10mr if given else min(L_10mr, L_10r)))
 
 
 def test_a_verdict_of_rivets_only_says_so():
-    evidence = sheet.Evidence(
+    evidence = Evidence(
         50e3, 40e3, 60e3, "rivet 1, head", "", None, (), (), {}, "run", 1, (), raceways=raceways.Raceways(untold="no C")
     )
     state, headline, reason = sheet.judged(evidence, 20e3)
@@ -318,10 +318,10 @@ def test_designs_tell_static_stress_from_swing(life, static, swing, words):
     ratio = designs.Ratio(life, 0.9 * life, 1.1 * life, 0.0)
     parts = {"head_static": (2e8, SimpleNamespace(ratio=static)), "head_swing": (5e7, SimpleNamespace(ratio=swing))}
     outcome = designs.Outcome(None, SimpleNamespace(life=1e3), "rivet 1, head", ratio, {"calm": parts}, "calm")
-    text = designs.verdict(outcome)
+    text = designs_page.verdict(outcome)
     assert text.startswith("lives longer" if life > 1.0 else "lives shorter")
     assert (words in text) if words else "static" not in text
-    assert designs.parts_text(outcome) == f"200 ({static:g}) + 50 ({swing:g}) MPa"
+    assert designs_page.parts_text(outcome) == f"200 ({static:g}) + 50 ({swing:g}) MPa"
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from riveted_bearing import UserError
-from riveted_bearing.cli import info
+from riveted_bearing.cli import info_tables as info
 from riveted_bearing.duty.cycles import outputs_of
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.parts import FORCED

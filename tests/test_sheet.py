@@ -15,7 +15,7 @@ from commands import command
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 from riveted_bearing import UserError, run
-from riveted_bearing.duty import raceways, sheet
+from riveted_bearing.duty import evidence, raceways, sheet, verdict
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.running.fmu import Model
@@ -50,7 +50,7 @@ def test_many_cycles_damage_as_each_does(rule):
 
 def evidence_of(life, low=None, high=None, slope=15.0):
     """Evidence whose lives fall with a power of the stress, the middle's ten times longer."""
-    return sheet.Evidence(
+    return evidence.Evidence(
         life, low, high, "rivet 1, head", "", lambda x: (life * x**-slope, 10 * life * x**-slope), (1e8, 5e7), (2.5e8, 2e8), {}, "run", 1, (1.0,)
     )  # fmt: skip
 
@@ -58,10 +58,10 @@ def evidence_of(life, low=None, high=None, slope=15.0):
 def test_utilisation_is_the_power_of_the_lives():
     """Closed form: (target/life)^(1/slope), of the middle another 10^(-1/15)."""
     found = evidence_of(1000.0)
-    head, middle = (sheet.fatigue_check(found, place, "", 4000.0) for place in (0, 1))
+    head, middle = (verdict.fatigue_check(found, place, "", 4000.0) for place in (0, 1))
     assert head.use == pytest.approx(4 ** (1 / 15), rel=2e-3) and head.state == "bad"
     assert middle.use == pytest.approx(0.4 ** (1 / 15), rel=2e-3) and middle.state == "good"
-    assert [sheet.fatigue_check(found, place, "", None).use for place in (0, 1)] == pytest.approx(
+    assert [verdict.fatigue_check(found, place, "", None).use for place in (0, 1)] == pytest.approx(
         [0.4, 0.25], rel=1e-12
     )
 
@@ -127,7 +127,7 @@ def test_a_mission_at_its_own_life_has_utilisation_one(tmp_path):
     with cluster(None, 1) as client:
         runs = Runs(plan, model, tmp_path / "runs", lambda: client)
         life = assess(plan, runs)
-    found = sheet.of_mission(life, runs, model)
+    found = evidence.of_mission(life, runs, model)
     assert min(found.scaled(1.0)) == pytest.approx(life.estimate.life, rel=1e-9)
     faster = math.log(found.life / min(found.scaled(1.2))) / math.log(1.2)
     assert 8.0 < faster < 30.0
@@ -183,7 +183,7 @@ def crowded(made, of_run=False):
     """The sheet with as much on it as there may be, of a run without parts of a mission."""
     words = "A long text of many words that goes on and on, "
     names = ("bearing", "replaced", "loads", "speed", "oil", "temperatures", "preload", "S-N curve", "mission")
-    check = sheet.Check(
+    check = verdict.Check(
         "Pressure, inner race",
         "2,980 MPa (a point with a long name)",
         "at least 1, below it asperities carry",
@@ -248,4 +248,4 @@ def test_the_marked_rivet_is_the_brightest(result):
     """Colours are damages by which the first to fail is chosen: for each rivet the worse place of rainflow and law."""
     found = sheet.of_result(result, "run", raceways.Raceways())
     assert len(found.damage) == 9 and int(np.argmax(found.damage)) + 1 == found.rivet
-    assert sheet.worse_places(np.array([1.0, 5.0, 3.0, 2.0])) == (5.0, 3.0)
+    assert evidence.worse_places(np.array([1.0, 5.0, 3.0, 2.0])) == (5.0, 3.0)

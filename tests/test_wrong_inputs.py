@@ -147,7 +147,6 @@ WRONG = {
     "sweep twice.toml": ["joint.preload varies in more than one place"],
     "sweep range.toml": ["vary.joint.preload", "two ends of one sign"],
     "sweep sample.toml": ["sample.method = 'random'", "latin_hypercube, sobol"],
-    "study nonsense": ['"nonsense"'],
     "matrices none.toml": ["none.toml", "no such scene file"],
     "matrices demo --speed soon": ["--speed soon", "not a number with a unit"],
     "matrices demo --speed 200krpm": ["--speed 200krpm", "-143239 ... 143239 rev/min"],

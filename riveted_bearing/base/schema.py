@@ -1,0 +1,212 @@
+"""Files by schema: models of pydantic say which keys a file has, and one function says what is wrong with a document.
+
+    class Sample(Section):
+        count: Annotated[int, Count(1)] = Field(description="points")
+        step: Annotated[float, Number(SECONDS, above=0.0)] = 1e-4
+
+    sample = checked(Sample, document, "sweep.toml")   # or UserError: sweep.toml: step = 0: must be greater than 0
+
+A number is SI in the model, a number or a text with its unit in the file.
+"""
+
+import types
+from dataclasses import dataclass
+from typing import Annotated, Any, TypeVar, get_args
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, StrictBool, ValidationError
+from pydantic_core import core_schema
+
+from .errors import UserError, refusal, unknown
+from .units import to_si
+
+PLAIN = {"1": (1.0, 0.0)}
+S = TypeVar("S", bound="Section")
+
+
+class Section(BaseModel):
+    """A table of a file, whose keys are the fields; names of variables stand in dicts."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number within limits, in the file also with one of the units of `scales`; words: what is allowed, if not the
+    limits; times: factor of the SI value, as for hours.
+    """
+
+    scales: Any = None
+    least: float | None = None
+    above: float | None = None
+    most: float | None = None
+    below: float | None = None
+    words: str = ""
+
+    def read(self, value: Any) -> float:
+        """The SI value; UserError for one that is not allowed."""
+        number = to_si(value, self.scales or PLAIN)
+        low = -float("inf") if self.least is None else self.least
+        high = float("inf") if self.most is None else self.most
+        inside = low <= number <= high
+        if self.above is not None:
+            inside = inside and number > self.above
+        if self.below is not None:
+            inside = inside and number < self.below
+        if not inside:
+            raise UserError(self.words or self.limits())
+        return number
+
+    def limits(self) -> str:
+        """The limits in words."""
+        if self.most is None and self.below is None:
+            if self.above == 0.0:
+                return "must be greater than 0"
+            return "must not be negative" if self.least == 0.0 else f"from {self.least:g} on is allowed"
+        low = f"above {self.above:g}" if self.above is not None else f"from {self.least or 0.0:g}"
+        return f"{low} {f'to below {self.below:g}' if self.most is None else f'up to {self.most:g}'} is allowed"
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        limits = {
+            "minimum": self.least,
+            "exclusiveMinimum": self.above,
+            "maximum": self.most,
+            "exclusiveMaximum": self.below,
+        }
+        units = [symbol for symbol in self.scales or () if symbol != "1"]
+        found = {"type": ["number", "string"] if units else "number"}
+        found |= {key: limit for key, limit in limits.items() if limit is not None}
+        return found | ({"examples": [f"1 {symbol}" for symbol in units]} if units else {})
+
+
+@dataclass(frozen=True)
+class Count:
+    """A whole number of at least `least`; words: what is needed."""
+
+    least: int = 1
+    words: str = ""
+
+    def read(self, value: Any) -> int:
+        """The number; UserError for anything else."""
+        if isinstance(value, bool) or not isinstance(value, int) or value < self.least:
+            raise UserError(self.words or f"a whole number from {self.least} on is needed")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {"type": "integer", "minimum": self.least}
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One of some texts."""
+
+    names: tuple[str, ...]
+
+    def read(self, value: Any) -> str:
+        """The text; UserError naming all."""
+        if not isinstance(value, str) or value not in self.names:
+            raise UserError(f"allowed: {', '.join(self.names)}")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)
+
+    def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
+        return {"type": "string", "enum": [*self.names]}
+
+
+def list_of_texts(value: Any) -> list[str]:
+    """A list of texts that is not empty."""
+    if not isinstance(value, list) or not value or not all(isinstance(entry, str) for entry in value):
+        raise UserError("a list of texts is needed")
+    return value
+
+
+Text = Annotated[str, BeforeValidator(str)]  # anything, as a text
+Texts = Annotated[list[str], BeforeValidator(list_of_texts)]
+Truth = StrictBool
+Named = dict[str, Any]  # variables of the FMU by name, which only the FMU can check
+WORDS = {
+    "bool_type": "allowed: true, false",
+    "string_type": "a text is needed",
+    "list_type": "a list is needed",
+    "dict_type": "not a table",
+    "model_type": "not a table",
+}
+
+
+def checked(kind: type[S], document: Any, path: Any, where: str = "") -> S:
+    """A document as a section of a kind; UserError naming file, key, value and what is allowed.
+
+    where: key of the section in the file, "" for the whole file.
+    """
+    try:
+        return kind.model_validate(document)
+    except ValidationError as problem:
+        faults = problem.errors(include_url=False)
+        first = next((fault for fault in faults if fault["type"] == "extra_forbidden"), faults[0])
+        raise fault_text(kind, document, path, where, first) from None
+
+
+def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault: Any) -> UserError:
+    """The UserError of a fault that pydantic found: an entry of a list of tables is named by its key `name` or number."""
+    *above, key = fault["loc"] or ("",)
+    place, prefix, table = f"{path}", where, document
+    for i, step in enumerate(above):
+        table = table[step]
+        if isinstance(step, int) and isinstance(table, dict):
+            place, prefix = f"{path}: {above[i - 1]} {table.get('name', step + 1)}", ""
+        elif not (i + 1 < len(above) and isinstance(above[i + 1], int)):
+            prefix = f"{prefix}.{step}".lstrip(".")
+    full = f"{prefix}.{key}".lstrip(".")
+    if fault["type"] == "extra_forbidden":
+        return unknown(place, "key", full, [f"{prefix}.{name}".lstrip(".") for name in keys_at(kind, above)])
+    if fault["type"] == "missing":
+        about = field_at(kind, [*above, key]).description
+        return UserError(f"{place}: {full} is needed{f': {about}' if about else ''}")
+    if isinstance(key, int) and fault["type"] in ("model_type", "dict_type"):  # not a list of tables
+        return UserError(f"{place}: {above[-1]}: write [[{above[-1]}]] with its keys below it")
+    if fault["type"] == "list_type" and model_of(field_at(kind, [*above, key]).annotation):
+        return UserError(f"{place}: {full}: write [[{full}]] with its keys below it")
+    error = fault.get("ctx", {}).get("error")
+    return refusal(place, full, fault["input"], error or WORDS.get(fault["type"], fault["msg"]))
+
+
+def model_of(annotation: Any) -> type[Section] | None:
+    """The section that an annotation is of, be it in a list or optional."""
+    if isinstance(annotation, type) and not isinstance(annotation, types.GenericAlias):
+        return annotation if issubclass(annotation, Section) else None
+    return next(filter(None, map(model_of, get_args(annotation))), None)
+
+
+def field_at(kind: type[Section], place: list[Any]) -> Any:
+    """The field of a place in a document."""
+    *above, key = [step for step in place if isinstance(step, str)]
+    for step in above:
+        kind = model_of(kind.model_fields[step].annotation) or kind
+    return kind.model_fields[key]
+
+
+def keys_at(kind: type[Section], place: list[Any]) -> list[str]:
+    """Keys that a table at a place of a document may have."""
+    for step in place:
+        if isinstance(step, str):
+            kind = model_of(kind.model_fields[step].annotation) or kind
+    return [*kind.model_fields]
+
+
+def listed(kind: type[Section]) -> list[tuple[str, str, str]]:
+    """Key, default and meaning of each field of a section, those of its own sections behind it."""
+    rows = []
+    for name, field in kind.model_fields.items():
+        inner = model_of(field.annotation)
+        default = "" if field.is_required() or inner or field.default in (None, "") else f"{field.default}"
+        rows.append((name, default, field.description or (inner.__doc__ or "" if inner else "")))
+        rows += [(f"{name}.{key}", *rest) for key, *rest in listed(inner)] if inner else []
+    return rows
+
