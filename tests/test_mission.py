@@ -26,7 +26,8 @@ from riveted_bearing.duty.assess import Runs, assess, check_folder, is_current, 
 from riveted_bearing.duty.confidence import estimate, until_sure
 from riveted_bearing.duty.history import binned
 from riveted_bearing.duty.miner import Duty, lives, simple_duty
-from riveted_bearing.duty.mission import LIFE, plan_mission
+from riveted_bearing.duty.mission import plan_mission
+from riveted_bearing.duty.mission_file import Life
 from riveted_bearing.duty.notes import matrix_warnings, notes
 from riveted_bearing.duty.page import life_density, write_page, write_picture
 from riveted_bearing.duty.starts import started
@@ -37,6 +38,7 @@ from riveted_bearing.running.runner import simulate
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
 Z = 9
+LIFE = Life().model_dump()
 NO_RUNS = SimpleNamespace(cost={}, sweep=SimpleNamespace(model=SimpleNamespace(parameters={})))
 
 

@@ -23,6 +23,7 @@ from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, designs_page, page, raceways, sheet, verdict
+from riveted_bearing.duty.evidence import Evidence
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History

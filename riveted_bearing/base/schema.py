@@ -29,7 +29,7 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Number:
     """A number within limits, in the file also with one of the units of `scales`; words: what is allowed, if not the
     limits; times: factor of the SI value, as for hours.
@@ -62,7 +62,7 @@ class Number:
             if self.above == 0.0:
                 return "must be greater than 0"
             return "must not be negative" if self.least == 0.0 else f"from {self.least:g} on is allowed"
-        low = f"above {self.above:g}" if self.above is not None else f"from {self.least or 0.0:g}"
+        low = f"above {self.above:g} and" if self.above is not None else f"from {self.least or 0.0:g}"
         return f"{low} {f'to below {self.below:g}' if self.most is None else f'up to {self.most:g}'} is allowed"
 
     def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
@@ -81,7 +81,7 @@ class Number:
         return found | ({"examples": [f"1 {symbol}" for symbol in units]} if units else {})
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Count:
     """A whole number of at least `least`; words: what is needed."""
 
@@ -101,7 +101,7 @@ class Count:
         return {"type": "integer", "minimum": self.least}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Choice:
     """One of some texts."""
 
@@ -163,7 +163,7 @@ def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault:
             place, prefix = f"{path}: {above[i - 1]} {table.get('name', step + 1)}", ""
         elif not (i + 1 < len(above) and isinstance(above[i + 1], int)):
             prefix = f"{prefix}.{step}".lstrip(".")
-    full = f"{prefix}.{key}".lstrip(".")
+    full = prefix if isinstance(key, int) else f"{prefix}.{key}".lstrip(".")  # an entry of a list is the list's
     if fault["type"] == "extra_forbidden":
         return unknown(place, "key", full, [f"{prefix}.{name}".lstrip(".") for name in keys_at(kind, above)])
     if fault["type"] == "missing":
@@ -209,4 +209,3 @@ def listed(kind: type[Section]) -> list[tuple[str, str, str]]:
         rows.append((name, default, field.description or (inner.__doc__ or "" if inner else "")))
         rows += [(f"{name}.{key}", *rest) for key, *rest in listed(inner)] if inner else []
     return rows
-

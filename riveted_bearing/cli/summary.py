@@ -79,7 +79,7 @@ def summary(
 def target_hours(target):
     """Hours of the option --target."""
     from ..base.units import to_si
-    from ..duty.parts import HOURS
+    from ..duty.mission_file import HOURS
 
     if target is None:
         return None

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.stats import t as student
 
 from ..base.errors import UserError, refusal, unknown
+from ..base.schema import checked
 from ..base.toml_files import leaves, read_toml, section_of
 from ..running.fmu import Model
 from ..running.scene import in_words
@@ -25,9 +26,9 @@ from ..studies.rows import columns_of
 from .assess import Runs, assess, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission
+from .mission_file import MissionFile
 from .notes import matrix_warnings
 from .page import open_ends, open_text
-from .parts import tables
 from .raceways import Raceways
 
 RESPONSES = {  # column of a run, or part of the stress (summary.static_and_swing): in words, unit and its factor
@@ -127,12 +128,13 @@ def read_designs(words, number_or_text):
 def plan(path, design):
     """The Mission of a file for a design: its parameters over the mission's, no part left out."""
     document, model = read_toml(path), design.model
+    file = checked(MissionFile, document, path)
     for name in design.settings:
         if name not in model.parameters:
             raise unknown(design.name, "parameter", name, model.parameters)
-        for kind in ("point", "event"):
-            for block in tables(path, document, kind):
-                if name in dict(leaves(section_of(path, block, "parameters"), model.parameters)):
+        for kind, blocks in (("point", file.point), ("event", file.event)):
+            for block in blocks:
+                if name in dict(leaves(block.parameters, model.parameters)):
                     raise refusal(design.name, name, design.settings[name], f"{path}: a {kind} sets it too")
     common = common_parameters(path, model)
     document |= {

@@ -4,38 +4,28 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError
 from ..base.toml_files import leaves
-from .parts import amount, part_of, settling, tables
-
-EVENT = ("name", "count", "after_settle", "preload_factor", "scene", "simulation", "parameters", "inputs")
+from .parts import part_of, settling
 
 
-def events(path, document, model):
-    """The Parts of [[event]]."""
-    for i, block in enumerate(tables(path, document, "event"), 1):
-        label = f"event {block.get('name', i)}"
-        for key in block:
-            if key not in EVENT:
-                raise unknown(f"{path}: {label}", "key", key, EVENT)
-        if "count" not in block:
-            raise UserError(f"{path}: {label}: count is needed: how often it happens in one pass of the mission")
-        weight = amount(path, f"{label}: count", block["count"], {"1": (1.0, 0.0)})
-        part = part_of(path, document, model, label, str(block.get("name", f"event {i}")), block, weight)
-        own = {name for name, _ in leaves(block.get("inputs", {}), model.inputs)}
-        names = own | (set(part.scene.inputs) if "scene" in block else set())
-        scene, warnings = event_in_time(path, label, block, part.scene, settling(part.scene, model), sorted(names))
+def events(path, file, model):
+    """The Parts of a MissionFile's [[event]]."""
+    for i, block in enumerate(file.event, 1):
+        label, name = f"event {block.name or i}", block.name or f"event {i}"
+        part = part_of(path, file, model, label, name, block, block.count)
+        own = {name for name, _ in leaves(block.inputs, model.inputs)}
+        names = own | (set(part.scene.inputs) if block.scene is not None else set())
+        settle = settling(part.scene, model)
+        scene, warnings = event_in_time(path, label, block.after_settle, part.scene, settle, sorted(names))
         yield replace(part, event=True, scene=scene, warnings=warnings)
 
 
-def event_in_time(path, label, block, scene, settle, names):
-    """The scene of an event with its times moved if it says so, and warnings; names: of the inputs that the event sets.
+def event_in_time(path, label, moved, scene, settle, names):
+    """The scene of an event, its times moved if they count from settle on, and warnings; names: of the inputs that it sets.
 
     UserError for an input whose changes are all over before start.settle, or begin after the end: they count nothing.
     """
-    moved = block.get("after_settle", False)
-    if not isinstance(moved, bool):
-        raise refusal(f"{path}: {label}", "after_settle", moved, "allowed: true, false")
     varying = {name: scene.inputs[name] for name in names if np.ptp(scene.inputs[name].value) > 0.0}
     if moved:
         varying = {name: replace(history, t=history.t + settle) for name, history in varying.items()}

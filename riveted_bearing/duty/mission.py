@@ -1,53 +1,5 @@
-"""Missions: operating points with their hours and events with their counts, from TOML files, checked against the FMU.
-
-description = "..."
-scene = "demo"                       # shipped name or file, default: none, the FMU's own parameters and inputs; points and events may name another one
-[simulation]                         # as in a scene file, for all points and events; so are:
-t_end = 0.2
-[parameters]
-[inputs]
-
-[[point]]
-name = "climb"                       # default: its number
-hours = 20                           # or "90 min", or share = 0.02 of the whole in every point
-preload_factor = 0.9                 # of joint.preload at this point; default 1
-interpolate = true                   # not simulated: from the points around it; default false
-inputs.shaft.F_y = "3 kN"            # [point.inputs], [point.parameters], [point.simulation]
-[[event]]
-name = "landing"
-count = 12                           # per pass of the mission; damage of its whole run after start.settle
-after_settle = true                  # the times of its inputs count from start.settle; default false: from the start of the run
-inputs.impact.F_r = { t = [0.01, 0.011, 0.012], value = [0, 4000, 0] }
-
-[[change]]                           # of tunable parameters, in every pass of the mission: from this time of its points on,
-at = "2 h"                           # in their order; a point that is under way is divided
-joint.mu = 0.2
-
-[table]                              # further points from a CSV or Parquet table; a unit may stand in a column's name (tables.py)
-file = "duty.csv"
-hours = "h"                          # column
-inputs.shaft.omega = { column = "n", unit = "rev/min" }
-[history]                            # further points: a measured record, binned
-file = "flight.csv"
-time = "t"                           # column [s], or with its unit
-longest_gap = "10 min"               # between samples; default: ten usual intervals
-hours = 1000                         # what the record stands for; default: its own length
-inputs.shaft.F_y = { column = "load", unit = "kN", bins = 6 }
-
-[preload_loss]                       # straight lines between; constant after the last hour
-hours = [0, 100, 2000]
-factor = [1, 0.9, 0.7]
-[life]
-confidence = 0.9                     # of the interval
-half_width = 0.25                    # of life: simulate until the interval is at most life/1.25 ... 1.25 life wide
-min_seeds = 6
-max_seeds = 32
-seed = 1                             # first start.seed, common to all points
-skip = 0.01                          # share of the damage that rare points may have and yet be left out by a bound; 0: none left out
-rivets = "each"                      # or "alike": every rivet takes every place in turn, so that rates are means over the rivets
-cleanliness = "normal"               # of the oil, for the raceways' life: see ../raceways.py; default: normal, assumed
-[sn]                                 # see sn.py; default: the FMU's law and its own count
-[tolerance]                          # see tolerances.py
+"""Missions: operating points with their hours and events with their counts, checked against the FMU; mission_file.py has
+the keys of the file, docs/life.md an example.
 """
 
 from collections.abc import Callable
@@ -57,9 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal
 from ..base.file_kinds import check_keys
-from ..base.toml_files import read_toml, section_of
+from ..base.schema import checked
+from ..base.toml_files import read_toml
 from ..bearing.assumed import given_names
 from ..bearing.strength import assumed, in_words, read_strength
 from ..running.basis import basis
@@ -67,45 +20,16 @@ from ..running.effects import acts, without_effect
 from ..running.rainflow import fatigue_law
 from ..running.scene import own_names
 from ..running.scene_case import case_at
-from ..studies.sweep_file import count_of
 from .blends import cases_of, slopes_of
 from .cycles import outputs_of
 from .events import events
 from .miner import Duty
-from .parts import FORCED, HOURS, SHARES, amount, number, tables
+from .mission_file import FEWEST, MissionFile
+from .parts import FORCED
 from .points import points
 from .raceways import Raceways, cleanliness_of, of_parts, rated, slip_warning, why_unrated
 from .slow import slow_warnings
 
-SECTIONS = (
-    "description",
-    "scene",
-    "simulation",
-    "parameters",
-    "inputs",
-    "point",
-    "event",
-    "change",
-    "table",
-    "history",
-    "preload_loss",
-    "life",
-    "sn",
-    "tolerance",
-)
-LOSS = ("hours", "factor")
-FEWEST = 3  # seeds
-LIFE = {
-    "confidence": 0.9,
-    "half_width": 0.25,
-    "min_seeds": 6,
-    "max_seeds": 32,
-    "seed": 1,
-    "skip": 0.01,
-    "rivets": "each",
-    "cleanliness": None,
-}
-RIVETS = ("each", "alike")
 MOST_TRIED = 8  # parts in which a setting without effect in one is tried
 
 
@@ -121,6 +45,7 @@ class Mission:
     description: str
     path: Path
     document: dict = field(repr=False)
+    file: MissionFile = field(repr=False, compare=False)
     parts: tuple
     cases: tuple = field(repr=False)
     duty: Duty = field(repr=False)
@@ -151,31 +76,34 @@ def load_mission(path, model):
 
 def plan_mission(name, document, model, path):
     """The Mission of a document like the file's."""
-    check_keys(path, document, SECTIONS, "mission")
-    settings = life_settings(path, section_of(path, document, "life"))
-    parts = [*points(path, document, model), *events(path, document, model)]
+    path = Path(path)
+    check_keys(path, document, MissionFile.model_fields, "mission")
+    file = checked(MissionFile, document, path)
+    settings = life_settings(path, file.life)
+    parts = [*points(path, file, model), *events(path, file, model)]
     if not any(not part.event for part in parts):
         raise UserError(f"{path}: no operating points: write [[point]] with hours, or [table] or [history] with a file")
     hours = sum(part.weight for part in parts if not part.event)
     if hours <= 0.0:
         raise UserError(f"{path}: the hours of all points are 0")
-    loss = preload_loss(path, section_of(path, document, "preload_loss"))
+    loss = preload_loss(path, file.preload_loss)
     cases, blends = cases_of(path, parts, loss[1], model)
     duty = Duty(np.array([part.weight / hours for part in parts]), blends, loss[0], slopes_of(parts, blends))
     scenes = [case.scene for case in cases]
-    rows = tuple(basis(model, scenes, curves(path, document, scenes, model)))
+    rows = tuple(basis(model, scenes, curves(path, file.sn, scenes, model)))
     return Mission(
         name,
-        str(document.get("description", "")),
+        file.description,
         path,
         document,
+        file,
         tuple(parts),
         tuple(cases),
         duty,
         hours,
         settings,
         rows,
-        any("share" in block for block in tables(path, document, "point")),
+        any(block.share is not None for block in file.point),
         str(model.path.resolve()),
         model.digest,
         tuple(slow_warnings(parts, model)),
@@ -216,9 +144,9 @@ def raceway_figures(model, scene):
     return {} if why_unrated(case) is not None else rated(case).lives
 
 
-def curves(path, document, scenes, model):
-    """The S-N curves of the scenes in words, and what of them is assumed."""
-    section, found = section_of(path, document, "sn"), {}
+def curves(path, section, scenes, model):
+    """The S-N curves of the scenes in words, and what of them is assumed; section: [sn] of a mission."""
+    found = {}
     for scene in scenes:
         given = frozenset(name for name in given_names(model, scene) if name.startswith("fatigue."))
         found[scene_law(scene, model), given] = None
@@ -237,51 +165,31 @@ def scene_law(scene, model):
     )
 
 
-def life_settings(path, section):
-    """The settings of [life] with their defaults."""
-    for key in section:
-        if key not in LIFE:
-            raise unknown(path, "key", f"life.{key}", [f"life.{name}" for name in LIFE])
-    settings = LIFE | section
-    for key, low, high in (("confidence", 0.5, 1.0), ("half_width", 1e-3, 100.0), ("skip", 0.0, 0.5)):
-        value = number(path, f"life.{key}", settings[key], SHARES)
-        if not low <= value < high:
-            raise refusal(path, f"life.{key}", settings[key], f"from {low:g} to below {high:g} is allowed")
-        settings[key] = value
-    for key in ("min_seeds", "max_seeds", "seed"):
-        count_of(path, f"life.{key}", settings[key])
-    if settings["max_seeds"] < FEWEST:
-        raise refusal(
-            path, "life.max_seeds", settings["max_seeds"], f"at least {FEWEST} is allowed: fewer show no scatter"
-        )
-    if "min_seeds" not in section:
-        settings["min_seeds"] = min(settings["min_seeds"], settings["max_seeds"])
-    if not FEWEST <= settings["min_seeds"] <= settings["max_seeds"]:
-        bounds = f"allowed: {FEWEST} (fewer show no scatter) to {settings['max_seeds']} (life.max_seeds)"
-        raise refusal(path, "life.min_seeds", settings["min_seeds"], bounds)
-    if settings["rivets"] not in RIVETS:
-        raise refusal(path, "life.rivets", settings["rivets"], f"allowed: {', '.join(RIVETS)}")
-    if (written := settings["cleanliness"]) is not None:
+def life_settings(path, life):
+    """The settings of a Life as a dict, what depends on each other checked."""
+    settings = life.model_dump()
+    if life.max_seeds < FEWEST:
+        raise refusal(path, "life.max_seeds", life.max_seeds, f"at least {FEWEST} is allowed: fewer show no scatter")
+    if "min_seeds" not in life.model_fields_set:
+        settings["min_seeds"] = min(life.min_seeds, life.max_seeds)
+    if not FEWEST <= settings["min_seeds"] <= life.max_seeds:
+        bounds = f"allowed: {FEWEST} (fewer show no scatter) to {life.max_seeds} (life.max_seeds)"
+        raise refusal(path, "life.min_seeds", life.min_seeds, bounds)
+    if life.cleanliness is not None:
         try:
-            settings["cleanliness"] = cleanliness_of(written)
+            settings["cleanliness"] = cleanliness_of(life.cleanliness)
         except UserError as problem:
-            raise refusal(path, "life.cleanliness", written, problem) from None
+            raise refusal(path, "life.cleanliness", life.cleanliness, problem) from None
     return settings
 
 
-def preload_loss(path, section):
+def preload_loss(path, loss):
     """Hours and factors of the law of preload loss."""
-    if not section:
+    if loss is None:
         return np.zeros(1), np.ones(1)
-    for key in section:
-        if key not in LOSS:
-            raise unknown(path, "key", f"preload_loss.{key}", [f"preload_loss.{name}" for name in LOSS])
-    if not all(isinstance(section.get(key), list) and section[key] for key in LOSS) or len(section["hours"]) != len(
-        section["factor"]
-    ):
+    if not loss.hours or len(loss.hours) != len(loss.factor):
         raise UserError(f"{path}: preload_loss: hours and factor are needed, lists of one length")
-    hours = np.array([amount(path, "preload_loss.hours", value, HOURS) for value in section["hours"]])
-    factor = np.array([amount(path, "preload_loss.factor", value, SHARES) for value in section["factor"]])
+    hours = np.array(loss.hours)
     if hours[0] != 0.0 or np.any(np.diff(hours) <= 0.0):
-        raise refusal(path, "preload_loss.hours", section["hours"], "they must begin with 0 and increase")
-    return hours, factor
+        raise refusal(path, "preload_loss.hours", loss.hours, "they must begin with 0 and increase")
+    return hours, np.array(loss.factor)

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 
 from ..base.errors import UserError
 from ..base.files import make_folder, write_atomically
-from ..base.toml_files import leaves, section_of
+from ..base.toml_files import leaves
 from ..base.units import hours_text
 from .assess import Life, write_record
 from .mission import plan_mission
 from .page import ends_of, interval_text
-from .parts import tables
 from .points import changed_points
 from .raceways import finite
 
@@ -37,16 +36,15 @@ def plan_ends(mission, model):
     path, names = mission.path, model.parameters
     if FILLING not in names:
         raise UserError(f"{model.path}: this FMU has no {FILLING}, which --oil-range needs: build it again")
-    blocks = [*changed_points(path, mission.document, model), *tables(path, mission.document, "event")]
-    sections = [section_of(path, mission.document, name) for name in ("table", "history")]
-    for block in [*blocks, *sections]:
-        own = [name for name, _ in leaves(section_of(path, block, "parameters"), names)]
+    file = mission.file
+    for block in filter(None, [*changed_points(path, file, model), *file.event, file.table, file.history]):
+        own = [name for name, _ in leaves(block.parameters, names)]
         if FILLING in own:
             raise UserError(
                 f"{path}: a point sets {FILLING}; --oil-range computes dry (0) and flooded (1) pockets in all points: "
                 "leave it out there"
             )
-    common = dict(leaves(section_of(path, mission.document, "parameters"), names))
+    common = dict(leaves(file.parameters, names))
     return {
         end: plan_mission(
             f"{mission.name} {end}", mission.document | {"parameters": common | {FILLING: filling}}, model, path

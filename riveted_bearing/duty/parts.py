@@ -3,14 +3,11 @@
 from dataclasses import dataclass, field
 
 from ..base.errors import UserError, refusal
-from ..base.toml_files import leaves, section_of
-from ..base.units import to_si
+from ..base.toml_files import leaves
 from ..running.basis import loads, speeds
 from ..running.scene import Scene, load_scene
 from ..studies.sweep_file import beside
 
-HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
-SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
 FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
 
 
@@ -35,48 +32,18 @@ class Part:
     warnings: tuple = ()
 
 
-def number(path, key, value, scales):
-    """SI value, hours for times; UserError naming the key."""
-    try:
-        return to_si(value, scales)
-    except UserError as problem:
-        raise refusal(path, key, value, problem) from None
-
-
-def amount(path, key, value, scales):
-    """A number that is not negative."""
-    found = number(path, key, value, scales)
-    if found < 0.0:
-        raise refusal(path, key, value, "must not be negative")
-    return found
-
-
-def tables(path, document, name):
-    """The list of tables [[name]]."""
-    blocks = document.get(name, [])
-    if not isinstance(blocks, list) or not all(isinstance(block, dict) for block in blocks):
-        raise UserError(f"{path}: {name}: write [[{name}]] with its keys below it")
-    return blocks
-
-
-def part_of(path, document, model, label, name, block, weight):
-    """The operating point of one block, its scene checked."""
-    factor = amount(path, f"{label}: preload_factor", block.get("preload_factor", 1.0), SHARES)
-    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
-    own = {
-        section: section_of(f"{path}: {label}", block, section) for section in ("simulation", "parameters", "inputs")
-    }
-    for changes in (common, own):
-        if any(key in FORCED for key, _ in leaves(changes["parameters"], model.parameters)):
+def part_of(path, file, model, label, name, block, weight):
+    """The operating point of a block of a MissionFile, its scene checked."""
+    for changes in (file, block):
+        if any(key in FORCED for key, _ in leaves(changes.parameters, model.parameters)):
             raise UserError(
                 f"{path}: {label}: {' and '.join(FORCED)} are not free here: a life needs the count of stress cycles"
             )
-    source = block.get("scene", document.get("scene"))
     scene = load_scene(
-        beside(path, source),
+        beside(path, file.scene if block.scene is None else block.scene),
         model,
-        (str(path), common),
-        (f"{path}: {label}", own),
+        (str(path), settings_of(file)),
+        (f"{path}: {label}", settings_of(block)),
         ("a mission", {"parameters": {name: value for name, value in FORCED.items() if name in model.parameters}}),
     )
     settle = settling(scene, model)
@@ -91,12 +58,17 @@ def part_of(path, document, model, label, name, block, weight):
         name,
         False,
         weight,
-        None if block.get("interpolate", False) else scene,
-        factor,
+        None if getattr(block, "interpolate", False) else scene,
+        block.preload_factor,
         values_of(scene, model),
         loads(model, [scene]),
         speeds(model, [scene]),
     )
+
+
+def settings_of(block):
+    """The settings of a block as a document like a scene file's."""
+    return {"simulation": block.simulation, "parameters": block.parameters, "inputs": block.inputs}
 
 
 def settling(scene, model):

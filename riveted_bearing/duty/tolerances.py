@@ -19,15 +19,12 @@ import numpy as np
 
 from ..base.errors import UserError, refusal, unknown
 from ..base.files import write_atomically
-from ..base.toml_files import leaves, section_of
+from ..base.toml_files import leaves
 from ..base.units import to_si
-from ..studies.sweep_file import count_of
 from .assess import Runs, places
 from .blends import Case, loosened
-from .parts import SHARES, number
 from .weibull import Weibull, fit_weibull
 
-KEYS = ("bearings", "seeds", "share", "parameters")
 DISTRIBUTIONS = {
     "normal": ("mean", "sd"),
     "lognormal": ("median", "factor"),
@@ -63,24 +60,17 @@ class Scatter:
 
 def read_tolerances(mission, model):
     """The Tolerances of a mission, None if it has none; raises UserError naming parameter and distribution."""
-    path, section = mission.path, section_of(mission.path, mission.document, "tolerance")
-    if not section:
+    path, section = mission.path, mission.file.tolerance
+    if section is None:
         return None
-    for key in section:
-        if key not in KEYS:
-            raise unknown(path, "key", f"tolerance.{key}", [f"tolerance.{name}" for name in KEYS])
-    bearings = count_of(path, "tolerance.bearings", section.get("bearings", 30))
-    seeds = count_of(path, "tolerance.seeds", section.get("seeds", 2))
-    share = number(path, "tolerance.share", section.get("share", 0.95), SHARES)
-    if bearings < 3:
-        raise refusal(path, "tolerance.bearings", bearings, "from 3, which show scatter")
-    if not 0.0 < share <= 1.0:
-        raise refusal(path, "tolerance.share", share, "above 0 and up to 1 is allowed")
-    given = dict(leaves(section_of(f"{path}: tolerance", section, "parameters"), model.parameters))
+    given = dict(leaves(section.parameters, model.parameters))
     if not given:
         raise UserError(f"{path}: tolerance.parameters: name at least one parameter with its distribution")
     return Tolerances(
-        bearings, seeds, share, {name: distribution(path, name, entry, model) for name, entry in given.items()}
+        section.bearings,
+        section.seeds,
+        section.share,
+        {name: distribution(path, name, entry, model) for name, entry in given.items()},
     )
 
 

@@ -1,0 +1,105 @@
+"""Refusals of files, replayed: refusals.json has files that cannot be used and what the program said of each before the
+files were read by schema.
+
+A message that is another one since then stands beside the old one in CHANGED, so that somebody has seen each difference.
+The files come from the tests of the readers, which say what a message has to name.
+"""
+
+import copy
+import json
+from pathlib import Path
+
+import pytest
+
+from riveted_bearing.base.errors import UserError
+from riveted_bearing.base.toml_files import check_integers, read_toml
+from riveted_bearing.bearing import bearing_file
+from riveted_bearing.design.cascade import plan_cascade
+from riveted_bearing.design.optimize import plan_optimize
+from riveted_bearing.design.sensitivity import plan_sensitivity
+from riveted_bearing.duty.mission import plan_mission
+from riveted_bearing.duty.tolerances import read_tolerances
+from riveted_bearing.identify.study import plan_identify
+from riveted_bearing.running import scene
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep_file import plan_sweep
+
+RECORD = json.loads(Path(__file__).with_name("refusals.json").read_text(encoding="utf-8"))
+READERS = {  # of a document, which reads the file itself where the program can read files only
+    "bearing": lambda path, document, model: bearing_file.bearing_case(path),
+    "scene": lambda path, document, model: scene.load_scene(path, model),
+    "sweep": lambda path, document, model: plan_sweep("FILE", document, model, path),
+    "mission": lambda path, document, model: plan_mission("FILE", document, model, path),
+    "tolerance": lambda path, document, model: read_tolerances(plan_mission("FILE", document, model, path), model),
+    "sensitivity": plan_sensitivity,
+    "optimize": plan_optimize,
+    "cascade": lambda path, document, model: plan_cascade(path, document),
+    "identify": plan_identify,
+}
+CHANGED = {  # old message: new one
+    'FILE: event 1: unknown key ""; allowed: name, count, after_settle, preload_factor, scene, simulation, parameters, inputs': (
+        'FILE: event 1: unknown key ""; allowed: name, preload_factor, scene, simulation, parameters, inputs, count, after_settle'
+    ),
+    'FILE: point 1: unknown key ""; allowed: name, hours, share, preload_factor, interpolate, scene, simulation, parameters, inputs': (
+        'FILE: point 1: unknown key ""; allowed: name, preload_factor, scene, simulation, parameters, inputs, hours, share, interpolate'
+    ),
+    "FILE: history: inputs = []: not a table": "FILE: history.inputs = []: not a table",
+    "FILE: table: inputs = -1: not a table": "FILE: table.inputs = -1: not a table",
+    "FILE: preload_loss.hours = [1, 2]: they must begin with 0 and increase": (
+        "FILE: preload_loss.hours = [1.0, 2.0]: they must begin with 0 and increase"
+    ),
+    "FILE: tolerance.share = 2.0: above 0 and up to 1 is allowed": "FILE: tolerance.share = 2: above 0 and up to 1 is allowed",
+}
+
+
+@pytest.fixture(scope="module")
+def model(fmu):
+    return Model(fmu)
+
+
+def recorded(kind):
+    """Document or text, files beside it, and message of each refusal of a kind."""
+    for group in RECORD:
+        for said in group["said"] if group["kind"] == kind else ():
+            document = copy.deepcopy(group["file"])
+            for (*above, key), value in said.get("with", ()):
+                table = document
+                for step in above:
+                    table = table[step]
+                table[key] = value
+            yield document, group.get("beside", {}), said["message"]
+
+
+def said_of(kind, document, beside, folder, model, monkeypatch):
+    """What the program says of a document, "" if it takes it."""
+    for name, text in beside.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    path = folder / "FILE"
+    path.write_text(document if isinstance(document, str) else "", encoding="utf-8")
+
+    def read(source):
+        if isinstance(document, str) or Path(source) != path:
+            return read_toml(source)
+        check_integers(source, document)
+        return copy.deepcopy(document)
+
+    for module in (bearing_file, scene):
+        monkeypatch.setattr(module, "read_toml", read)
+    try:
+        READERS[kind](path, read_toml(path) if isinstance(document, str) else document, model)
+    except UserError as problem:
+        return str(problem).replace(f"{folder}/", "")
+    return ""
+
+
+@pytest.mark.parametrize("kind", READERS)
+def test_refusals_are_those_of_the_record(model, tmp_path, monkeypatch, kind):
+    found = [
+        (message, said_of(kind, document, beside, tmp_path, model, monkeypatch))
+        for document, beside, message in recorded(kind)
+    ]
+    assert found and {old: new for old, new in found if new != CHANGED.get(old, old)} == {}
+
+
+def test_changed_messages_are_of_the_record():
+    assert set(CHANGED) <= {said["message"] for group in RECORD for said in group["said"]}
