@@ -10,6 +10,7 @@ from riveted_bearing import UserError
 from riveted_bearing.design.cascade import (
     Cascade,
     State,
+    CascadeCase,
     bench_of,
     breaks_of,
     follow,
@@ -113,7 +114,7 @@ def test_cases_change_single_values(tmp_path, fmu):
         "parameters": {"joint": {"preload": "30 N"}, "start.settle": 1e-3},
         "inputs": {"shaft": {"omega": 500.0}},
     }
-    case = {"parameters": {"joint": {"fit": "-90 um"}}, "inputs": {"shaft": {"tilt_y": "0.1 deg"}}}
+    case = CascadeCase(parameters={"joint": {"fit": "-90 um"}}, inputs={"shaft": {"tilt_y": "0.1 deg"}})
     scene = bench_of(tmp_path / "c.toml", document, Model(fmu), tmp_path, None, None, case).scene
     assert scene.parameters["joint.preload"] == 30.0 and scene.parameters["joint.fit"] == pytest.approx(-90e-6)
     assert scene.inputs["shaft.omega"].value == [500.0] and scene.inputs["shaft.tilt_y"].value == pytest.approx(

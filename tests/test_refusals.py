@@ -48,6 +48,20 @@ CHANGED = {  # old message: new one
     "FILE: preload_loss.hours = [1, 2]: they must begin with 0 and increase": (
         "FILE: preload_loss.hours = [1.0, 2.0]: they must begin with 0 and increase"
     ),
+    "FILE: change = -1: [[change]] tables with at and parameters are needed": (
+        "FILE: change: write [[change]] with its keys below it"
+    ),
+    "FILE: vary: write [[vary]] with a name and a list below it": "FILE: vary: write [[vary]] with its keys below it",
+    "FILE: case = {'name': 'a'}: [[case]] tables with name, [case.parameters] and [case.inputs] are needed": (
+        "FILE: case: write [[case]] with its keys below it"
+    ),
+    'FILE: until = \'20 N\': unit "N" does not fit; allowed: h, d, years; a time is needed, as "20000 h"': (
+        "FILE: until = '20 N': unit \"N\" does not fit; allowed: h, d, years"
+    ),
+    "FILE: sample: between = 3: not a table": "FILE: sample.between = 3: not a table",
+    'FILE: target 1: unknown key "weight"; allowed: measure, line, frequency, width, value, point, over, minus, uncertainty, held_out': (
+        'FILE: target 1: unknown key "weight"; allowed: point, over, minus, uncertainty, held_out, measure, line, frequency, width, value'
+    ),
     "FILE: tolerance.share = 2.0: above 0 and up to 1 is allowed": "FILE: tolerance.share = 2: above 0 and up to 1 is allowed",
 }
 

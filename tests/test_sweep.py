@@ -138,7 +138,7 @@ def test_a_sobol_sequence_is_balanced_in_both_halves_of_each_axis(tmp_path, mode
             "[sample]\nmethod = ['sobol']\ncount = 4\nbetween.joint.mu = [0, 1]",
             ["sample.method = ['sobol']", "latin_hypercube, sobol"],
         ),
-        ("[sample]\nbetween = 3", ["sample: between = 3", "not a table"]),
+        ("[sample]\nbetween = 3", ["sample.between = 3", "not a table"]),
         ("sample = 3", ["sample = 3", "not a table"]),
         ("simulation = 3", ["simulation = 3", "not a table"]),
         ("scene = 3", ["scene = 3", "a file is needed"]),

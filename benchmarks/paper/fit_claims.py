@@ -125,7 +125,7 @@ def plan_claims(path, document, model):
     measure = section.get("measure", "mean")
     if measure not in MEASURES:
         raise refusal(path, "claims.measure", measure, f"allowed: {', '.join(MEASURES)}")
-    parameters = parameters_of(path, document, model, [])
+    parameters = parameters_of(path, section_of(path, document, "parameter"), model, [])
     for parameter in parameters:
         if parameter.name in model.inputs:
             raise refusal(

@@ -149,7 +149,7 @@ def checked(kind: type[S], document: Any, path: Any, where: str = "") -> S:
         return kind.model_validate(document)
     except ValidationError as problem:
         faults = problem.errors(include_url=False)
-        first = next((fault for fault in faults if fault["type"] == "extra_forbidden"), faults[0])
+        first = min(faults, key=lambda fault: {"extra_forbidden": 0, "missing": 2}.get(fault["type"], 1))
         raise fault_text(kind, document, path, where, first) from None
 
 
@@ -171,7 +171,7 @@ def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault:
         return UserError(f"{place}: {full} is needed{f': {about}' if about else ''}")
     if isinstance(key, int) and fault["type"] in ("model_type", "dict_type"):  # not a list of tables
         return UserError(f"{place}: {above[-1]}: write [[{above[-1]}]] with its keys below it")
-    if fault["type"] == "list_type" and model_of(field_at(kind, [*above, key]).annotation):
+    if fault["type"] == "list_type" and is_of_tables(field_at(kind, [*above, key]).annotation):
         return UserError(f"{place}: {full}: write [[{full}]] with its keys below it")
     error = fault.get("ctx", {}).get("error")
     return refusal(place, full, fault["input"], error or WORDS.get(fault["type"], fault["msg"]))
@@ -182,6 +182,11 @@ def model_of(annotation: Any) -> type[Section] | None:
     if isinstance(annotation, type) and not isinstance(annotation, types.GenericAlias):
         return annotation if issubclass(annotation, Section) else None
     return next(filter(None, map(model_of, get_args(annotation))), None)
+
+
+def is_of_tables(annotation: Any) -> bool:
+    """Whether a list's annotation is one of tables."""
+    return model_of(annotation) is not None or Named in get_args(annotation)
 
 
 def field_at(kind: type[Section], place: list[Any]) -> Any:

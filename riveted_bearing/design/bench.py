@@ -16,21 +16,36 @@ second of which does the damage.
 import hashlib
 from dataclasses import replace
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import BeforeValidator, Field
 
 from ..base.errors import UserError, refusal, unknown
-from ..base.toml_files import leaves, section_of
+from ..base.schema import Count, Named, checked
+from ..base.toml_files import leaves
 from ..duty.mission import curves
 from ..running.basis import basis
 from ..running.responses import COLUMNS, response, shown
 from ..running.scene import load_scene
 from ..studies.rows import columns_of, compact
 from ..studies.sweep import run_sweep, schema_of
-from ..studies.sweep_file import Sweep, beside, bounds, count_of, key_of, known_names, sections_of
+from ..studies.sweep_file import Settings, Sweep, beside, bounds, key_of, known_names, sections_of
 
-COMMON = ("description", "scene", "simulation", "parameters", "inputs", "between", "seeds", "seed")
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
+
+
+class Seeded(Settings):
+    """A study whose points are simulated with common seeds."""
+
+    seeds: Annotated[int, Count()] = Field(2, description="runs of each point, the same start.seed for all points")
+    seed: Annotated[int, Count()] = Field(1, description="first start.seed, and seed of the study's own choices")
+
+
+class BenchFile(Seeded):
+    """A study over a box."""
+
+    between: Named = Field({}, description="[lowest, highest] by name of a parameter or input")
 
 
 class Box:
@@ -83,14 +98,14 @@ class Bench:
             client,
             progress,
         )
-        common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
-        common["simulation"] = {"outputs": OUTPUTS} | common["simulation"]
-        common["parameters"] = {"scene.stress": "fatigue"} | common["parameters"]
-        self.common, self.source = common, beside(path, document.get("scene"))
+        shared = {key: value for key, value in document.items() if key in Seeded.model_fields}
+        file = checked(Seeded, shared, path)
+        common = {"inputs": file.inputs, "simulation": {"outputs": OUTPUTS} | file.simulation}
+        common["parameters"] = {"scene.stress": "fatigue"} | file.parameters
+        self.common, self.source = common, beside(path, file.scene)
         self.scene = load_scene(self.source, model, (str(path), common))
-        self.seeds = count_of(path, "seeds", document.get("seeds", 2))
-        self.first = count_of(path, "seed", document.get("seed", 1))
-        self.fmu = model.path.read_bytes()
+        self.seeds, self.first = file.seeds, file.seed
+        self.description, self.fmu = file.description, model.path.read_bytes()
         self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
         self.scenes = {}
         self.counts_damage = False
@@ -100,7 +115,7 @@ class Bench:
         """The runs of scenes by key, in which the names vary."""
         return Sweep(
             self.path.stem,
-            str(self.document.get("description", "")),
+            self.description,
             self.model,
             self.fmu,
             self.document,
@@ -176,18 +191,15 @@ class Bench:
         return ", ".join(f"{name} = {shown(name, rows[name][i])}" for name in names if name in rows)
 
 
-def response_names(path, key, value):
-    """A list of names of responses."""
-    if (
-        not isinstance(value, list)
-        or not value
-        or not all(isinstance(name, str) for name in value)
-        or len(set(value)) != len(value)
-    ):
-        raise refusal(
-            path, key, value, f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}"
-        )
+def responses_of(value):
+    """A list of names of responses; ValueError for anything else."""
+    texts = isinstance(value, list) and all(isinstance(name, str) for name in value)
+    if not texts or not value or len(set(value)) != len(value):
+        raise UserError(f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}")
     return value
+
+
+Responses = Annotated[list[str], BeforeValidator(responses_of)]
 
 
 def noise_variance(values):

@@ -28,23 +28,43 @@ How sure the order is: the share of bootstrap resamples of the seeds in which th
 import json
 import textwrap
 from dataclasses import asdict, dataclass, replace
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
 from ..base.errors import UserError, refusal
 from ..base.file_kinds import check_keys
 from ..base.files import write_atomically
+from ..base.schema import Count, Named, Number, Section, Text, checked
 from ..base.toml_files import leaves, section_of
-from ..base.units import hours_text, to_si
+from ..base.units import hours_text
 from ..show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
-from ..studies.sweep_file import count_of, known_names
-from .bench import COMMON, Bench
+from ..studies.sweep_file import known_names
+from .bench import Bench, Seeded
 
-KEYS = (*(key for key in COMMON if key != "between"), "breaks", "until", "case")
 SECTIONS = ("parameters", "inputs")
 HOURS = {"h": 1.0, "d": 1.0 / 24.0, "years": 1.0 / 8766.0}  # of one hour
 PLACES = ("head", "middle")
 RESAMPLES = 2000
+
+
+class CascadeCase(Section):
+    """A cascade of its own."""
+
+    name: Text | None = Field(None, description="default: its number")
+    parameters: Named = {}
+    inputs: Named = {}
+
+
+class CascadeFile(Seeded):
+    """What happens when the first rivet goes: without [[case]] there is a single cascade."""
+
+    breaks: Annotated[int, Count()] = Field(3, description="rivets that break before the end")
+    until: Annotated[float, Number(HOURS, above=0.0, words="a time above 0 h is needed")] = Field(
+        np.inf, description="what breaks later is not followed; default: no limit"
+    )
+    case: list[CascadeCase] = []
 
 
 @dataclass(frozen=True)
@@ -90,21 +110,13 @@ class Cascade:
 
 def plan_cascade(path, document):
     """Names and parameters of the cases, number of breaks, hours that are followed; UserError names what cannot be used."""
-    check_keys(path, document, KEYS, "cascade")
-    cases = document.get("case", [{}])
-    if not isinstance(cases, list) or not all(
-        isinstance(case, dict) and set(case) <= {"name", *SECTIONS} for case in cases
-    ):
-        raise refusal(path, "case", cases, "[[case]] tables with name, [case.parameters] and [case.inputs] are needed")
-    named = {
-        str(case.get("name", i + 1 if len(cases) > 1 else path.stem)): {
-            section: section_of(path, case, section) for section in SECTIONS
-        }
-        for i, case in enumerate(cases)
-    }
+    check_keys(path, document, CascadeFile.model_fields, "cascade")
+    file = checked(CascadeFile, document, path)
+    cases = file.case or [CascadeCase()]
+    named = {case.name or str(i + 1 if len(cases) > 1 else path.stem): case for i, case in enumerate(cases)}
     if len(named) < len(cases):
-        raise refusal(path, "case", [case.get("name") for case in cases], "each case needs a name of its own")
-    return named, count_of(path, "breaks", document.get("breaks", 3)), until_of(path, document)
+        raise refusal(path, "case", [case.name for case in cases], "each case needs a name of its own")
+    return named, file.breaks, file.until
 
 
 def bench_of(path, document, model, folder, client, progress, case, own=()):
@@ -112,22 +124,11 @@ def bench_of(path, document, model, folder, client, progress, case, own=()):
     common = {key: document[key] for key in ("description", "scene", "simulation", "seeds", "seed") if key in document}
     names = known_names(model)
     for section in SECTIONS:
-        common[section] = dict(leaves(section_of(path, document, section), names)) | dict(leaves(case[section], names))
+        common[section] = dict(leaves(section_of(path, document, section), names)) | dict(
+            leaves(getattr(case, section), names)
+        )
     common["parameters"] |= dict(own)
     return Bench(path, common, model, folder, client, progress)
-
-
-def until_of(path, document):
-    """Hours that a cascade is followed."""
-    if "until" not in document:
-        return np.inf
-    try:
-        hours = float(to_si(document["until"], HOURS))
-    except ValueError as problem:
-        raise refusal(path, "until", document["until"], f'{problem}; a time is needed, as "20000 h"') from None
-    if not 0.0 < hours < np.inf:
-        raise refusal(path, "until", document["until"], "a time above 0 h is needed")
-    return hours
 
 
 def default_document(model, shipped):

@@ -19,23 +19,35 @@ import math
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import Field
 
 from ..base.errors import UserError, extra, refusal, unknown
 from ..base.file_kinds import check_keys
 from ..base.files import write_atomically
-from ..base.toml_files import section_of
+from ..base.schema import Count, Named, checked
 from ..base.units import to_si
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
-from ..studies.sweep_file import count_of
-from .bench import COMMON, Box, response_names
+from .bench import BenchFile, Box, Responses
 
-KEYS = (*COMMON, "objectives", "limits", "trials", "batch", "check_seeds", "candidates")
-COUNTS = {"trials": 40, "batch": 4, "check_seeds": 8, "candidates": 5}
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
 BAD = 1e30  # of an objective whose run was stopped
+
+
+class OptimizeFile(BenchFile):
+    """What to choose: the point of a box at which the objectives are smallest."""
+
+    objectives: Responses = Field(["damage"], description='to be small; "-name" to be large')
+    limits: Named = Field({}, description="largest value by response")
+    trials: Annotated[int, Count()] = 40
+    batch: Annotated[int, Count()] = Field(4, description="points simulated side by side")
+    check_seeds: Annotated[int, Count(2, "from 2 on, which show scatter, is allowed")] = Field(
+        8, description="fresh seeds of the points that look best"
+    )
+    candidates: Annotated[int, Count()] = Field(5, description="how many of them")
 
 
 @dataclass(frozen=True)
@@ -81,14 +93,11 @@ class Optimum:
 
 def plan_optimize(path, document, model):
     """The Study of a document; raises UserError naming what cannot be used."""
-    check_keys(path, document, KEYS, "search for best values")
-    counts = {key: count_of(path, key, document.get(key, default)) for key, default in COUNTS.items()}
-    if counts["check_seeds"] < 2:
-        raise refusal(path, "check_seeds", counts["check_seeds"], "from 2 on, which show scatter, is allowed")
-    objectives = response_names(path, "objectives", document.get("objectives", ["damage"]))
-    signs = np.array([-1.0 if name.startswith("-") else 1.0 for name in objectives])
+    check_keys(path, document, OptimizeFile.model_fields, "search for best values")
+    file = checked(OptimizeFile, document, path)
+    signs = np.array([-1.0 if name.startswith("-") else 1.0 for name in file.objectives])
     limits = {}
-    for name, value in section_of(path, document, "limits").items():
+    for name, value in file.limits.items():
         column = COLUMNS.get(name, name)
         variable = model.outputs.get(column) or model.outputs.get(column.split("(")[-1].removesuffix(")"))
         try:
@@ -99,10 +108,9 @@ def plan_optimize(path, document, model):
                     path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]
                 ) from None
             raise refusal(path, f"limits.{name}", value, problem) from None
-    box = Box(path, section_of(path, document, "between"), model)
-    names = [name.removeprefix("-") for name in objectives]
-    seed = count_of(path, "seed", document.get("seed", 1))
-    return Study(Path(path), str(document.get("description", "")), box, names, signs, limits, **counts, seed=seed)
+    names = [name.removeprefix("-") for name in file.objectives]
+    counts = {key: getattr(file, key) for key in ("trials", "batch", "check_seeds", "candidates", "seed")}
+    return Study(Path(path), file.description, Box(path, file.between, model), names, signs, limits, **counts)
 
 
 def optuna_library():

@@ -21,20 +21,56 @@ import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import AfterValidator, Field
 
-from ..base.errors import UserError, extra, refusal, unknown
+from ..base.errors import UserError, extra
 from ..base.file_kinds import check_keys
 from ..base.files import write_atomically
-from ..base.toml_files import section_of
+from ..base.schema import Count, Section, checked
 from ..running.responses import display_of
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
-from ..studies.sweep_file import count_of
-from .bench import COMMON, Box, noise_variance, response_names
+from .bench import BenchFile, Box, Responses, noise_variance
 
-KEYS = (*COMMON, "responses", "morris", "sobol")
-METHODS = {"morris": ("trajectories", "levels"), "sobol": ("factors", "count")}
+
+def even(value):
+    """An even number from 2 on; ValueError for anything else."""
+    if value < 2 or value % 2:
+        raise UserError("an even number is needed")
+    return value
+
+
+def power_of_two(value):
+    """A power of 2; ValueError for anything else."""
+    if value & (value - 1):
+        raise UserError("a Sobol sequence is balanced only for powers of 2")
+    return value
+
+
+class Morris(Section):
+    """The screening of all factors."""
+
+    trajectories: Annotated[int, Count()] = Field(8, description="(factors + 1) points each")
+    levels: Annotated[int, Count(), AfterValidator(even)] = Field(4, description="even")
+
+
+class Sobol(Section):
+    """The indices of the factors that are left."""
+
+    factors: Annotated[int, Count(0)] = Field(3, description="the first of the screening; 0: no Sobol indices")
+    count: Annotated[int, Count(), AfterValidator(power_of_two)] = Field(
+        64, description="power of 2; (factors + 2) count points"
+    )
+
+
+class SensitivityFile(BenchFile):
+    """What decides: without [between] the factors are the parameters that were assumed, over their documented ranges."""
+
+    responses: Responses = ["damage", "stress"]
+    morris: Morris = Morris()
+    sobol: Sobol = Sobol()
 
 
 @dataclass(frozen=True)
@@ -80,25 +116,10 @@ def plan_sensitivity(path, document, model, assumed=None):
     """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what
     cannot be used.
     """
-    check_keys(path, document, KEYS, "sensitivity study")
-    settings = {"trajectories": 8, "levels": 4, "factors": 3, "count": 64}
-    for name, keys in METHODS.items():
-        for key, value in section_of(path, document, name).items():
-            if key not in keys:
-                raise unknown(path, "key", f"{name}.{key}", [f"{name}.{key}" for key in keys])
-            settings[key] = (
-                value
-                if key == "factors" and value == 0 and not isinstance(value, bool)
-                else count_of(path, f"{name}.{key}", value)
-            )
-    if settings["levels"] < 2 or settings["levels"] % 2:
-        raise refusal(path, "morris.levels", settings["levels"], "an even number is needed")
-    if settings["count"] & (settings["count"] - 1):
-        raise refusal(path, "sobol.count", settings["count"], "a Sobol sequence is balanced only for powers of 2")
-    box = Box(path, section_of(path, document, "between"), model, assumed)
-    responses = response_names(path, "responses", document.get("responses", ["damage", "stress"]))
-    seed = count_of(path, "seed", document.get("seed", 1))
-    return Study(Path(path), str(document.get("description", "")), box, responses, **settings, seed=seed)
+    check_keys(path, document, SensitivityFile.model_fields, "sensitivity study")
+    file = checked(SensitivityFile, document, path)
+    settings = {**dict(file.morris), **dict(file.sobol), "seed": file.seed}
+    return Study(Path(path), file.description, Box(path, file.between, model, assumed), file.responses, **settings)
 
 
 def salib(command="sensitivity"):

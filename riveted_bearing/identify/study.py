@@ -1,67 +1,88 @@
-"""The file of an identification, read and checked before anything is simulated.
-
-    scene = "demo"                       # as in a sweep, and so are [simulation], [parameters], [inputs]
-    seeds = 2                            # runs of each point of the search, the same start.seed for all
-    seed = 1                             # first start.seed, and seed of the study's own choices
-    check_seeds = 8                      # fresh seeds of the answer
-    held_out = 3                         # each so many-th target is kept from the fit; 0: none
-    confidence = 0.95
-    [parameter]                          # what is to be found, with its range
-    cage.guide_clearance = ["0.1 mm", "0.3 mm"]
-    oil.eta = { low = "2 mPa.s", high = "20 mPa.s", scale = "log", mean = "6 mPa.s", sd = "2 mPa.s" }    # normal prior
-    [screen]
-    method = "latin_hypercube"           # or "morris", then with trajectories and levels
-    count = 40
-    [search]
-    rounds = 2                           # of the surrogate, each with so many points
-    points = 12
-    [[point]]                            # operating points; none: the scene itself
-    name = "28k"
-    inputs.shaft.omega = "28000 rev/min"
-    [[target]]
-    point = "28k"                        # default: the first point
-    measure = "mean(bearing.power_loss)" # a response or any column of a sweep, std(x), q05(x), q50(x), q95(x)
-    value = "350 W"
-    uncertainty = "3 %"                  # one standard deviation, of the value or in its unit
-    [[target]]                           # a line of a spectrum: RMS amplitude in frequency +- width/2
-    line = "housing.F_y"
-    frequency = "1250 Hz"
-    width = "50 Hz"
-    value = "3 N"
-    uncertainty = "0.3 N"
-    over = "cold"                        # the target is the ratio to another point's, or with `minus` the difference
-    held_out = true                      # in the place of the rule above
-    [[series]]                           # a measured series: its statistics and bands of its spectrum are targets
-    file = "rig.csv"                     # or .parquet
-    columns.housing.F_y = "Fy [kN]"      # channel = column; time = "t [ms]"
-    statistics = ["mean", "std"]
-    bands = 4
-    uncertainty = "2 %"                  # of the sensor, beside the scatter of the series itself
+"""The file of an identification, read and checked before anything is simulated; docs/identify.md has examples.
 
 A weight is 1/uncertainty^2.  Without an uncertainty a target has no weight and is refused.
 """
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import AfterValidator, BeforeValidator, Field
 from scipy.stats import norm
 
 from ..base.errors import UserError, refusal, unknown
-from ..base.toml_files import leaves, section_of
+from ..base.file_kinds import check_keys
+from ..base.schema import Choice, Count, Named, Section, checked
+from ..base.toml_files import leaves
+from ..design.sensitivity import even
 from ..running.scene import load_scene
-from ..studies.sweep_file import beside, bounds, count_of, known_names
-from .targets import Reader, quantity, spread
+from ..studies.sweep_file import Settings, beside, bounds, known_names
+from .targets import Reader, SeriesBlock, TargetBlock, quantity, spread
 
-KEYS = (
-    *("description", "scene", "simulation", "parameters", "inputs", "seeds", "seed", "check_seeds", "held_out"),
-    *("confidence", "parameter", "screen", "search", "point", "target", "series"),
-)
 PARAMETER = ("low", "high", "scale", "mean", "sd")
-SCREEN = {"method": "latin_hypercube", "count": 40, "trajectories": 6, "levels": 4}
-SEARCH = {"rounds": 2, "points": 12}
-POINT = ("name", "inputs", "parameters", "simulation")
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
+
+
+def so_many(value):
+    """0, or a whole number from 2 on; ValueError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, int) or value < 0 or value == 1:
+        raise UserError("0 (none), or from 2 on (each so many-th), is allowed")
+    return value
+
+
+def fraction(value):
+    """A number between 0 and 1; ValueError for anything else."""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < 1.0:
+        raise UserError("a number between 0 and 1 is needed")
+    return float(value)
+
+
+class Screen(Section):
+    """The screen over the whole range."""
+
+    method: Annotated[str, Choice(("latin_hypercube", "morris"))] = "latin_hypercube"
+    count: Annotated[int, Count()] = Field(40, description="points of latin_hypercube")
+    trajectories: Annotated[int, Count()] = Field(6, description="of morris")
+    levels: Annotated[int, Count(), AfterValidator(even)] = Field(4, description="of morris, even")
+
+
+class Search(Section):
+    """Rounds of the surrogate."""
+
+    rounds: Annotated[int, Count()] = 2
+    points: Annotated[int, Count()] = Field(12, description="of a round")
+
+
+class RigPoint(Section):
+    """An operating point; without any the scene itself is the only one."""
+
+    name: Annotated[str, Field(strict=True, min_length=1)] | None = Field(None, description="default: its number")
+    inputs: Named = {}
+    parameters: Named = {}
+    simulation: Named = {}
+
+
+class IdentifyFile(Settings):
+    """An identification: parameters to be found, and what a rig has measured."""
+
+    seeds: Annotated[int, Count()] = Field(2, description="runs of each point of the search, the same for all")
+    seed: Annotated[int, Count()] = Field(1, description="first start.seed, and seed of the study's own choices")
+    check_seeds: Annotated[int, Count(2, "from 2 on, which show scatter, is allowed")] = Field(
+        8, description="fresh seeds of the answer"
+    )
+    held_out: Annotated[int, BeforeValidator(so_many)] = Field(
+        3, description="each so many-th target is kept from the fit; 0: none"
+    )
+    confidence: Annotated[float, BeforeValidator(fraction)] = 0.95
+    parameter: Named = Field(
+        {}, description="[lowest, highest] by name, or { low, high, scale = log, mean, sd } with a normal prior"
+    )
+    screen: Screen = Screen()
+    search: Search = Search()
+    point: list[RigPoint] = []
+    target: list[TargetBlock] = []
+    series: list[SeriesBlock] = []
 
 
 @dataclass(frozen=True)
@@ -136,31 +157,17 @@ class Study:
 def plan_identify(path, document, model):
     """The Study of a document; raises UserError naming what cannot be used."""
     path = Path(path)
-    for key in document:
-        if key not in KEYS:
-            raise unknown(path, "key", key, KEYS)
-    settings = {
-        key: count_of(path, key, document.get(key, n)) for key, n in (("seeds", 2), ("seed", 1), ("check_seeds", 8))
-    }
-    if settings["check_seeds"] < 2:
-        raise refusal(path, "check_seeds", settings["check_seeds"], "from 2 on, which show scatter, is allowed")
-    settings["held_out"] = document.get("held_out", 3)
-    if (
-        isinstance(settings["held_out"], bool)
-        or not isinstance(settings["held_out"], int)
-        or settings["held_out"] < 0
-        or settings["held_out"] == 1
-    ):
-        raise refusal(path, "held_out", settings["held_out"], "0 (none), or from 2 on (each so many-th), is allowed")
-    settings["confidence"] = fraction(path, "confidence", document.get("confidence", 0.95))
-    settings |= {"screen": screen_of(path, document), "search": counts_of(path, document, "search", SEARCH)}
-    points = points_of(path, document, model)
-    parameters = parameters_of(path, document, model, points)
-    scenes = [scene_of(path, document, model, changes) for _, changes in points]
-    reader = Reader(path, model, points, scenes, settings["held_out"])
-    for i, block in enumerate(blocks_of(path, document, "target"), 1):
+    check_keys(path, document, IdentifyFile.model_fields, "identification")
+    file = checked(IdentifyFile, document, path)
+    settings = {key: getattr(file, key) for key in ("seeds", "seed", "check_seeds", "held_out", "confidence")}
+    settings |= {"screen": dict(file.screen), "search": dict(file.search)}
+    points = points_of(path, file)
+    parameters = parameters_of(path, file.parameter, model, points)
+    scenes = [scene_of(path, file, model, changes) for _, changes in points]
+    reader = Reader(path, model, points, scenes, file.held_out)
+    for i, block in enumerate(file.target, 1):
         reader.target(f"target {i}", block)
-    for i, block in enumerate(blocks_of(path, document, "series"), 1):
+    for i, block in enumerate(file.series, 1):
         reader.series(f"series {i}", block)
     if not reader.targets:
         raise UserError(
@@ -171,7 +178,7 @@ def plan_identify(path, document, model):
     measures = tuple(dict.fromkeys(reader.measures))
     return Study(
         path,
-        str(document.get("description", "")),
+        file.description,
         parameters,
         reader.targets,
         points,
@@ -181,63 +188,19 @@ def plan_identify(path, document, model):
     )
 
 
-def fraction(path, key, value):
-    """A number between 0 and 1."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < 1.0:
-        raise refusal(path, key, value, "a number between 0 and 1 is needed")
-    return float(value)
-
-
-def blocks_of(path, document, key):
-    """The tables of [[key]]."""
-    blocks = document.get(key, [])
-    if not isinstance(blocks, list) or not all(isinstance(block, dict) for block in blocks):
-        raise UserError(f"{path}: {key}: write [[{key}]] with its keys below it")
-    return blocks
-
-
-def counts_of(path, document, name, defaults):
-    """Whole numbers of a section."""
-    section = section_of(path, document, name)
-    for key in section:
-        if key not in defaults:
-            raise unknown(path, "key", f"{name}.{key}", [f"{name}.{known}" for known in defaults])
-    return {key: count_of(path, f"{name}.{key}", section.get(key, default)) for key, default in defaults.items()}
-
-
-def screen_of(path, document):
-    """Settings of [screen]."""
-    section = section_of(path, document, "screen")
-    for key in section:
-        if key not in SCREEN:
-            raise unknown(path, "key", f"screen.{key}", [f"screen.{known}" for known in SCREEN])
-    found = SCREEN | section
-    if found["method"] not in ("latin_hypercube", "morris"):
-        raise refusal(path, "screen.method", found["method"], "allowed: latin_hypercube, morris")
-    for key in ("count", "trajectories", "levels"):
-        count_of(path, f"screen.{key}", found[key])
-    if found["levels"] < 2 or found["levels"] % 2:
-        raise refusal(path, "screen.levels", found["levels"], "an even number is needed")
-    return found
-
-
-def points_of(path, document, model):
+def points_of(path, file):
     """(name, document) of each operating point; one without changes if there are none."""
     found = []
-    for i, block in enumerate(blocks_of(path, document, "point"), 1):
-        for key in block:
-            if key not in POINT:
-                raise unknown(f"{path}: point {i}", "key", key, POINT)
-        name = block.get("name", f"point {i}")
-        if not isinstance(name, str) or not name or name in [other for other, _ in found]:
+    for i, block in enumerate(file.point, 1):
+        name = block.name or f"point {i}"
+        if name in [other for other, _ in found]:
             raise refusal(path, f"point {i}: name", name, "a text is needed, another one for each point")
-        found.append((name, {key: section_of(path, block, key) for key in POINT[1:]}))
+        found.append((name, {key: getattr(block, key) for key in ("inputs", "parameters", "simulation")}))
     return found or [("", {})]
 
 
-def parameters_of(path, document, model, points):
+def parameters_of(path, section, model, points):
     """The Parameters of [parameter]."""
-    section = section_of(path, document, "parameter")
     found, known = [], known_names(model)
     for name, value in leaves(section, known):
         if name not in known or name.startswith(NOT_FOUND):
@@ -288,7 +251,7 @@ def parameters_of(path, document, model, points):
     return found
 
 
-def scene_of(path, document, model, changes):
+def scene_of(path, file, model, changes):
     """The scene of an operating point, before the outputs that the targets need."""
-    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
-    return load_scene(beside(path, document.get("scene")), model, (str(path), common), (str(path), changes))
+    common = {"simulation": file.simulation, "parameters": file.parameters, "inputs": file.inputs}
+    return load_scene(beside(path, file.scene), model, (str(path), common), (str(path), changes))

@@ -2,23 +2,53 @@
 
 import re
 from dataclasses import dataclass
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import Field
 
 from ..base.errors import UserError, refusal, unknown
+from ..base.schema import Count, Named, Number, Section, Truth
 from ..base.tables import Table, Wanted
-from ..base.toml_files import leaves, section_of
+from ..base.toml_files import leaves
 from ..base.units import SECONDS, scales_of, to_si
 from ..running.responses import COLUMNS as RESPONSES
 from ..studies.sweep import KINDS
-from ..studies.sweep_file import count_of
 from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
 
-COMMON = ("point", "over", "minus", "uncertainty", "held_out")
-TARGET = ("measure", "line", "frequency", "width", "value", *COMMON)
-SERIES = ("file", "time", "longest_gap", "columns", "statistics", "bands", *COMMON)
 HERTZ = {"Hz": (1.0, 0.0), "kHz": (1e-3, 0.0)}
 SHORT = {"slip": "mean(cage.slip_ratio)", "cage_speed": "stat.cage_omega", "heat": "mean(bearing.power_loss)"}
+
+
+class Common(Section):
+    """What targets and series have in common."""
+
+    point: Any = Field(None, description="its operating point; default: the first one")
+    over: Any = Field(None, description="the target is the ratio to another point's")
+    minus: Any = Field(None, description="or the difference to it")
+    uncertainty: Any = Field(None, description="one standard deviation, in the unit of the value or in % of it")
+    held_out: Truth | None = Field(None, description="in the place of the rule for all")
+
+
+class TargetBlock(Common):
+    """A measured figure: a measure of the runs, or a line of a spectrum."""
+
+    measure: Any = Field(None, description="a response or column of a sweep, std(x), q05(x), q50(x), q95(x)")
+    line: Any = Field(None, description="channel whose RMS amplitude in frequency +- width/2 is meant")
+    frequency: Any = None
+    width: Any = None
+    value: Any = None
+
+
+class SeriesBlock(Common):
+    """A measured series, whose statistics and bands of the spectrum are targets."""
+
+    file: Annotated[str, Field(strict=True)] = Field(description="CSV, Parquet or Excel, beside the study's")
+    time: Annotated[str, Field(strict=True)] = "time"
+    longest_gap: Annotated[float | None, Number(SECONDS)] = None
+    columns: Named = Field({}, description="column by channel")
+    statistics: list[str] = ["mean", "std"]
+    bands: Annotated[int, Count(0)] = Field(0, description="octaves of the spectrum")
 
 
 @dataclass(frozen=True)
@@ -83,32 +113,28 @@ class Reader:
     def target(self, where, block):
         """One [[target]]."""
         where = f"{self.path}: {where}"
-        for key in block:
-            if key not in TARGET:
-                raise unknown(where, "key", key, TARGET)
-        if ("measure" in block) == ("line" in block):
+        if (block.measure is None) == (block.line is None):
             raise UserError(f"{where}: either measure or line is needed")
         point, operation, other = self.place(where, block)
-        if "line" in block:
+        if block.line is not None:
             column, unit, scales = self.line(where, block, point)
         else:
-            column, unit, scales = self.column(where, block["measure"])
+            column, unit, scales = self.column(where, block.measure)
         if operation == "over":
             unit, scales = "1", scales_of("1", {})
         elif operation == "minus":
             scales = {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
         for key in ("value", "uncertainty"):
-            if key not in block:
+            if getattr(block, key) is None:
                 raise UserError(f"{where}: {key} is missing: its weight follows from value and uncertainty")
-        value = quantity(where, "value", block["value"], scales)
-        uncertainty = spread(where, "uncertainty", block["uncertainty"], scales, value)
-        self.add(where, block, block.get("measure", column), point, column, value, uncertainty, unit, operation, other)
+        value = quantity(where, "value", block.value, scales)
+        uncertainty = spread(where, "uncertainty", block.uncertainty, scales, value)
+        self.add(where, block, block.measure or column, point, column, value, uncertainty, unit, operation, other)
 
     def add(self, where, block, label, point, column, value, uncertainty, unit, operation="", other=0, origin="given"):
         """Append a Target."""
-        held = block.get("held_out", bool(self.every) and (len(self.targets) + 1) % self.every == 0)
-        if not isinstance(held, bool):
-            raise refusal(where, "held_out", held, "true or false is needed")
+        by_rule = bool(self.every) and (len(self.targets) + 1) % self.every == 0
+        held = by_rule if block.held_out is None else block.held_out
         at = self.points[point][0]
         name = f"{at}: {label}" if at else label
         if operation:
@@ -120,15 +146,15 @@ class Reader:
         names = [name for name, _ in self.points]
 
         def number(key):
-            if block[key] not in names:
-                raise unknown(where, key, block[key], names)
-            return names.index(block[key])
+            if getattr(block, key) not in names:
+                raise unknown(where, key, getattr(block, key), names)
+            return names.index(getattr(block, key))
 
-        operations = [key for key in ("over", "minus") if key in block]
+        operations = [key for key in ("over", "minus") if getattr(block, key) is not None]
         if len(operations) > 1:
             raise UserError(f"{where}: either over or minus is needed")
         operation = operations[0] if operations else ""
-        point = number("point") if "point" in block else 0
+        point = number("point") if block.point is not None else 0
         return point, operation, number(operation) if operation else 0
 
     def column(self, where, text):
@@ -162,29 +188,29 @@ class Reader:
 
     def line(self, where, block, point):
         """Column, unit and scales of a line of a spectrum."""
-        unit, scales = self.channel(where, "line", block["line"])
+        unit, scales = self.channel(where, "line", block.line)
         for key in ("frequency", "width"):
-            if key not in block:
+            if getattr(block, key) is None:
                 raise UserError(f"{where}: {key} is missing")
-        f, width = (quantity(where, key, block[key], HERTZ) for key in ("frequency", "width"))
+        f, width = (quantity(where, key, getattr(block, key), HERTZ) for key in ("frequency", "width"))
         lowest, highest = self.limits(point)
         if not 0.0 < width < 2.0 * f:
-            raise refusal(where, "width", block["width"], "more than 0 and less than twice the frequency is allowed")
+            raise refusal(where, "width", block.width, "more than 0 and less than twice the frequency is allowed")
         if min(width, f - 0.5 * width) < lowest:
             raise refusal(
                 where,
                 "width",
-                block["width"],
+                block.width,
                 f"at least {lowest:.4g} Hz, as for the lower end, is allowed with this length of the run after start.settle",
             )
         if f + 0.5 * width > highest:
             raise refusal(
                 where,
                 "frequency",
-                block["frequency"],
+                block.frequency,
                 f"at most {highest:.4g} Hz is allowed, half the rate of the run's samples",
             )
-        measure = Measure("line", block["line"], f - 0.5 * width, f + 0.5 * width)
+        measure = Measure("line", block.line, f - 0.5 * width, f + 0.5 * width)
         self.measures.append(measure)
         return measure.column, unit, scales
 
@@ -198,35 +224,27 @@ class Reader:
     def series(self, where, block):
         """One [[series]]: statistics and bands of each of its columns as targets."""
         where = f"{self.path}: {where}"
-        for key in block:
-            if key not in SERIES:
-                raise unknown(where, "key", key, SERIES)
-        if "file" not in block or not isinstance(block["file"], str):
-            raise UserError(f"{where}: file is missing")
-        if "over" in block or "minus" in block:
+        if block.over is not None or block.minus is not None:
             raise UserError(f"{where}: over and minus are for [[target]]")
         point, _, _ = self.place(where, block)
-        file = self.path.parent / block["file"]
-        table, time = Table(file), Wanted(text_of(where, "time", block.get("time", "time")), SECONDS)
-        gap = quantity(where, "longest_gap", block["longest_gap"], SECONDS) if "longest_gap" in block else None
+        file = self.path.parent / block.file
+        table, time = Table(file), Wanted(block.time, SECONDS)
         channels = self.model.inputs | self.model.outputs
-        columns = dict(leaves(section_of(where, block, "columns"), channels))
+        columns = dict(leaves(block.columns, channels))
         if not columns:
             raise UserError(f"{where}: columns: name at least one channel with the column that was measured")
-        kinds = block.get("statistics", ["mean", "std"])
-        allowed = ["mean", "rms", *STATISTICS]
-        if not isinstance(kinds, list) or any(kind not in allowed for kind in kinds):
+        kinds, allowed = block.statistics, ["mean", "rms", *STATISTICS]
+        if any(kind not in allowed for kind in kinds):
             raise refusal(where, "statistics", kinds, f"a list of {', '.join(allowed)} is needed")
-        count = block.get("bands", 0)
-        if count != 0:
-            count_of(where, "bands", count)
         for channel, wanted in columns.items():
             unit, scales = self.channel(where, "channel", channel)
-            t, values = table.series(time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=gap)
+            t, values = table.series(
+                time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=block.longest_gap
+            )
             if len(t) < 16 * SEGMENTS:
                 raise UserError(f"{file}: {len(t)} rows: at least {16 * SEGMENTS} times are needed")
             head = table.heads[table.place(wanted)]
-            measures = [Measure(kind, channel) for kind in kinds] + self.bands_of(where, channel, point, t, count)
+            measures = [Measure(kind, channel) for kind in kinds] + self.bands_of(where, channel, point, t, block.bands)
             for measure in measures:
                 self.measured(where, block, measure, point, t, values, unit, file, head)
 
@@ -254,15 +272,15 @@ class Reader:
         value, scatter = of_series(measure_of, t, values)
         if not np.isfinite(value) or not np.isfinite(scatter):
             raise UserError(f'{file}: column "{column}": no {measure.kind}: the times are not equally spaced')
-        if "uncertainty" in block:  # of the sensor
+        if block.uncertainty is not None:  # of the sensor
             scales = {"log10": (1.0, 0.0)} if measure.kind == "band" else self.model.units[unit]
-            relative = isinstance(block["uncertainty"], str) and block["uncertainty"].strip().endswith("%")
+            relative = isinstance(block.uncertainty, str) and block.uncertainty.strip().endswith("%")
             if measure.kind == "band" and relative:  # a share of the amplitude
-                sensor = spread(where, "uncertainty", block["uncertainty"], scales_of("1", {}), 1.0) / np.log(10.0)
+                sensor = spread(where, "uncertainty", block.uncertainty, scales_of("1", {}), 1.0) / np.log(10.0)
             elif measure.kind == "band":
                 sensor = 0.0  # a shift of the zero is in no band
             else:
-                sensor = spread(where, "uncertainty", block["uncertainty"], scales, value)
+                sensor = spread(where, "uncertainty", block.uncertainty, scales, value)
             scatter = float(np.hypot(scatter, sensor))
         if not scatter > 0.0:
             raise UserError(

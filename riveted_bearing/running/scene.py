@@ -1,28 +1,6 @@
-"""Scenes: what to simulate, from TOML files, checked against the FMU that is to run them.
+"""Scenes: what to simulate, checked against the FMU that is to run them; scene_file.py has the keys of the file.
 
-    description = "..."
-    oil = "mineral ISO VG 32"         # optional (oil.py)
-    [simulation]
-    t_end = 0.4                       # s
-    step = "0.1 ms"                   # communication step
-    output_interval = 1e-3            # optional, a multiple of step; *_peak channels keep the largest value in between
-    tolerance = 1e-4                  # optional
-    outputs = ["ring.*", "rivet[*].sigma_head_peak"]   # optional
-    [parameters]                      # at the start; dotted keys, nested tables or quoted full names
-    joint.preload = "30 N"
-    ring.tilt_mode = "supported"
-    [inputs]                          # constant, points or a column of a table (tables.py); held before the first and after the last point
-    shaft.F_y = "2994 N"
-    shaft.omega = { t = [0, 0.1], value = [0, 18238], unit = "rev/min", interpolation = "linear" }
-    shaft.F_x = { file = "loads.csv", column = "thrust", time = "t", unit = "kN", interpolation = "hold" }
-    [surfaces]                        # measured profile of a race, CSV: height over one turn, as waves of the orders 1 to 60
-    outer = { file = "race.csv", angle = "phi", angle_unit = "deg", height = "h", unit = "um" }
-    [[change]]                        # of tunable parameters, at the first communication point from `at` on
-    at = "50 ms"
-    joint.mu = 0.3
-
-A number is SI, a text carries its unit.  Inputs are evaluated at the communication points and held over each step.
-Where a scene sets oil.T, parts whose temperature nobody gives have the oil's.
+Inputs are evaluated at the communication points and held over each step.
 """
 
 from dataclasses import dataclass, field, replace
@@ -33,16 +11,17 @@ import numpy as np
 from ..base import tables
 from ..base.errors import UserError, is_file, refusal, unknown
 from ..base.file_kinds import check_keys
+from ..base.schema import checked
 from ..base.shipped import SHIPPED, shipped_scenes
-from ..base.toml_files import leaves, positive, read_toml, section_of, whole_name
-from ..base.units import SECONDS, suffix, to_si
+from ..base.toml_files import leaves, read_toml, whole_name
+from ..base.units import suffix
 from ..base.variable_list import is_like
 from ..bearing import seats
 from ..bearing.oil import OF_PROPERTY, PARTS_TEMPERATURES, check_given, merged, named
-from .inputs import check_entries, input_history, unit_of
+from .inputs import input_history, unit_of
+from .scene_file import SceneFile, Simulation
 
-SECTIONS = ("description", "simulation", "parameters", "inputs", "surfaces", "change", "oil")
-SIMULATION = ("t_end", "step", "output_interval", "tolerance", "outputs")
+SIMULATION = (*Simulation.model_fields,)
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
 MOST_STEPS = 1e12
 ALWAYS = {"scene.statistics": "on"}  # unless a scene sets it
@@ -184,71 +163,64 @@ def find_scene(source):
 
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
-    check_keys(where, document, SECTIONS, "scene")
-    sections = {name: section_of(where, document, name) for name in SECTIONS[1:5]}
+    check_keys(where, document, SceneFile.model_fields, "scene")
+    file = checked(SceneFile, document, where)
     parameters = read_section(
         where,
         "parameters",
-        sections["parameters"],
+        file.parameters,
         model.parameters,
         model.inputs,
         lambda value, v: parameter_value(value, v, model),
     )
-    parameters = surface_parameters(where, sections["surfaces"], model, folder) | parameters
+    parameters = surface_parameters(where, file.surfaces, model, folder) | parameters
     inputs = read_section(
         where,
         "inputs",
-        sections["inputs"],
+        file.inputs,
         model.inputs,
         model.parameters,
         lambda value, v: input_history(value, v, model, folder),
     )
     written = {
         name: unit_of(value)
-        for kind in ("parameters", "inputs")
-        for name, value in leaves(sections[kind], model.parameters | model.inputs)
+        for section in (file.parameters, file.inputs)
+        for name, value in leaves(section, model.parameters | model.inputs)
     }
     own = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
-    texts = dict(leaves(sections["parameters"], model.parameters))
-    oil, of_oil = named(where, document.get("oil"), parameters, own | scene.parameters)
+    texts = dict(leaves(file.parameters, model.parameters))
+    oil, of_oil = named(where, file.oil, parameters, own | scene.parameters)
     parameters = of_oil | parameters
     check_given(where, parameters, texts, own | scene.parameters | parameters)
     return replace(
         scene,
-        description=str(document.get("description", scene.description)),
+        description=file.description if "description" in document else scene.description,
         parameters=merged(scene.parameters, parameters, own),
         inputs=scene.inputs | inputs,
         oil=oil or scene.oil,
-        changes=read_changes(where, document["change"], model) if "change" in document else scene.changes,
+        changes=read_changes(where, file.change, model) if "change" in document else scene.changes,
         units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
-        **read_simulation(where, sections["simulation"], model),
+        **read_simulation(where, file.simulation, model),
     )
 
 
 def read_changes(where, blocks, model):
     """Times and parameters of [[change]] in the order of time; UserError for a parameter that is fixed in a run."""
-    if not isinstance(blocks, list) or not all(isinstance(block, dict) and "at" in block for block in blocks):
-        raise refusal(where, "change", blocks, "[[change]] tables with at and parameters are needed")
     found = []
     for i, block in enumerate(blocks, 1):
-        label = f"{where}: change {i}"
-        try:
-            at = to_si(block["at"], SECONDS)
-        except UserError as problem:
-            raise refusal(label, "at", block["at"], problem) from None
-        section = {key: value for key, value in block.items() if key != "at"}
         values = read_section(
-            label,
+            f"{where}: change {i}",
             "parameters",
-            section,
+            block.model_extra,
             model.parameters,
             model.inputs,
             lambda value, v: parameter_value(value, v, model),
         )
         for name in values:
             if model.parameters[name].variability != "tunable":
-                raise refusal(label, name, values[name], "it is fixed in a run: docs/parameters.md has the reason")
-        found.append((at, values))
+                reason = "it is fixed in a run: docs/parameters.md has the reason"
+                raise refusal(f"{where}: change {i}", name, values[name], reason)
+        found.append((block.at, values))
     return tuple(sorted(found, key=lambda change: change[0]))
 
 
@@ -291,36 +263,28 @@ def seat_of(model, which):
     return model.catalogue.get(which) or given or d_m + (-1.0 if which == "bore" else 1.0) * D / 0.6
 
 
-SURFACE = ("file", "angle", "angle_unit", "height", "unit")
-
-
-def surface_parameters(where, section, model, folder):
+def surface_parameters(where, surfaces, model, folder):
     """Waviness of the races from measured profiles by parameter name."""
     found = {}
-    for race, value in section.items():
-        if race not in ("outer", "inner"):
-            raise unknown(where, "key", f"surfaces.{race}", ["surfaces.outer", "surfaces.inner"])
+    for race, profile in surfaces:
         try:
-            found |= profile_waves(race, value, model, folder)
+            found |= profile_waves(race, profile, model, folder) if profile else {}
         except UserError as problem:
-            raise refusal(where, f"surfaces.{race}", value, problem) from None
+            raise refusal(where, f"surfaces.{race}", profile.model_dump(exclude_defaults=True), problem) from None
     return found
 
 
-def profile_waves(race, value, model, folder):
+def profile_waves(race, profile, model, folder):
     """Amplitudes and phases of a race's waves from one measured turn, by least squares; heights into the clearance.
 
     The mean height is left out: it belongs to the groove's diameter.
     """
     from ..bearing.surfaces import waves_of
 
-    if not isinstance(value, dict):
-        raise UserError('not a table such as { file = "race.csv", angle = "phi", height = "h" }')
-    check_entries(value, SURFACE, ("file", "angle", "height"))
     angle, height = tables.read(
-        folder / value["file"],
-        tables.Wanted(value["angle"], model.units["rad"], value.get("angle_unit", "")),
-        tables.Wanted(value["height"], model.units["m"], value.get("unit", "")),
+        folder / profile.file,
+        tables.Wanted(profile.angle, model.units["rad"], profile.angle_unit),
+        tables.Wanted(profile.height, model.units["m"], profile.unit),
     )
     variables = {kind: model.parameters.get(f"{race}.{kind}[1]") for kind in ("waviness", "waviness_phase")}
     if None in variables.values():
@@ -333,27 +297,19 @@ def profile_waves(race, value, model, folder):
     return found
 
 
-def read_simulation(where, section, model):
-    """The settings of [simulation]."""
-    settings = {}
-    for key, value in section.items():
-        if key not in SIMULATION:
-            raise unknown(where, "key", f"simulation.{key}", [f"simulation.{name}" for name in SIMULATION])
+def read_simulation(where, simulation, model):
+    """The settings of [simulation] that are given."""
+    settings = {key: getattr(simulation, key) for key in simulation.model_fields_set}
+    if "outputs" in settings:
         try:
-            settings[key] = (
-                select(value, model)
-                if key == "outputs"
-                else positive(value, SECONDS if key != "tolerance" else {"1": (1.0, 0.0)})
-            )
+            settings["outputs"] = select(settings["outputs"], model)
         except UserError as problem:
-            raise refusal(where, f"simulation.{key}", value, problem) from None
+            raise refusal(where, "simulation.outputs", settings["outputs"], problem) from None
     return settings
 
 
 def select(patterns, model):
     """Names of the inputs and outputs that match the patterns (* stands for any text), in the order of the FMU."""
-    if not isinstance(patterns, list) or not all(isinstance(pattern, str) for pattern in patterns):
-        raise UserError('not a list of names such as ["ring.*", "rivet[*].sigma_head"]')
     names = [*model.inputs, *model.outputs]
     chosen = set()
     for pattern in patterns:

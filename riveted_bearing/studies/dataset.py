@@ -20,19 +20,31 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from pydantic import Field
 
 from ..base.errors import UserError, unknown
+from ..base.schema import Section, Texts, checked
 from ..base.toml_files import read_toml, section_of
 from ..running.summary import settled
 from ..show.spectrum import kinematic_frequencies, speed_of
-from .sweep_file import plan_sweep
+from .sweep_file import SweepFile, plan_sweep
 
-SECTION = ("channels",)
-CHANNELS = ("housing.a_y",)
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
 RACES = ("outer", "inner")
 SIZES = ("length", "width", "depth")
 FREQUENCIES = ("shaft", "FTF", "BSF", "BPFO", "BPFI")
+
+
+class Channels(Section):
+    """The signals of a dataset."""
+
+    channels: Texts = Field(["housing.a_y"], description="outputs to keep")
+
+
+class DatasetFile(SweepFile):
+    """A data set to train on: a sweep whose rows have signals and labels."""
+
+    dataset: Channels = Channels()
 
 
 def load_dataset(path, model):
@@ -43,11 +55,11 @@ def load_dataset(path, model):
     if not path.is_file():
         raise UserError(f"{path}: no such dataset file")
     document = read_toml(path)
-    section = section_of(path, document, "dataset")
-    for key in section:
-        if key not in SECTION:
-            raise unknown(path, "key", f"dataset.{key}", [f"dataset.{name}" for name in SECTION])
-    channels = channels_of(path, section.get("channels", list(CHANNELS)), model)
+    section = checked(Channels, section_of(path, document, "dataset"), path, "dataset")
+    for name in section.channels:
+        if name not in model.outputs:
+            raise unknown(path, "channel", name, list(model.outputs))
+    channels = tuple(dict.fromkeys(section.channels))
     document = {key: value for key, value in document.items() if key != "dataset"}
     simulation = section_of(path, document, "simulation")
     if "outputs" in simulation:
@@ -64,16 +76,6 @@ def load_dataset(path, model):
     return replace(
         plan, further=(Measure(channels), Fields(channels, {name: units_of(model, name) for name in channels}))
     )
-
-
-def channels_of(path, names, model):
-    """The channels to keep, checked."""
-    if not isinstance(names, list) or not names or not all(isinstance(name, str) for name in names):
-        raise UserError(f'{path}: dataset.channels = {names!r}: a list of outputs such as ["housing.a_y"] is allowed')
-    for name in names:
-        if name not in model.outputs:
-            raise unknown(path, "channel", name, list(model.outputs))
-    return tuple(dict.fromkeys(names))
 
 
 def units_of(model, name):

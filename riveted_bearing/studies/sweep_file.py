@@ -6,19 +6,20 @@ import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated, Any
 
 import numpy as np
+from pydantic import Field
 
 from ..base.errors import UserError, is_file, refusal, unknown
 from ..base.file_kinds import check_keys
+from ..base.schema import Choice, Count, Named, Section, Text, checked
 from ..base.shipped import shipped_scenes
-from ..base.toml_files import leaves, read_toml, section_of
+from ..base.toml_files import leaves, read_toml
 from ..base.units import SECONDS, to_si
 from ..running.fmu import Model
 from ..running.scene import SIMULATION, load_scene
 
-SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
-SAMPLE = ("method", "count", "seed", "between")
 RANGE = ("from", "to", "count", "spacing")
 SETTINGS = {
     "simulation.t_end": SECONDS,
@@ -32,6 +33,39 @@ ROW_VERSION = 2
 MOST_RUNS = 1_000_000  # of a design, all of which is in memory
 RUN_MEMORY = 7e3  # of a run in a design [B], measured
 RUN_PLANNING = 0.01  # time to read and check a run's scene [s], measured
+
+
+class Settings(Section):
+    """A scene and what is set otherwise in all runs."""
+
+    description: Text = ""
+    scene: Any = Field(
+        None, description="shipped name or file, beside this one; default: the FMU's own parameters and inputs"
+    )
+    simulation: Named = Field({}, description="as in a scene file, for all runs; so are the two below")
+    parameters: Named = {}
+    inputs: Named = {}
+
+
+class Sample(Section):
+    """One more axis: points spread over a box."""
+
+    method: Annotated[str, Choice(("latin_hypercube", "sobol"))] = Field(description="of spreading them")
+    count: Annotated[int, Count()] = Field(description="points; of sobol a power of 2")
+    seed: Annotated[int, Count(0)] = 0
+    between: Named = Field({}, description="[lowest, highest] by name")
+
+
+class SweepFile(Settings):
+    """A sweep: a run for each point of a design; outputs of [simulation] are sampled at the communication points."""
+
+    repeats: Annotated[int | None, Count()] = Field(None, description="seeds 1 ... repeats; default: the scene's seed")
+    vary: list[Named] = Field(
+        [],
+        description="axes, all of which are crossed: a list by name, or { from, to, count, spacing }; "
+        "entries of one block go together; scenes and keys of [simulation] can vary too",
+    )
+    sample: Sample | None = None
 
 
 @dataclass(frozen=True)
@@ -62,36 +96,35 @@ def plan_sweep(name, document, model, path):
     """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it
     names.
     """
-    check_keys(path, document, SECTIONS, "sweep")
-    axes = [
-        *vary_axes(path, document.get("vary", []), model),
-        *sample_axes(path, section_of(path, document, "sample"), model),
-    ]
-    if "repeats" in document:
-        axes.insert(0, [{"start.seed": seed} for seed in range(1, points_of(path, "repeats", document["repeats"]) + 1)])
+    check_keys(path, document, SweepFile.model_fields, "sweep")
+    file = checked(SweepFile, document, path)
+    axes = [*vary_axes(path, file.vary, model), *sample_axes(path, file.sample, model)]
+    if file.repeats is not None:
+        limit_runs(path, f"repeats = {file.repeats}", file.repeats)
+        axes.insert(0, [{"start.seed": seed} for seed in range(1, file.repeats + 1)])
     limit_runs(path, "design", math.prod(len(axis) for axis in axes))
     factors = tuple(name for axis in axes for name in axis[0])
     if twice := {name for name in factors if factors.count(name) > 1}:
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
-    common = {section: section_of(path, document, section) for section in ("simulation", "parameters", "inputs")}
-    common["simulation"] = {"outputs": list(SAMPLED)} | common["simulation"]
+    common = {"parameters": file.parameters, "inputs": file.inputs}
+    common["simulation"] = {"outputs": list(SAMPLED)} | file.simulation
     fmu = model.path.read_bytes()
     fingerprint = hashlib.sha256(fmu).hexdigest()
     scenes = {}
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
-        source = settings.pop("scene", document.get("scene"))
+        source = settings.pop("scene", file.scene)
         scene = load_scene(beside(path, source), model, (str(path), common), (str(path), sections_of(settings, model)))
         key = key_of(scene, fingerprint)
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
         scenes[key] = scene
-    return Sweep(name, str(document.get("description", "")), model, fmu, document, factors, scenes)
+    return Sweep(name, file.description, model, fmu, document, factors, scenes)
 
 
 def vary_axes(path, blocks, model):
     """The axes of [[vary]]: for each block a list of points, {name: value as in a scene file}."""
-    if not isinstance(blocks, list) or not all(isinstance(block, dict) and block for block in blocks):
+    if not all(blocks):
         raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
     return [vary_axis(path, block, model) for block in blocks]
 
@@ -172,18 +205,15 @@ def limit_runs(path, what, runs):
         )
 
 
-def sample_axes(path, section, model):
-    """The axis of [sample], if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box
+def sample_axes(path, sample, model):
+    """The axis of a Sample, if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box
     `between`.
     """
-    if not section:
+    if sample is None:
         return []
     from scipy.stats import qmc
 
-    for key in section:
-        if key not in SAMPLE:
-            raise unknown(path, "key", f"sample.{key}", [f"sample.{name}" for name in SAMPLE])
-    box = dict(leaves(section_of(f"{path}: sample", section, "between"), known_names(model)))
+    box = dict(leaves(sample.between, known_names(model)))
     if not box:
         raise UserError(
             f"{path}: sample.between: name at least one parameter or input with its lowest and highest value"
@@ -195,17 +225,12 @@ def sample_axes(path, section, model):
             raise refusal(path, f"sample.between.{name}", pair, "[lowest, highest] is needed")
     low, high = np.array([bounds(path, name, pair, model) for name, pair in box.items()]).T
     if not np.all(low < high):
-        raise refusal(path, "sample.between", section["between"], "each lowest value must be below its highest")
-    methods = {"latin_hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}
-    method, seed = section.get("method"), section.get("seed", 0)
-    if not isinstance(method, str) or method not in methods:
-        raise refusal(path, "sample.method", method, f"allowed: {', '.join(methods)}")
-    if isinstance(seed, bool) or not isinstance(seed, int) or seed < 0:
-        raise refusal(path, "sample.seed", seed, "a whole number from 0 on is needed")
-    count = points_of(path, "sample.count", section.get("count"))
-    if method == "sobol" and count & (count - 1):
-        raise refusal(path, "sample.count", count, "a Sobol sequence is balanced only for powers of 2")
-    points = methods[method](d=len(box), seed=seed).random(count)
+        raise refusal(path, "sample.between", sample.between, "each lowest value must be below its highest")
+    limit_runs(path, f"sample.count = {sample.count}", sample.count)
+    if sample.method == "sobol" and sample.count & (sample.count - 1):
+        raise refusal(path, "sample.count", sample.count, "a Sobol sequence is balanced only for powers of 2")
+    spread = {"latin_hypercube": qmc.LatinHypercube, "sobol": qmc.Sobol}[sample.method]
+    points = spread(d=len(box), seed=sample.seed).random(sample.count)
     return [[dict(zip(box, point, strict=True)) for point in qmc.scale(points, low, high).tolist()]]
 
 
