@@ -28,8 +28,8 @@ from riveted_bearing.bearing.designations import find_bearing, shipped_bearings
 from riveted_bearing.bearing.file_values import flat
 from riveted_bearing.building.builder import start_document
 from riveted_bearing.running.fmu import Instance, Model
-from riveted_bearing.running.scene import SECTIONS
 from riveted_bearing.running.scene_case import is_bearing
+from riveted_bearing.running.scene_file import SceneFile
 from riveted_bearing.running.summary import rivet_rows, summary_rows, table_note
 from riveted_bearing.show.report import render
 
@@ -386,7 +386,7 @@ def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
     assert "read as a scene" not in said and "73.14, 59.84, 18.46" in said
 
 
-@pytest.mark.parametrize("key", sorted(set(KEYS) - set(SECTIONS)))
+@pytest.mark.parametrize("key", sorted(set(KEYS) - set(SceneFile.model_fields)))
 def test_any_key_of_a_bearing_file_makes_it_one(tmp_path, key):
     """Without designation, Z and sizes too: what only a bearing file has is not an unknown key of a scene."""
     path = tmp_path / "mine.toml"

@@ -9,8 +9,8 @@ import pytest
 from riveted_bearing import UserError
 from riveted_bearing.design.cascade import (
     Cascade,
-    State,
     CascadeCase,
+    State,
     bench_of,
     breaks_of,
     follow,

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import psutil
 import pytest
+from commands import rows_kept
 
 from riveted_bearing import Result, UserError, read_result, run, write_result
 from riveted_bearing.base.files import FORMATS
@@ -25,7 +26,7 @@ from riveted_bearing.show import report
 from riveted_bearing.show.animation import needed, number_of_balls
 from riveted_bearing.show.report import render
 from riveted_bearing.studies import sweep as engine
-from riveted_bearing.studies.rows import SUPERSEDED, columns_of, compact, read_rows, write_rows
+from riveted_bearing.studies.rows import Store, columns_of
 from riveted_bearing.studies.sweep import cluster, schema_of
 from riveted_bearing.studies.sweep_file import load_sweep
 
@@ -103,7 +104,7 @@ WRITERS = {
     "mat": ([*RUN, "--no-plot", "--format", "mat"], SIMULATED, 4000, "out/demo.mat"),
     "report": (["report", "good.parquet", "--out", "out/page.html"], READ, 4000, "out/page.html"),
     "table": (["build", "--table", "closed-form", "--out", "out/my.fmu"], ASKED, 4000, r"\S*closed-form-\w+-\w+.json"),
-    "sweep": (["sweep", "study.toml", "--workers", "1", "--out", "out"], STARTED, 2000, r"out/run-\w+.parquet"),
+    "sweep": (["sweep", "study.toml", "--workers", "1", "--out", "out"], STARTED, 2000, "out/_rows.sqlite"),
 }
 
 
@@ -122,7 +123,7 @@ def test_a_full_disk_is_one_message_and_leaves_nothing(short, tmp_path, name):
     said = [line for line in done.stderr.splitlines() if not line.startswith("note: ")]
     assert done.returncode == 2 and len(said) == 1, done.stderr
     assert re.fullmatch(rf"error: {file}: cannot be written: .*", said[0]), done.stderr
-    left = [file for file in files_below(tmp_path) if file != "out/.lock"]  # of a sweep: it holds nothing
+    left = [file for file in files_below(tmp_path) if not file.startswith("out/_rows.sqlite")]  # of a sweep: no row
     assert left == before and (tmp_path / "out" / "page.html").read_text() == "old"
 
 
@@ -337,60 +338,67 @@ def row(plan, number, status, message, date):
 
 
 def add(plan, folder, number, *words):
-    """Write the row of a run as a file of its own."""
-    write_rows(folder / f"run-{list(plan.scenes)[number]}.parquet", [row(plan, number, *words)], schema_of(plan))
+    """Keep the row of a run."""
+    with Store(folder) as store:
+        store.add(row(plan, number, *words))
 
 
-@pytest.mark.parametrize("name", ["runs.parquet", "run-x.parquet"])
+def exported(plan, folder, keys):
+    """Rows of some keys, and the keys that are done."""
+    with Store(folder) as store:
+        store.export(schema_of(plan), keys)
+        return columns_of(folder), store.done()
+
+
+@pytest.mark.parametrize("name", ["runs.parquet", "_rows.sqlite"])
 def test_damaged_rows_of_a_sweep_are_one_message(plan, tmp_path, name):
-    schema, keys = schema_of(plan), list(plan.scenes)
     add(plan, tmp_path, 0, "done", "", "2026-01-01T00:00:00.000+00:00")
-    compact(tmp_path, schema, keys)
-    good = (tmp_path / "runs.parquet").read_bytes()
-    for bad in (b"", b"PAR1", good[: len(good) // 2], good[:200] + bytes([good[200] ^ 16]) + good[201:]):
+    exported(plan, tmp_path, list(plan.scenes))
+    good = (tmp_path / name).read_bytes()
+    for bad in (b"PAR1", good[: len(good) // 2], b"x" * 200 + good[200:]):
+        for file in tmp_path.iterdir():
+            file.unlink()
         (tmp_path / name).write_bytes(bad)
         with pytest.raises(UserError, match=f"{name}: not a result of a sweep, or damaged: .*its runs are done again"):
-            compact(tmp_path, schema, keys)
-    assert (tmp_path / "runs.parquet").read_bytes() in (good, bad)
+            exported(plan, tmp_path, list(plan.scenes))
+        assert (tmp_path / name).read_bytes() == bad
 
 
 def test_pages_have_checksums(plan, tmp_path):
     """A bit in the numbers of a page: pyarrow compares the page's checksum."""
     add(plan, tmp_path, 0, "done", "", "2026-01-01T00:00:00.000+00:00")
-    (path,) = tmp_path.iterdir()
+    exported(plan, tmp_path, list(plan.scenes))
+    path = tmp_path / "runs.parquet"
     data = bytearray(path.read_bytes())
     data[data.index(b"2026-01-01T00") + 3] ^= 1
     path.write_bytes(bytes(data))
     with pytest.raises(UserError, match="CRC"):
-        read_rows(path)
+        columns_of(tmp_path)
 
 
-def test_a_clock_that_goes_back_loses_no_row(plan, tmp_path):
-    """What was written last counts, whatever its date; rows of another design are kept under names of their own."""
-    schema, keys = schema_of(plan), list(plan.scenes)
+def test_what_was_written_last_counts(plan, tmp_path):
+    """Whatever its date; rows of another design stay and are there again when the design has them."""
+    keys = list(plan.scenes)
     add(plan, tmp_path, 0, "failed", "first try", "2026-11-01T00:00:00.000+00:00")
-    assert compact(tmp_path, schema, keys) == set()
+    assert exported(plan, tmp_path, keys)[1] == set()
     add(plan, tmp_path, 0, "failed", "second try", "2020-01-01T00:00:00.000+00:00")
-    compact(tmp_path, schema, keys)
-    assert columns_of(tmp_path)["message"].tolist() == ["second try"]
+    assert exported(plan, tmp_path, keys)[0]["message"].tolist() == ["second try"]
     add(plan, tmp_path, 0, "done", "", "1999-01-01T00:00:00.000+00:00")
-    assert compact(tmp_path, schema, keys) == {keys[0]}
+    assert exported(plan, tmp_path, keys)[1] == {keys[0]}
+    assert exported(plan, tmp_path, keys[1:])[0]["key"].tolist() == []
+    assert exported(plan, tmp_path, keys)[0]["key"].tolist() == keys[:1]
 
 
-def test_names_do_not_rest_on_the_clock(plan, tmp_path, monkeypatch):
-    """A clock that stands still: two designs left behind are two files."""
-
-    class Standing(engine.datetime):
-        @classmethod
-        def now(cls, zone=None):
-            return cls(2026, 1, 1, tzinfo=zone)
-
-    monkeypatch.setattr(engine, "datetime", Standing)
-    schema, keys = schema_of(plan), list(plan.scenes)
+def test_rows_of_parquet_files_alone_are_taken_over(plan, tmp_path):
+    """As an earlier version left them, or who has deleted _rows.sqlite: every value is the same."""
     for number in (0, 1):
         add(plan, tmp_path, number, "done", "", "2026-01-01T00:00:00.000+00:00")
-        compact(tmp_path, schema, [keys[1 - number]])
-    assert len(list((tmp_path / SUPERSEDED).glob("*.parquet"))) == 2
+    before, _ = exported(plan, tmp_path, list(plan.scenes))
+    (tmp_path / "_rows.sqlite").unlink()
+    after, done = exported(plan, tmp_path, list(plan.scenes))
+    assert done == set(plan.scenes) and {name: list(map(str, column)) for name, column in after.items()} == {
+        name: list(map(str, column)) for name, column in before.items()
+    }
 
 
 def test_progress_goes_on_when_the_clock_goes_back(monkeypatch):
@@ -456,7 +464,7 @@ def test_a_lost_scheduler_is_one_message_and_loses_no_row(tmp_path):
         words = [sys.executable, "-m", "riveted_bearing", "sweep", "study.toml", "--out", "out", "--scheduler", address]
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
         with until_killed(worker, **quiet), until_killed(words, cwd=tmp_path, env=ENVIRONMENT, **pipes) as driver:
-            wait_for(lambda: driver.poll() is not None or list((tmp_path / "out").glob("run-*.parquet")))
+            wait_for(lambda: driver.poll() is not None or rows_kept(tmp_path / "out"))
             scheduler.kill()
             _, said = driver.communicate(timeout=120)
     assert driver.returncode == 2 and said.count("\n") == 1, said
@@ -466,7 +474,7 @@ def test_a_lost_scheduler_is_one_message_and_loses_no_row(tmp_path):
             said,
         )[1]
     )
-    assert 1 <= done < 24 and sum(read_rows(path).num_rows for path in (tmp_path / "out").glob("run-*.parquet")) == done
+    assert 1 <= done < 24 and len(columns_of(tmp_path / "out")["key"]) == done
     again = command("sweep", "study.toml", "--out", "out", "--workers", "1", folder=tmp_path)
     assert again.returncode == 0 and "24 runs, 0 of them failed" in again.stdout
 

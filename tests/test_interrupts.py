@@ -10,11 +10,12 @@ from pathlib import Path
 
 import distributed
 import pytest
+from commands import rows_kept
 
 from riveted_bearing import UserError, read_result, run
 from riveted_bearing.base.interrupts import held_interrupts
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.studies.rows import alone_in
+from riveted_bearing.studies.rows import Store
 from riveted_bearing.studies.sweep import cluster, run_sweep
 from riveted_bearing.studies.sweep_file import load_sweep
 
@@ -178,21 +179,20 @@ def test_a_sweep_says_what_is_kept(tmp_path):
         start_new_session=True,
     )
     until = time.monotonic() + 120.0
-    while not list((tmp_path / "rows").glob("run-*.parquet")) and time.monotonic() < until:
+    while not rows_kept(tmp_path / "rows") and time.monotonic() < until:
         time.sleep(0.2)
     os.killpg(process.pid, signal.SIGINT)
     output, errors = process.communicate(timeout=60)
     assert (process.returncode, output) == (130, "")
     assert errors == "interrupted: finished runs are kept in rows; the same command does the others\n"
-    kept = {path.name for path in (tmp_path / "rows").iterdir()}
-    assert kept > {".lock"} and all(re.fullmatch(r"run-\w+\.parquet|\.lock", name) for name in kept)
+    assert {path.name for path in (tmp_path / "rows").iterdir()} == {"_rows.sqlite", "runs.parquet"}
 
 
 def test_a_second_sweep_in_a_folder_is_refused(tmp_path):
     """Refused before it starts anything: it never asks its cluster, which is none here."""
     (tmp_path / "many.toml").write_text(SWEEP)
     plan = load_sweep(tmp_path / "many.toml", Model())
-    with alone_in(tmp_path / "rows"), pytest.raises(UserError, match="rows: another sweep is writing to this folder"):
+    with Store(tmp_path / "rows"), pytest.raises(UserError, match="rows: another sweep is writing to this folder"):
         run_sweep(plan, tmp_path / "rows", None)
-    with alone_in(tmp_path / "rows"):  # free again
+    with Store(tmp_path / "rows"):  # free again
         pass

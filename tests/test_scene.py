@@ -289,7 +289,7 @@ def test_a_scene_changes_parameters_in_the_run(tmp_path, kind):
     ("change", "words"),
     [
         ('at = "1 ms"\nbearing.D = "11 mm"', "bearing.D"),
-        ("joint.mu = 0.1", "at and parameters"),
+        ("joint.mu = 0.1", "at is needed"),
         ('at = "1 N"\njoint.mu = 0.1', "at"),
         ('at = "1 ms"\njoint.mu = 7', "joint.mu"),
     ],

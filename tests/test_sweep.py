@@ -1,6 +1,5 @@
 """Sweeps: designs, and runs on a real Dask cluster whose workers and driver are killed in the middle."""
 
-import itertools
 import json
 import os
 import signal
@@ -12,12 +11,12 @@ from pathlib import Path
 import cloudpickle
 import numpy as np
 import pytest
-from commands import command
+from commands import command, rows_kept
 
 from riveted_bearing import UserError, run
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies import sweep as engine
-from riveted_bearing.studies.rows import SUPERSEDED, columns_of, read_rows
+from riveted_bearing.studies.rows import Store, columns_of
 from riveted_bearing.studies.sweep import cluster, outcome, run_sweep
 from riveted_bearing.studies.sweep_file import load_sweep
 from riveted_bearing.studies.sweep_table import lines, sweep_table, write_page, write_picture
@@ -219,11 +218,10 @@ def test_a_changed_design_keeps_what_still_belongs(tmp_path, model, client):
     )
     assert second["joint.preload"].tolist() == [40.0, 30.0, 50.0] and second["run"].tolist() == [0, 1, 2]
     assert second["date"][1] == first["date"][1]
-    assert len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 1  # 10 N is not lost
     third = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [60]"), tmp_path / "out", client)
-    assert (
-        third["joint.preload"].tolist() == [60.0] and len(list((tmp_path / "out" / SUPERSEDED).glob("*.parquet"))) == 2
-    )
+    assert third["joint.preload"].tolist() == [60.0]
+    again = run_sweep(plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10]"), tmp_path / "out", client)
+    assert again["date"][0] == first["date"][0]  # 10 N is not lost
 
 
 def test_killed_workers_cost_only_time(tmp_path, model, client):
@@ -243,7 +241,7 @@ def test_killed_workers_cost_only_time(tmp_path, model, client):
         and len(set(rows["key"])) == 8
         and set(rows["status"]) == {"done"}
     )
-    assert {path.name for path in (tmp_path / "out").iterdir()} - {".lock"} == {"runs.parquet"}
+    assert {path.name for path in (tmp_path / "out").iterdir()} == {"_rows.sqlite", "runs.parquet"}
     with cluster(address=client.scheduler.address) as other:  # the same scheduler, as `--scheduler` finds it
         calm = run_sweep(sweep, tmp_path / "calm", other)
     assert calm["stat.Q_c_rms"].tolist() == rows["stat.Q_c_rms"].tolist()
@@ -283,12 +281,13 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
         env=os.environ | {"PYTHONPATH": str(ROOT)},
     )
     patience = time.monotonic() + 120
-    while not list(out.glob("run-*.parquet")) and time.monotonic() < patience:
+    while not rows_kept(out) and time.monotonic() < patience:
         time.sleep(0.02)
     driver.kill()
     driver.wait()
     assert not (out / "runs.parquet").exists()  # it was the middle
-    before = {key for path in out.glob("run-*.parquet") for key in read_rows(path)["key"].to_pylist()}
+    with Store(out) as store:
+        before = store.done()
     assert 1 <= len(before) < 24
     counts = []
     rows = run_sweep(load_sweep(study, model), out, client, lambda done, failed, total: counts.append(done))
@@ -348,23 +347,6 @@ def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client)
     assert write_picture(table, tmp_path / "sweep.png").stat().st_size > 20000
     page = write_page(table, "<mine>", tmp_path / "sweep.html").read_text()
     assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page
-
-
-def test_rows_that_arrive_fast_share_files(tmp_path, model):
-    """Writing takes a twentieth of the time: a file that takes 1 s is followed by the next one 20 s later, whose rows
-    have come meanwhile; none is lost.
-    """
-    sweep = plan(tmp_path, model, "repeats = 30\n" + SHORT)
-    clock = iter(np.arange(0.0, 1e3))  # one second between any two looks at the clock
-    store = engine.RowStore(tmp_path / "out", engine.schema_of(sweep), clock=lambda: float(next(clock)))
-    (tmp_path / "out").mkdir()
-    for key in sweep.scenes:
-        store.add(
-            engine.about_run(sweep, key) | {"status": "done", "message": "", "date": "2026-01-01T00:00:00.000+00:00"}
-        )
-    store.write()
-    keys = [read_rows(path)["key"].to_pylist() for path in (tmp_path / "out").iterdir()]
-    assert sorted(map(len, keys)) == [1, 9, 20] and sorted(itertools.chain(*keys)) == sorted(sweep.scenes)
 
 
 def test_runs_that_end_at_settling_have_no_statistics(tmp_path, fmu):

@@ -28,7 +28,6 @@ from ..duty.mission import curves
 from ..running.basis import basis
 from ..running.responses import COLUMNS, response, shown
 from ..running.scene import load_scene
-from ..studies.rows import columns_of, compact
 from ..studies.sweep import run_sweep, schema_of
 from ..studies.sweep_file import Settings, Sweep, beside, bounds, key_of, known_names, sections_of
 
@@ -168,13 +167,7 @@ class Bench:
                 keys.append(key_of(run, self.fingerprint))
                 self.scenes[keys[-1]] = run
         sweep = self.sweep(names, self.scenes)
-        stored = compact(self.folder, schema_of(sweep), list(self.scenes), True)
-        wanted = list(dict.fromkeys(keys))
-        rows = (
-            run_sweep(sweep, self.folder, self.client(), self.progress, wanted)
-            if set(wanted) - stored
-            else columns_of(self.folder)
-        )
+        rows = run_sweep(sweep, self.folder, self.client, self.progress, list(dict.fromkeys(keys)))
         places = {key: i for i, key in enumerate(rows["key"])}
         chosen = np.array([places[key] for key in keys])
         for i in chosen:

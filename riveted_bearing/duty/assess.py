@@ -15,8 +15,7 @@ from ..base.errors import UserError
 from ..base.files import write_atomically
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
 from ..running.rainflow import fatigue_law, fatigue_law_at
-from ..studies.rows import columns_of, compact
-from ..studies.sweep import run_sweep, schema_of
+from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
 from .confidence import Estimate, until_sure
 from .cycles import outputs_of, rainflow_columns, rainflow_fields, stored_cycles
@@ -99,13 +98,7 @@ class Runs:
         missing = {self.keys[place] for place in wanted} - self.damages.keys()
         if missing:
             keys = list(dict.fromkeys(self.keys[place] for place in wanted))
-            stored = compact(self.folder, schema_of(self.sweep), list(self.sweep.scenes))
-            simulated = set(keys) - stored
-            rows = (
-                run_sweep(self.sweep, self.folder, self.client(), self.progress, keys)
-                if simulated
-                else columns_of(self.folder)
-            )
+            rows = run_sweep(self.sweep, self.folder, self.client, self.progress, keys)
             places = {key: i for i, key in enumerate(rows["key"])}
             for c, s in wanted:
                 if (key := self.keys[c, s]) not in self.damages:

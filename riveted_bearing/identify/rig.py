@@ -11,7 +11,6 @@ from ..base.toml_files import section_of
 from ..running.basis import basis
 from ..running.responses import response
 from ..running.scene import load_scene
-from ..studies.rows import columns_of, compact
 from ..studies.sweep import run_sweep, schema_of
 from ..studies.sweep_file import Sweep, beside, key_of, sections_of
 from .measures import of_result
@@ -98,12 +97,7 @@ class Rig:
                     keys.append(key_of(run, self.fingerprint))
                     self.scenes[keys[-1]] = run
         sweep = self.sweep(self.scenes)
-        stored = compact(self.folder, schema_of(sweep), list(self.scenes), True)
-        wanted = list(dict.fromkeys(keys))
-        if set(wanted) - stored:
-            rows = run_sweep(sweep, self.folder, self.client(), self.progress, wanted)
-        else:
-            rows = columns_of(self.folder)
+        rows = run_sweep(sweep, self.folder, self.client, self.progress, list(dict.fromkeys(keys)))
         places = {key: i for i, key in enumerate(rows["key"])}
         chosen = np.array([places[key] for key in keys])
         for i in chosen:

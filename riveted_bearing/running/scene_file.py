@@ -52,7 +52,7 @@ class Change(Section):
 
     model_config = ConfigDict(extra="allow")
 
-    at: Annotated[float, Number(SECONDS)] = Field(description="the time; it acts at the first communication point from then on")
+    at: Annotated[float, Number(SECONDS)] = Field(description="the time, from the next communication point on")
 
 
 class SceneFile(Section):

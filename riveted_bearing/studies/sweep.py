@@ -49,7 +49,7 @@ from ..running.basis import basis
 from ..running.fmu import Model
 from ..running.runner import closing_names, simulate
 from ..running.summary import has_statistics, settled
-from .rows import RowStore, alone_in, columns_of, compact
+from .rows import Store, columns_of
 from .sweep_file import ROW_VERSION
 
 KINDS = {
@@ -152,25 +152,32 @@ class cluster:
 def run_sweep(sweep, folder, client, progress=None, keys=None):
     """Do the runs that a sweep's folder lacks and return the rows that it then has.
 
-    folder: of the Parquet dataset, made if need be; client: of a Dask cluster whose workers have this package (the FMU
-    travels with the runs); progress: called with the numbers of runs done, failed, and in all; keys: of the runs that
-    are wanted, None for all. A worker that dies is replaced by another; its run counts once.
+    folder: of the rows, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with
+    the runs), or a function that gives it, called if something has to be simulated; progress:
+    called with the numbers of runs done, failed, and in all; keys: of the runs that are wanted, None for all. A worker that
+    dies is replaced by another; its run counts once.
     A run that fails is a row with status and message, and is tried again in the next call.
     """
-    folder = Path(folder)
-    with alone_in(folder):
-        return run_missing(sweep, folder, client, progress or (lambda *_: None), keys)
+    with Store(folder) as store:
+        try:
+            run_missing(sweep, store, client, progress or (lambda *_: None), list(keys or sweep.scenes))
+        finally:
+            with ignored_interrupts():
+                store.export(schema_of(sweep), sweep.scenes, sweep.grows)
+    return columns_of(folder)
 
 
-def run_missing(sweep, folder, client, progress, keys):
-    """run_sweep without a second one in the same folder."""
+def run_missing(sweep, store, client, progress, keys):
+    """Do the runs of the keys that a Store lacks."""
     from distributed import as_completed
 
-    schema, design, keys = schema_of(sweep), list(sweep.scenes), list(keys or sweep.scenes)
-    store = RowStore(folder, schema)
-    finished = compact(folder, schema, design, sweep.grows) & set(keys)
+    finished = store.done() & set(keys)
     done, failed = len(finished), 0
-    progress(done, failed, len(keys))
+    if not callable(client) or len(finished) < len(set(keys)):
+        progress(done, failed, len(keys))
+    if len(finished) == len(set(keys)):
+        return
+    client = client() if callable(client) else client
     # as a task, so that Dask makes it again if its workers die
     fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")
     futures = [
@@ -188,7 +195,7 @@ def run_missing(sweep, folder, client, progress, keys):
             found = outcome(future)
             if found is None:
                 raise UserError(
-                    f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {folder}, the same command does the others"
+                    f"the Dask scheduler is gone after {done + failed} of {len(keys)} runs; they are in {store.folder}, the same command does the others"
                 )
             key = future.key.removeprefix("run-")
             row = about_run(sweep, key) | found
@@ -198,10 +205,7 @@ def run_missing(sweep, folder, client, progress, keys):
             progress(done, failed, len(keys))
     finally:
         with ignored_interrupts():
-            store.write()
             client.cancel(futures)
-    compact(folder, schema, design, sweep.grows)
-    return columns_of(folder)
 
 
 def outcome(future):
