@@ -10,10 +10,13 @@ import json
 from pathlib import Path
 
 import pytest
+from library import ROOT
 
 from riveted_bearing.base.errors import UserError
+from riveted_bearing.base.schema import json_schema
 from riveted_bearing.base.toml_files import check_integers, read_toml
 from riveted_bearing.bearing import bearing_file
+from riveted_bearing.cli.schema import FILES, model_of, page
 from riveted_bearing.design.cascade import plan_cascade
 from riveted_bearing.design.optimize import plan_optimize
 from riveted_bearing.design.sensitivity import plan_sensitivity
@@ -117,3 +120,15 @@ def test_refusals_are_those_of_the_record(model, tmp_path, monkeypatch, kind):
 
 def test_changed_messages_are_of_the_record():
     assert set(CHANGED) <= {said["message"] for group in RECORD for said in group["said"]}
+
+
+def test_the_page_of_keys_is_the_models():
+    """`riveted-bearing schema > docs/files.md` writes it anew."""
+    assert (ROOT / "docs" / "files.md").read_text(encoding="utf-8") == page()
+
+
+@pytest.mark.parametrize("kind", FILES)
+def test_every_kind_of_file_has_a_schema(kind):
+    """JSON Schema of the keys that a refusal allows, without null, which TOML does not have."""
+    found = json_schema(model_of(kind))
+    assert found["properties"].keys() == model_of(kind).model_fields.keys() and "null" not in json.dumps(found)

@@ -63,6 +63,7 @@ FILES = {
 
 # arguments: what the message must name
 WRONG = {
+    "schema misison": ['"misison"', 'did you mean "mission"'],
     "run dmeo": ['"dmeo"', 'did you mean "demo"'],
     "run none.toml": ["none.toml", "no such scene file"],
     "run bad.toml": ["bad.toml", "not valid TOML"],

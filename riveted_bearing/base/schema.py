@@ -76,7 +76,7 @@ class Number:
             "exclusiveMaximum": self.below,
         }
         units = [symbol for symbol in self.scales or () if symbol != "1"]
-        found = {"type": ["number", "string"] if units else "number"}
+        found: dict[str, Any] = {"type": ["number", "string"] if units else "number"}
         found |= {key: limit for key, limit in limits.items() if limit is not None}
         return found | ({"examples": [f"1 {symbol}" for symbol in units]} if units else {})
 
@@ -205,12 +205,34 @@ def keys_at(kind: type[Section], place: list[Any]) -> list[str]:
     return [*kind.model_fields]
 
 
+def json_schema(kind: type[Section]) -> dict[str, Any]:
+    """JSON Schema of a file, without titles that repeat the keys and without null, which TOML does not have."""
+
+    def plain(node: Any) -> Any:
+        if isinstance(node, list):
+            return [plain(entry) for entry in node]
+        if not isinstance(node, dict):
+            return node
+        found = {
+            key: plain(value) for key, value in node.items() if key != "default" or isinstance(value, str | int | float)
+        }
+        if isinstance(found.get("title"), str):
+            del found["title"]
+        kinds = [entry for entry in found.get("anyOf", ()) if entry != {"type": "null"}]
+        return {key: value for key, value in found.items() if key != "anyOf"} | kinds[0] if len(kinds) == 1 else found
+
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema"} | plain(kind.model_json_schema())
+
+
 def listed(kind: type[Section]) -> list[tuple[str, str, str]]:
     """Key, default and meaning of each field of a section, those of its own sections behind it."""
-    rows = []
+    rows: list[tuple[str, str, str]] = []
     for name, field in kind.model_fields.items():
         inner = model_of(field.annotation)
-        default = "" if field.is_required() or inner or field.default in (None, "") else f"{field.default}"
-        rows.append((name, default, field.description or (inner.__doc__ or "" if inner else "")))
-        rows += [(f"{name}.{key}", *rest) for key, *rest in listed(inner)] if inner else []
+        plain = isinstance(field.default, str | int | float) and field.default not in ("", float("inf"))
+        rows.append(
+            (name, f"{field.default}" if plain else "", field.description or (inner.__doc__ or "" if inner else ""))
+        )
+        for key, default, text in listed(inner) if inner else ():
+            rows.append((f"{name}.{key}", default, text))
     return rows

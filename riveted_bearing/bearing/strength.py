@@ -1,47 +1,79 @@
 """Strength of the rivets' steel as users have it: S-N curves from a file, scatter and survival, surface and size.
 
-    [sn]
-    file = "steel.toml"            # optional: these keys in a file, or a CSV table with the columns amplitude [Pa, or `unit`] and cycles
-    sigma_D = "250 MPa"            # amplitude at the knee, R = -1; what is not given comes from the run's fatigue.* parameters
-    N_D = 2e6                      # cycles at the knee
-    k_1 = 8                        # slope above the knee, and k_2 below
-    rule = "haibach"               # k_2 = 2 k_1 - 1; "elementary": k_2 = k_1; "original": no damage below; "knee": k_2 as given
-    mean_stress = "goodman"        # none, goodman, swt, morrow, with sigma_m and sigma_f
-    T_S = 1.25                     # scatter: strength of 90 % over strength of 10 %; or T_N, of the cycles
-    survival = 0.975               # the curve that this share survives; the curve as given holds for 0.5
-    R_z = "6.3 um"                 # roughness: factor of the FKM guideline
-    A_90 = 12.0                    # mm^2 at 90 % of the largest stress or more: statistical size factor of the FKM guideline
-    A_90_specimen = 500.0          # mm^2, of the specimens of the curve; default: the guideline's 500
-
 pylife holds curves, rules, scatter and the guideline's constants.
 """
 
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
 
 import numpy as np
+from pydantic import AfterValidator, Field
 
 from bearing_model.generated.variables import PARAMETERS, MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 
-from ..base.errors import UserError, extra, refusal, unknown
+from ..base.errors import UserError, extra, refusal
+from ..base.schema import Choice, Number, Section, checked
 from ..base.tables import Table, Wanted
 from ..base.toml_files import read_toml
-from ..base.units import to_si
 
 PASCAL = {"Pa": (1.0, 0.0), "MPa": (1e-6, 0.0)}
 METRE = {"m": (1.0, 0.0), "um": (1e6, 0.0)}
 PLAIN = {"1": (1.0, 0.0)}
-NUMBERS = {"sigma_D": PASCAL, "N_D": PLAIN, "k_1": PLAIN, "k_2": PLAIN, "sigma_m": PASCAL, "sigma_f": PASCAL}
-SCATTER = {"T_S": PLAIN, "T_N": PLAIN, "survival": PLAIN}
-FKM = {"R_z": METRE, "A_90": PLAIN, "A_90_specimen": PLAIN}
+CURVE = ("sigma_D", "N_D", "k_1", "k_2", "sigma_m", "sigma_f")
 LEAST = 1e6  # Pa; no steel is weaker: a smaller strength is one in MPa without its unit
 LEAST_ALLOWED = "from 1e6 Pa (1 MPa) on is allowed"
 RULES = ("knee", "haibach", "elementary", "original")
-KEYS = ("file", "unit", "rule", "mean_stress", *NUMBERS, *SCATTER, *FKM)
 FKM_STEEL = "Steel"
 OF_PAPER = "as of the 6207's rivets (15CrMn)"
+
+
+def strong(stress):
+    """A stress of a steel [Pa]; ValueError for one in MPa without its unit."""
+    if stress < LEAST:
+        raise UserError(f'{LEAST_ALLOWED}; a number without a unit is in Pa, "250 MPa" has its unit')
+    return stress
+
+
+Stress = Annotated[float | None, Number(PASCAL, above=0.0), AfterValidator(strong)]
+Positive = Annotated[float | None, Number(above=0.0)]
+
+
+class StrengthFile(Section):
+    """Curve of strength of the rivets' steel, [sn] of a mission or its file; what is not given comes from the run's
+    parameters fatigue.*.
+    """
+
+    file: Annotated[str | None, Field(strict=True)] = Field(
+        None, description="these keys in a file, or a table with the columns amplitude [Pa, or unit] and cycles"
+    )
+    unit: Annotated[str, Choice(("", *PASCAL))] = Field("", description="of the table's amplitudes")
+    rule: Annotated[str, Choice(RULES)] = Field(
+        "knee", description="haibach: k_2 = 2 k_1 - 1; elementary: k_2 = k_1; original: no damage below the knee"
+    )
+    mean_stress: Annotated[str | None, Choice(tuple(name.lower() for name in MeanStress.__members__))] = Field(
+        None, description="its correction, with sigma_m or sigma_f"
+    )
+    sigma_D: Stress = Field(None, description="amplitude at the knee, R = -1")
+    N_D: Positive = Field(None, description="cycles at the knee")
+    k_1: Positive = Field(None, description="slope above the knee")
+    k_2: Positive = Field(None, description="slope below")
+    sigma_m: Stress = None
+    sigma_f: Stress = None
+    T_S: Annotated[float | None, Number(least=1.0)] = Field(
+        None, description="scatter: strength of 90 % over strength of 10 %"
+    )
+    T_N: Annotated[float | None, Number(least=1.0)] = Field(None, description="or that of the cycles")
+    survival: Annotated[float, Number(above=0.0, below=1.0)] = Field(
+        0.5, description="the curve that this share survives; the curve as given holds for 0.5"
+    )
+    R_z: Annotated[float | None, Number(METRE, above=0.0)] = Field(
+        None, description="roughness: factor of the FKM guideline"
+    )
+    A_90: Positive = Field(None, description="mm2 at 90 % of the largest stress or more: statistical size factor")
+    A_90_specimen: Positive = Field(None, description="mm2, of the specimens of the curve; default: 500")
 
 
 @dataclass(frozen=True)
@@ -68,40 +100,16 @@ def read_strength(path, section, law):
     """
     where = f"{path}: sn"
     section, table = with_file(path, where, dict(section))
-    for key in section:
-        if key not in KEYS:
-            raise unknown(where, "key", key, KEYS)
-    numbers = {
-        key: positive(where, key, section[key], scales)
-        for key, scales in (NUMBERS | SCATTER | FKM).items()
-        if key in section
-    }
-    rule = section.get("rule", "knee")
-    if rule not in RULES:
-        raise refusal(where, "rule", rule, f"allowed: {', '.join(RULES)}")
-    mean_stress = section.get("mean_stress", MeanStress(law.mean_stress).name.lower())
-    if not isinstance(mean_stress, str) or mean_stress.upper() not in MeanStress.__members__:
-        raise refusal(
-            where, "mean_stress", mean_stress, f"allowed: {', '.join(name.lower() for name in MeanStress.__members__)}"
-        )
-    law = FatigueLaw(
-        **vars(law)
-        | {key: numbers[key] for key in NUMBERS if key in numbers}
-        | {"mean_stress": int(MeanStress[mean_stress.upper()])}
-    )
-    survival = numbers.get("survival", 0.5)
-    if not survival < 1.0:
-        raise refusal(where, "survival", survival, "a share below 1 is needed")
-    if "T_S" in numbers and "T_N" in numbers:
+    file = checked(StrengthFile, section, where)
+    mean_stress = MeanStress(law.mean_stress) if file.mean_stress is None else MeanStress[file.mean_stress.upper()]
+    own = {key: getattr(file, key) for key in CURVE if getattr(file, key) is not None}
+    law = FatigueLaw(**vars(law) | own | {"mean_stress": int(mean_stress)})
+    if file.T_S is not None and file.T_N is not None:
         raise UserError(f"{where}: T_S and T_N: one follows from the other, so give one of them")
-    T_S = numbers.get("T_S", numbers.get("T_N", 1.0) ** (1.0 / law.k_1))
-    if T_S < 1.0:
-        raise refusal(
-            where, "T_S" if "T_S" in numbers else "T_N", numbers.get("T_S", numbers.get("T_N")), "from 1 on is allowed"
-        )
-    factor = surface_factor(numbers, law.sigma_m) * size_factor(numbers)
-    given = frozenset(f"fatigue.{key}" for key in NUMBERS if key in numbers)
-    return Strength(law, rule, T_S, survival, factor, table, given, "R_z" in numbers)
+    T_S = file.T_S or (file.T_N or 1.0) ** (1.0 / law.k_1)
+    factor = surface_factor(file, law.sigma_m) * size_factor(file)
+    given = frozenset(f"fatigue.{key}" for key in own)
+    return Strength(law, file.rule, T_S, file.survival, factor, table, given, file.R_z is not None)
 
 
 def in_words(strength):
@@ -195,19 +203,6 @@ def with_file(path, where, section):
     return section, (amplitude, cycles)
 
 
-def positive(where, key, value, scales):
-    """SI value of a number greater than zero."""
-    try:
-        number = to_si(value, scales)
-    except UserError as problem:
-        raise refusal(where, key, value, problem) from None
-    if number <= 0.0:
-        raise refusal(where, key, value, "must be greater than 0")
-    if scales is PASCAL and number < LEAST:
-        raise refusal(where, key, value, f'{LEAST_ALLOWED}; a number without a unit is in Pa, "250 MPa" has its unit')
-    return number
-
-
 def library():
     """The class of pylife's S-N curves; UserError if the library is missing."""
     try:
@@ -227,27 +222,26 @@ def fkm():
     return functions, functions.get_material_constants(FKM_STEEL, "normal")[0]
 
 
-def surface_factor(numbers, sigma_m):
+def surface_factor(file, sigma_m):
     """K_R = 1 - a_R lg(R_z/um) lg(2 R_m/R_m_N_min), 1 for smooth surfaces.  FKM guideline (2012), 4.3.1.4."""
-    if "R_z" not in numbers:
+    if file.R_z is None:
         return 1.0
     _, steel = fkm()
-    return 1.0 - steel["aR_s"] * math.log10(max(1e6 * numbers["R_z"], 1.0)) * math.log10(
+    return 1.0 - steel["aR_s"] * math.log10(max(1e6 * file.R_z, 1.0)) * math.log10(
         max(2e-6 * sigma_m / steel["RmNmin"], 1.0)
     )
 
 
-def size_factor(numbers):
+def size_factor(file):
     """n_st = (A_90_specimen/A_90)^(1/k_st): the larger the stressed surface, the weaker its weakest place.  FKM
     guideline (2012), 4.3.1.3.2.
     """
-    if "A_90" not in numbers:
+    if file.A_90 is None:
         return 1.0
     functions, steel = fkm()
-    specimen = numbers.get("A_90_specimen", functions.A90_0)
+    specimen = file.A_90_specimen or functions.A90_0
     return float(
-        functions.stat_support_surf(numbers["A_90"], steel["k_st"])
-        / functions.stat_support_surf(specimen, steel["k_st"])
+        functions.stat_support_surf(file.A_90, steel["k_st"]) / functions.stat_support_surf(specimen, steel["k_st"])
     )
 
 

@@ -29,6 +29,7 @@ COMMANDS = (
     "report",
     "rivet",
     "run",
+    "schema",
     "sensitivity",
     "spectrum",
     "summary",

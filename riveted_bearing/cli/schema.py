@@ -11,7 +11,6 @@ from ..base.errors import unknown
 from .terminal import command
 
 FILES = {  # kind of file: module and model
-    "bearing": "bearing.bearing_file:BearingFile",
     "scene": "running.scene_file:SceneFile",
     "sweep": "studies.sweep_file:SweepFile",
     "dataset": "studies.dataset:DatasetFile",
@@ -49,7 +48,7 @@ def schema(
 def model_of(kind):
     """The model of a kind of file."""
     module, name = FILES[kind].split(":")
-    return getattr(import_module(f"...{module}", __name__), name)
+    return getattr(import_module(f"..{module}", __package__), name)
 
 
 def page():

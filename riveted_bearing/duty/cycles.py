@@ -8,9 +8,8 @@ the head, 2 k + 1 for the middle of rivet k + 1), range and mean [Pa], count.
 """
 
 import numpy as np
-import rainflow
 
-from ..running.rainflow import CHANNELS, stress_history
+from ..running.rainflow import CHANNELS, cycles_of, stress_history
 
 RANGE_STEP, MEAN_STEP, LEAST = 0.02, 1e6, 1e4  # of ln range; [Pa]; smaller ranges do no damage
 COLUMNS = ("channel", "range", "mean", "count")
@@ -49,9 +48,8 @@ def rainflow_fields():
 
 def classed(history):
     """Classes (mean range [Pa], mean mean [Pa], count) of the cycles of a stress history [Pa], as rows."""
-    cycles = np.array(
-        [(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history) if span > LEAST]
-    ).reshape(-1, 3)
+    cycles = cycles_of(history)
+    cycles = cycles[cycles[:, 0] > LEAST]
     if not len(cycles):
         return cycles
     span, mean, count = cycles.T

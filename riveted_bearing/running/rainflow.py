@@ -73,14 +73,18 @@ def stress_history(result, k, place):
     return np.column_stack([peaks[late], ends[late]]).ravel()
 
 
+def cycles_of(history):
+    """Rainflow cycles of a series: rows of range, mean and count."""
+    cycles = [(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]
+    return np.array(cycles, float).reshape(-1, 3)
+
+
 def rivet_life(result, k, place):
     """RivetLife of rivet k at "head" or "mid", None if its stress was not recorded."""
     history = stress_history(result, k, place)
     if history is None:
         return None
     law, t = fatigue_law_at(result.parameters, k, place), result.data["time"][settled(result)]
-    cycles = np.array([(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]).reshape(
-        -1, 3
-    )
+    cycles = cycles_of(history)
     damage = sum(count * fatigue_cycle(law, span, mean) for span, mean, count in cycles if span > 0.0)
     return RivetLife(cycles, damage, float(t[-1] - t[0]) / damage if damage > 0.0 else np.inf)
