@@ -85,9 +85,10 @@ lock: $(VENV)/installed  ## newest versions and hashes of the packages that `mak
 	echo "scikit-build-core>=0.11" | $(UV) --extra build --constraint .ci/requirements.txt --output-file .ci/demo.txt pyproject.toml -
 	$(PYTHON) -c '$(IMPORTERS)' | $(UV) --constraint .ci/requirements.txt --output-file .ci/importers.txt -
 
-lint: $(VENV)/installed  ## formatters and linters on the files that git knows, changing nothing
+lint: $(VENV)/installed  ## formatters, linters and the type checker on the files that git knows, changing nothing
 	git ls-files -z '*.py' '*.ipynb' | xargs -0 $(BIN)/ruff check --force-exclude
 	git ls-files -z '*.py' '*.ipynb' | xargs -0 $(BIN)/ruff format --check --force-exclude
+	$(BIN)/mypy --no-error-summary
 	$(BIN)/clang-format --dry-run --Werror $(C_FILES)
 
 generate: $(VENV)/installed  ## the files that follow from fmus/variables.toml

@@ -153,6 +153,27 @@ def test_rooms_import_downwards():
         assert words and ("import" in words or room == "cli"), room
 
 
+def test_what_rooms_take_from_each_other_is_annotated():
+    """Arguments and results of every function that another room imports; mypy in `make lint` checks them."""
+    doors = set()
+    for name, path in FILES.items():
+        for node in (
+            ast.walk(ast.parse(path.read_text(encoding="utf-8"))) if package_of(name) == "riveted_bearing" else ()
+        ):
+            if isinstance(node, ast.ImportFrom) and node.level:
+                target = next(iter(imported(name, ast.Module([node], []))), "")
+                if target in FILES and room_of(target) not in (room_of(name), "cli"):
+                    doors |= {(target, alias.name) for alias in node.names}
+    bare = []
+    for target in {target for target, _ in doors}:
+        for node in ast.parse(FILES[target].read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.FunctionDef) and (target, node.name) in doors:
+                arguments = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                if node.returns is None or any(argument.annotation is None for argument in arguments):
+                    bare.append(f"{target}.{node.name}")
+    assert len(doors) > 200 and not bare
+
+
 def test_no_file_is_long():
     """A file is read in one go; 447 lines is the longest."""
     long = {name: len(path.read_text(encoding="utf-8").splitlines()) for name, path in FILES.items()}

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from riveted_bearing import UserError, run
+from riveted_bearing.base.units import figure
 from riveted_bearing.running.results import Result, write_result
 from riveted_bearing.show.overlay import assigned, read_measured, spectrum, spectrum_note, statistics, table_rows
-from riveted_bearing.show.report import figure, render, report_pages
+from riveted_bearing.show.report import render, report_pages
 
 RATE = 20e3
 

@@ -17,6 +17,7 @@ from bearing_model.generated.variables import CageModel, Z
 from bearing_model.instance import fatigue
 from bearing_model.physics.model import Model
 from riveted_bearing import UserError, run, write_result
+from riveted_bearing.base.units import duration, figure
 from riveted_bearing.design.sensitivity import Sensitivity
 from riveted_bearing.running.rainflow import fatigue_law, rivet_life
 from riveted_bearing.running.results import Result
@@ -32,16 +33,7 @@ from riveted_bearing.show.charts import (
     section_sizes,
 )
 from riveted_bearing.show.charts import thinned as thinned_result
-from riveted_bearing.show.report import (
-    CHARTS,
-    OF_ELASTIC,
-    duration,
-    figure,
-    render,
-    report_files,
-    report_pages,
-    setting_rows,
-)
+from riveted_bearing.show.report import CHARTS, OF_ELASTIC, render, report_files, report_pages, setting_rows
 
 OF_HOUSING = ("vibration",)  # charts of a housing that vibrates
 

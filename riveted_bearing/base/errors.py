@@ -4,6 +4,7 @@ import re
 import reprlib
 from difflib import get_close_matches
 from pathlib import Path
+from typing import Any
 
 INSTEAD = {  # names that are near to others of another meaning: what does it
     "oil": 'the kind of oil stands above all sections: oil = "mineral ISO VG 32"',
@@ -17,7 +18,7 @@ class UserError(ValueError):
     """
 
 
-def unknown(where, kind, name, allowed):
+def unknown(where: Any, kind: Any, name: str, allowed: Any) -> UserError:
     """The error for a name that is not among those allowed, with the nearest one if there is any."""
     bracketed = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", str(name))  # rivet.3.intact is rivet[3].intact
     near = [bracketed] if bracketed in allowed else get_close_matches(bracketed, list(allowed), n=1, cutoff=0.6)
@@ -26,7 +27,7 @@ def unknown(where, kind, name, allowed):
     return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
 
 
-def is_file(path):
+def is_file(path: str | Path) -> bool:
     """Whether a path is a file; a name that the system cannot have is none."""
     try:
         return Path(path).is_file()
@@ -34,17 +35,17 @@ def is_file(path):
         return False
 
 
-def refusal(where, key, value, reason):
+def refusal(where: Any, key: Any, value: Any, reason: Any) -> UserError:
     """The error for a value that cannot be used."""
     return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")
 
 
-def extra(name):
+def extra(name: str) -> str:
     """How to install what one of the package's extras brings: the package is in no index."""
     return f'pip install -e ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'
 
 
-def shortlist(names, length=12):
+def shortlist(names: Any, length: int = 12) -> str:
     """The first names, separated by commas."""
     names = [str(name) for name in names]
     return ", ".join(names[:length]) + (f", ... ({len(names)} in all)" if len(names) > length else "")

@@ -1,5 +1,8 @@
 """Which of the program's files a TOML document is, so that a file given to another command is named as what it is."""
 
+from pathlib import Path
+from typing import Any
+
 from .errors import UserError, unknown
 
 OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet")
@@ -16,7 +19,7 @@ KINDS = {  # keys that only such a file has, and the command that reads it
 }
 
 
-def check_keys(path, document, allowed, meant):
+def check_keys(path: str | Path, document: dict[str, Any], allowed: Any, meant: Any) -> None:
     """UserError for a key that is not allowed in a file of the kind `meant`; where the key is of another kind of file,
     the error names this kind and its command.
     """

@@ -3,6 +3,7 @@
 import os
 import secrets
 from pathlib import Path
+from typing import Any
 
 from .errors import UserError
 
@@ -10,12 +11,12 @@ KEY = "riveted_bearing"  # of the metadata in a Parquet file
 FORMATS = ("parquet", "csv", "mat")
 
 
-def one_line(problem):
+def one_line(problem: Any) -> Any:
     """An error of a library in words for a message of one line."""
     return " ".join(repr(problem).split())[:300]
 
 
-def make_folder(folder):
+def make_folder(folder: str | Path) -> None:
     """Make a folder unless it is there; UserError if files cannot be written to it."""
     folder = Path(folder)
     try:
@@ -26,12 +27,12 @@ def make_folder(folder):
         raise UserError(f"{folder}: no permission to write to this folder")
 
 
-def cache_path(name):
+def cache_path(name: str) -> Path:
     """Path of a folder of the user's cache."""
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "riveted-bearing" / name
 
 
-def cache_folder(name):
+def cache_folder(name: str) -> Path:
     """A folder of the user's cache, made if it is not there."""
     folder = cache_path(name)
     try:
@@ -41,7 +42,7 @@ def cache_folder(name):
     return folder
 
 
-def write_atomically(path, write):
+def write_atomically(path: Path, write: Any) -> None:
     """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if
     folder or disk refuse.
     """
@@ -58,21 +59,21 @@ def write_atomically(path, write):
         temporary.unlink(missing_ok=True)
 
 
-def write_table(table, path):
+def write_table(table: Any, path: Path) -> None:
     """Write an Arrow table as Parquet with a checksum for each page."""
     from pyarrow import parquet
 
     parquet.write_table(table, path, compression="zstd", write_page_checksum=True)
 
 
-def read_table(path):
+def read_table(path: Path) -> Any:
     """The Arrow table of a Parquet file, its checksums compared; errors of pyarrow."""
     from pyarrow import parquet
 
     return parquet.read_table(path, page_checksum_verification=True, partitioning=None)
 
 
-def format_of(path):
+def format_of(path: Path) -> Any:
     """Format by suffix."""
     kind = path.suffix.removeprefix(".")
     if kind not in FORMATS:

@@ -11,6 +11,7 @@ as in an editor, those of a Parquet file from 1.
 
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ class Wanted:
     unit: str = ""
 
 
-def read(path, *wanted):
+def read(path: Path, *wanted: Any) -> Any:
     """SI arrays of the Wanted columns of a file; UserError for the first fault."""
     return Table(path).columns(*wanted)
 

@@ -4,6 +4,9 @@ import json
 import re
 import reprlib
 import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
 
 from .errors import UserError, refusal
 from .units import SECONDS, to_si
@@ -11,7 +14,7 @@ from .units import SECONDS, to_si
 DEEPEST = 50  # tables or lists in each other
 
 
-def read_toml(path):
+def read_toml(path: Path) -> dict[str, Any]:
     """The document of a TOML file, UTF-8 with or without a mark; UserError if it cannot be read."""
     try:
         data = path.read_bytes()
@@ -55,7 +58,7 @@ def quotes_hint(text, problem):
     return f'; a name with brackets needs quotes: "{bare[1]}" = ...' if bare else ""
 
 
-def section_of(where, document, name):
+def section_of(where: Any, document: dict[str, Any], name: str) -> dict[str, Any]:
     """A document's table of this name, empty if there is none; UserError if it is something else."""
     section = document.get(name, {})
     if not isinstance(section, dict):
@@ -63,7 +66,7 @@ def section_of(where, document, name):
     return section
 
 
-def whole_name(name, value):
+def whole_name(name: str, value: Any) -> Any:
     """The name that the first key of nested tables gives: rivet.3 with {strength_factor: 0.8} is rivet.3.strength_factor."""
     while isinstance(value, dict) and value and "t" not in value and "file" not in value:
         key, value = next(iter(value.items()))
@@ -71,7 +74,7 @@ def whole_name(name, value):
     return name
 
 
-def leaves(tree, names, prefix=""):
+def leaves(tree: Any, names: Any, prefix: str = "") -> Iterator[Any]:
     """Full names and values of nested tables; a table is entered as long as some variable's name begins like it."""
     for key, value in tree.items():
         name = f"{prefix}{key}"
@@ -81,7 +84,7 @@ def leaves(tree, names, prefix=""):
             yield name, value
 
 
-def positive(value, scales):
+def positive(value: Any, scales: Any) -> Any:
     """SI value of a number or text, which must be greater than zero."""
     number = to_si(value, scales)
     if number <= 0.0:
@@ -89,7 +92,7 @@ def positive(value, scales):
     return number
 
 
-def seconds(key, value):
+def seconds(key: Any, value: Any) -> Any:
     """A time [s] of zero or more from a number or a text with a unit; UserError naming the key."""
     try:
         time = to_si(value, SECONDS)
@@ -100,7 +103,7 @@ def seconds(key, value):
         raise UserError(f"{key} = {reprlib.repr(value)}: {problem}") from None
 
 
-def to_toml(document, table=""):
+def to_toml(document: dict[str, Any], table: str = "") -> Iterator[Any]:
     """Lines of TOML for nested dicts of numbers, truth values, texts and lists of these."""
     for key, value in document.items():
         if not isinstance(value, dict):

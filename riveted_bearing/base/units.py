@@ -6,10 +6,13 @@ as in FMI: a library that drops it reads 1/min as 1/60 rad/s.  What a symbol mea
 gravity; lb: mass or force; 1/min: revolutions where a speed is wanted); 1/s and Hz are no speed, for they may be either.
 """
 
+from __future__ import annotations
+
 import math
 import re
 from functools import cache
 from numbers import Real
+from typing import Any
 
 from .errors import UserError
 
@@ -176,7 +179,7 @@ class Scales(dict):
         return self[symbol] if symbol in self else default
 
 
-def unit_table(unit_definitions):
+def unit_table(unit_definitions: Any) -> Any:
     """The Scales of each unit of a model description."""
     return {
         unit.name: scales_of(unit.name, {d.name: (float(d.factor), float(d.offset)) for d in unit.displayUnits})
@@ -184,7 +187,7 @@ def unit_table(unit_definitions):
     }
 
 
-def scales_of(unit, displays):
+def scales_of(unit: str, displays: Any) -> Any:
     """Scales of an SI unit: its own, those of its display units, and its MULTIPLES."""
     more = {symbol: conversion(symbol, unit) for symbol in MULTIPLES.get(unit, ())}
     return Scales({unit: (1.0, 0.0)} | displays | more)
@@ -199,7 +202,7 @@ def plain(symbol):
     return re.sub(r"^1/\((.*)\)$", r"1/\1", symbol)
 
 
-def canonical(symbol):
+def canonical(symbol: Any) -> str:
     """A unit's symbol as it is shown."""
     symbol = plain(symbol) or "1"
     return SYMBOLS.get(symbol, symbol)
@@ -280,18 +283,18 @@ SECONDS = Scales(
 )
 
 
-def symbol_of(value):
+def symbol_of(value: Any) -> Any:
     """The unit that the user wrote: its canonical symbol, None for a number."""
     match = NUMBER.fullmatch(value) if isinstance(value, str) else None
     return canonical(match[2] or "") if match else None
 
 
-def suffix(symbol):
+def suffix(symbol: Any) -> str:
     """A unit as it stands behind a number: nothing for 1."""
     return "" if symbol in ("1", "") else f" {symbol}"
 
 
-def scale(symbol, scales):
+def scale(symbol: Any, scales: Any) -> Any:
     """Factor and offset of a unit's symbol; UserError if the variable has no such unit."""
     name = canonical(symbol)
     if name in scales:
@@ -305,7 +308,7 @@ def scale(symbol, scales):
     return found[0] * factor, found[1] + found[0] * offset
 
 
-def hours_text(hours):
+def hours_text(hours: Any) -> str:
     """A life in hours, minutes or seconds with three digits, or that it is longer than LONGEST."""
     if not math.isfinite(hours):
         return "no damage"
@@ -316,7 +319,7 @@ def hours_text(hours):
     return f"{hours:.3g} h" if hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
 
 
-def to_si(value, scales):
+def to_si(value: Any, scales: Any) -> float:
     """SI value of a number (SI already) or of a text with a unit: 0.01, "10 mm".
 
     Raises UserError for a text without a unit, a unit that does not fit, or anything that is not a finite number.
@@ -342,3 +345,15 @@ def is_finite(number):
         return math.isfinite(number)
     except OverflowError:
         return False
+
+
+def figure(value: Any) -> str:
+    """A number with four digits, thousands apart."""
+    if isinstance(value, int) or (math.isfinite(value) and value == round(value) and 1e4 <= abs(value) < 1e7):
+        return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:g}"
+    return f"{value:,.0f}" if 1e4 <= abs(value) < 1e7 else f"{value:.4g}"
+
+
+def duration(seconds: float) -> str:
+    """A life in hours, in seconds if it is short."""
+    return f"{figure(seconds)} s" if seconds < 360.0 else hours_text(seconds / 3600.0)

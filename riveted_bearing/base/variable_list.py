@@ -2,6 +2,7 @@
 
 import math
 import re
+from typing import Any
 
 from bearing_model.generated import variables
 from bearing_model.generated.variables import ESSENTIALS, INPUTS, LOCALS, OUTPUTS, PARAMETERS
@@ -13,12 +14,12 @@ KINDS = {"Inputs": INPUTS, "Parameters": PARAMETERS, "Outputs": OUTPUTS, "Locals
 KNOWN = INPUTS | PARAMETERS | OUTPUTS | LOCALS
 
 
-def essentials():
+def essentials() -> Any:
     """The essential variables by question."""
     return {title: [KNOWN[name] for name in names] for title, names in ESSENTIALS.items()}
 
 
-def is_like(text, pattern):
+def is_like(text: str, pattern: Any) -> bool:
     """Whether a text matches a pattern in which * stands for any text: the pieces between, each at its first place."""
     first, *others = pattern.split("*")
     if not others:
@@ -35,7 +36,7 @@ def is_like(text, pattern):
     return True
 
 
-def matching(pattern):
+def matching(pattern: Any) -> Any:
     """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if
     there are none.
     """
@@ -54,7 +55,7 @@ def matching(pattern):
     return {title: listed for title, listed in found.items() if listed}
 
 
-def row(variable, model=None):
+def row(variable: Any, model: Any = None) -> Any:
     """Name, kind, unit, start, limits and description in the unit in which people read the variable; the start value is
     that of `model`, if given.
     """

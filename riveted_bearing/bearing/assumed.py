@@ -6,9 +6,11 @@ that of the 6207 is said of the 6207 alone, that of the 6309 decides which value
 """
 
 import csv
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from bearing_model.generated import variables
 
@@ -95,7 +97,7 @@ def effects_of(given, example, parameters):
     }
 
 
-def assumed_rows(result):
+def assumed_rows(result: Any) -> Iterator[Any]:
     """The Assumed of a run, in the 6207 the strongest first; temperatures last."""
     about, parameters = result.about, result.parameters
     sizes, given = about.get("rivet", {}), set(about.get("given", ()))
@@ -127,14 +129,14 @@ def ends(name, value, effect, parameters):
     return sorted((max(effect.low, least_share(name, parameters)) * value, effect.high * value))
 
 
-def measured_in(rows):
+def measured_in(rows: Any) -> Any:
     """Where the changes of the stress over the ranges of some Assumed were measured, in words."""
     if any(row.effect.stress is not None for row in rows):
         return f"measured at the working point of the {EXAMPLE}"
     return "not measured in this bearing: `riveted-bearing sensitivity` does it"
 
 
-def assumed_ranges(model, scene=None):
+def assumed_ranges(model: Any, scene: Any = None) -> Any:
     """Usual ranges of the assumed parameters: {name: (lowest, highest)} in SI."""
     values = {name: model.default(variable) for name, variable in model.parameters.items()} | (
         scene.parameters if scene else {}
@@ -147,7 +149,7 @@ def assumed_ranges(model, scene=None):
     }
 
 
-def assumed_as_bronze(result):
+def assumed_as_bronze(result: Any) -> Any:
     """Values of a cage of bronze that nobody gave for one of another material, in words; "" for none."""
     known = {*result.about.get("given", ()), *result.about.get("ruled", ())}
     if result.parameters.get("cage.material", "bronze") == "bronze":
@@ -182,7 +184,7 @@ def least_share(name, values):
     return DEEPEST * least / values[name]
 
 
-def given_names(model, scene=None):
+def given_names(model: Any, scene: Any = None) -> Any:
     """Names of the values that a scene or the bearing's own file gives, those of an oil that they name among them."""
     of_file = {name for name, origin in model.origin.items() if origin == "yours" or name_of({name: origin})}
     return of_file | {*(scene.parameters if scene else ()), *(given_inputs(scene) if scene else ())}
@@ -194,11 +196,11 @@ def given_inputs(scene):
     return {name for name, history in scene.inputs.items() if name == "oil.T" or history is not oil}
 
 
-def is_example(model):
+def is_example(model: Any) -> Any:
     """Whether an FMU is that of the 6207 as it is shipped."""
     return model.bearing.startswith(EXAMPLE) and "yours" not in model.origin.values()
 
 
-def ruled_names(model):
+def ruled_names(model: Any) -> Any:
     """Names of the values that follow from the bearing's file by rule and that nothing else sets."""
     return {name for name, origin in model.origin.items() if origin == "rule"}

@@ -22,6 +22,7 @@ designation, by rule (scaling.py) from the rivet's shank, and from balls and pit
 
 import math
 from dataclasses import replace
+from typing import Any
 
 from bearing_model.generated import variables
 from bearing_model.load_ratings import dynamic_rating, static_rating
@@ -50,7 +51,7 @@ KINDS_OF_CAGE = dict(
 OF_EXAMPLE = ("Z", "bearing.D", "bearing.d_m", "shaft.F_x", "shaft.F_y", "shaft.omega")
 
 
-def bearing_case(source, rivet=None, cage=None):
+def bearing_case(source: Any, rivet: Any = None, cage: Any = None) -> Case:
     """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
 
     rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own

@@ -36,7 +36,7 @@ class Case:
     Z: int
     values: dict
     catalogue: dict = field(default_factory=dict)
-    rivet: dict = field(default_factory=dict)
+    rivet: dict | None = field(default_factory=dict)
     origin: dict = field(default_factory=dict)
     materials: dict = field(default_factory=dict)
     bare: bool = False
@@ -135,7 +135,7 @@ class Case:
             "patch_radius": round((v["cage.D_o"] - v["cage.D_i"]) / 4.0, 12),
             **materials.geometry_of("cage", self.materials["cage"]),
             **({"shape": "ribbon", "pocket_fillet": v["cage.pocket_fillet"]} if ribbon.is_ribbon(v) else {}),
-        } | self.rivet
+        } | (self.rivet or {})
 
     def equilibrium(self):
         """The QuasiStatic of ring and balls; UserError if there is none."""

@@ -3,6 +3,7 @@
 import re
 from importlib.resources import files
 from pathlib import Path
+from typing import Any
 
 from ..base.errors import UserError, is_file, unknown
 from . import catalogue
@@ -10,12 +11,12 @@ from . import catalogue
 SHIPPED = files("riveted_bearing") / "data" / "bearings"
 
 
-def shipped_bearings():
+def shipped_bearings() -> list[str]:
     """Designations of the bearings that come as files with the program."""
     return sorted(path.name.removesuffix(".toml") for path in SHIPPED.iterdir() if path.name.endswith(".toml"))
 
 
-def known_bearings():
+def known_bearings() -> list[str]:
     """Designations that need no file: shipped ones and the catalogue's."""
     return [*shipped_bearings(), *(name for name in catalogue.entries() if name not in shipped_bearings())]
 
@@ -29,7 +30,7 @@ def find_bearing(source):
     raise unknown_designation("bearing", "name or file", source, known_bearings())
 
 
-def unknown_designation(where, kind, name, known):
+def unknown_designation(where: Any, kind: Any, name: str, known: Any) -> UserError:
     """The error for a designation that is not among the known ones: one with a suffix leads to the designation without
     it, another number to no other bearing.
     """

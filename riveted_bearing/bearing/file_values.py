@@ -1,6 +1,7 @@
 """Values of a bearing file: units, limits and words of each."""
 
 import math
+from typing import Any
 
 from bearing_model.generated import variables
 
@@ -82,7 +83,7 @@ def catalogue_values(path, section):
             raise refusal(path, f"catalogue.{key}", value, problem) from None
 
 
-def unit_scales(unit):
+def unit_scales(unit: str) -> Any:
     """Symbols that a text may carry for an SI unit, with their (factor, offset)."""
     return scales_of(unit, variables.UNITS[unit])
 
@@ -145,7 +146,7 @@ def named(variable, value):
     return value if variable.type in ("Real", "Integer") else getattr(variables, variable.type)(value).name.lower()
 
 
-def is_number(value):
+def is_number(value: Any) -> Any:
     """Whether a TOML value is a finite number."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 

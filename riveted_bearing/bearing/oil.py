@@ -14,6 +14,7 @@ import tomllib
 from functools import cache
 from importlib.resources import files
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 
@@ -65,12 +66,12 @@ def viscosity(values, start, T):
     return float(oil.eta * oil_ratios(oil, T, own if oil.eta == own.eta else oil)[0])
 
 
-def plain(values):
+def plain(values: dict[str, Any]) -> SimpleNamespace:
     """Values by full name as the model has them, oil.nu_1 as nu_1."""
     return SimpleNamespace(**{name.removeprefix("oil."): value for name, value in values.items()})
 
 
-def check_given(where, given, written, values):
+def check_given(where: Any, given: Any, written: Any, values: Any) -> Any:
     """UserError if one document gives the viscosity twice, and differently.
 
     given: the document's parameters in SI; written: the same as it has them; values: all of oil.*, by full name.
@@ -99,7 +100,7 @@ def check_pair(where, given, written):
             raise refusal(where, name, written.get(name, given[name]), f"give {other} at {T} too: one point is no oil")
 
 
-def merged(earlier, given, start):
+def merged(earlier: Any, given: Any, start: Any) -> Any:
     """Parameters of a scene with those that a later document gives.
 
     Two points replace an earlier viscosity, and the FMU's own (`start`: values of its oil.*) where it is not that of
@@ -122,7 +123,7 @@ def kinds():
     return tomllib.loads(TABLE.read_text(encoding="utf-8"))
 
 
-def named(where, written, given, start):
+def named(where: Any, written: Any, given: Any, start: Any) -> Any:
     """Name and parameters of the oil that a document names, without those that it gives itself; "" and none for None.
 
     written: the document's value of `oil`; given: its parameters in SI; start: all of oil.* without the document, by
@@ -266,7 +267,7 @@ def traction_of(entry):
     return TRACTION | {name: share * TRACTION[name] for name in ("oil.A", "oil.B")}
 
 
-def largest_traction(A, B, C):
+def largest_traction(A: Any, B: Any, C: Any) -> Any:
     """Largest traction coefficient of mu(s) = (A + B s) exp(-C s) - A, at s = 1/C - A/B."""
     return B / C * math.exp(A * C / B - 1.0) - A
 
@@ -281,7 +282,7 @@ def name_of(origin):
     return next((of.removesuffix(" oil") for of in origin.values() if str(of).endswith(" oil")), "")
 
 
-def source_of(name, parameter):
+def source_of(name: str, parameter: Any) -> Any:
     """Where a named oil's parameter comes from, in words; "" for none of its."""
     key, (kind, _, grade) = OF_PROPERTY.get(parameter), name.partition(" ")
     entry = kinds().get(kind, {})

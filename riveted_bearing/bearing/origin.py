@@ -1,10 +1,12 @@
 """Where values of a bearing come from, in words."""
 
+from typing import Any
+
 SOURCE = "NKE General Catalogue 2018/10"
 EXAMPLE = "6207"  # whose values stand where no rule leads to another
 
 
-def not_given(origin):
+def not_given(origin: Any) -> Any:
     """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all
     that its bearing needs.
     """

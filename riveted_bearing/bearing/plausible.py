@@ -1,8 +1,15 @@
 """Values that can be computed with but that few bearings have: most often a unit that was forgotten or mistaken."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
 from .materials import PARTS
+
+if TYPE_CHECKING:
+    from .case import Case
 
 RATINGS = 1.5  # factor by which makers' C and C_0 do not differ from ISO 281 and ISO 76
 FASTEST = 1.5e6 / 60e3  # n d_m = 1.5 million mm/min [m/s]: oil jets and hybrid bearings go somewhat beyond
@@ -25,7 +32,7 @@ FORCES = {  # of a catalogue beside C and C_0: usual share of C, and by how much
 }
 
 
-def doubts(case):
+def doubts(case: Case) -> Iterator[Any]:
     """Sentences on the values of a Case that few bearings have."""
     from bearing_model.load_ratings import dynamic_rating, static_rating  # with SciPy, which takes half a second
 
@@ -44,7 +51,7 @@ def doubts(case):
     yield from fast(abs(values["shaft.omega"] - values.get("housing.omega", 0.0)), values["bearing.d_m"])
 
 
-def odd_materials(values, materials=()):
+def odd_materials(values: Any, materials: Any = ()) -> Iterator[Any]:
     """Sentences on properties of materials by a bearing file's Material of each part, else by parameters."""
     for part, where in PARTS.items():
         material = dict(materials).get(part)
@@ -63,7 +70,7 @@ def odd_solid(part, names, properties):
             yield f"{names[key]} = {factor * value:.3g} {unit}: {kind} have {usual}"
 
 
-def fast(omega, d_m):
+def fast(omega: Any, d_m: Any) -> Iterator[Any]:
     """A sentence on a speed [rad/s] that few ball bearings of a pitch diameter [m] reach."""
     if omega * d_m > 2.0 * math.pi * FASTEST:
         speed, product = 30.0 / math.pi * omega, omega * d_m * 30.0 / math.pi * 1e3

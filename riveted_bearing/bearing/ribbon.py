@@ -12,6 +12,7 @@ head's room on the land and a contact beside the fillet allow.
 """
 
 import math
+from typing import Any
 
 from rivet_model import ribbon_shape
 
@@ -28,12 +29,12 @@ HEAVY = "34"  # second digits of designations
 RELIEF = {"relief_depth": 0.25, "edge_break": 0.1, "middle_zone": 0.05}  # of the sheet
 
 
-def is_ribbon(values):
+def is_ribbon(values: Any) -> bool:
     """Whether values by the names of a bearing file mean a ribbon cage."""
     return values.get("cage.shape") == "ribbon"
 
 
-def is_guided_by_balls(values):
+def is_guided_by_balls(values: Any) -> bool:
     """Whether values mean a cage without a land."""
     return values.get("cage.guidance") == "balls"
 

@@ -1,6 +1,8 @@
 """What a bearing file leaves out, by rule, and whether the bearing can be built."""
 
 from dataclasses import fields
+from pathlib import Path
+from typing import Any
 
 from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
@@ -86,12 +88,14 @@ def limited_values(Z, given, rivet, inputs, data, entry):
     )
 
 
-def in_cage(designation):
+def in_cage(designation: str) -> str:
     """In whose cage a rivet's file does not fit, to stand behind a refusal."""
     return f", in the cage of the {designation}; --bearing names another one"
 
 
-def check_limits(path, document, parts, names=lambda name: name, inside=""):
+def check_limits(
+    path: Path, document: dict[str, Any], parts: Any, names: Any = lambda name: name, inside: str = ""
+) -> None:
     """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
 
     parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; names: how the file calls

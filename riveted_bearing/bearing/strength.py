@@ -6,7 +6,7 @@ pylife holds curves, rules, scatter and the guideline's constants.
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -94,7 +94,7 @@ class Strength:
     rough: bool = False
 
 
-def read_strength(path, section, law):
+def read_strength(path: Path, section: Any, law: Any) -> Strength:
     """The Strength of a mission's section [sn]; law: FatigueLaw that stands for what is not given.  Raises UserError
     naming key and value.
     """
@@ -112,7 +112,7 @@ def read_strength(path, section, law):
     return Strength(law, file.rule, T_S, file.survival, factor, table, given, file.R_z is not None)
 
 
-def in_words(strength):
+def in_words(strength: Strength) -> str:
     """The S-N curve with its rule, mean-stress correction, scatter and factors."""
     law = strength.law
     if strength.table is None:
@@ -138,7 +138,7 @@ def below(strength):
     return "no damage below" if strength.rule == "original" else f"{slopes[strength.rule]:g} below"
 
 
-def assumed(strength, given=()):
+def assumed(strength: Strength, given: Any = ()) -> str:
     """What of an S-N curve nobody gave, to stand behind its words, "" for nothing: values of the 6207's rivets, and those
     that follow from the strength.
 
@@ -274,7 +274,7 @@ def quantile(strength):
     return float(norm.ppf(1.0 - strength.survival))
 
 
-def damage_of_cycles(strength, span, mean, count):
+def damage_of_cycles(strength: Strength, span: Any, mean: Any, count: Any) -> Any:
     """Miner's sum of the cycles of each range and mean [Pa]; a cycle breaks a part at most once."""
     law = strength.law
     amplitude = np.array([fully_reversed(law, 0.5 * s, m) for s, m in zip(span.tolist(), mean.tolist(), strict=True)])
@@ -284,7 +284,7 @@ def damage_of_cycles(strength, span, mean, count):
     return damage * count
 
 
-def damage_of_matrix(strength, matrix, channels):
+def damage_of_matrix(strength: Strength, matrix: Any, channels: Any) -> Any:
     """Miner's sum of each channel of a run's rainflow matrix."""
     channel, span, mean, count = matrix
     return (

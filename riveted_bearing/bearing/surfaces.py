@@ -1,5 +1,7 @@
 """Measured profiles of races as waves."""
 
+from typing import Any
+
 import numpy as np
 
 from bearing_model.generated.variables import PARAMETERS
@@ -9,7 +11,7 @@ from ..base.errors import UserError
 ORDERS = PARAMETERS["outer.waviness[n]"].count
 
 
-def waves_of(angle, height):
+def waves_of(angle: Any, height: Any) -> Any:
     """Amplitudes [m] and phases [rad] of the orders 1 ... 60 from heights [m] over angles [rad] of one turn.
 
     h(phi) = h_0 + sum A_n cos(n phi + phase_n) by least squares, so that the angles need not be even.  UserError unless

@@ -12,6 +12,8 @@ Intermediate files stay in BUILD, so that the next build of the same bearing com
 in the same folder waits for the first.
 """
 
+from __future__ import annotations
+
 import contextlib
 import importlib.util
 import math
@@ -23,6 +25,7 @@ import subprocess
 import sys
 import sysconfig
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from filelock import FileLock, Timeout
 
@@ -41,6 +44,9 @@ from ..running.scene import Scene
 from ..running.summary import TABLE_TITLE
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 
+if TYPE_CHECKING:
+    from ..bearing.case import Case
+
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
 PLATFORM_OF = {  # (system, machine) -> FMI's folder of binaries
@@ -55,15 +61,15 @@ STEP = re.compile(r"\[\s*(?:(\d+)/(\d+)|(\d+)%)\s*\]")  # Ninja's [3/40], make's
 
 
 def build_fmu(
-    bearing=None,
-    rivet=None,
-    out=None,
-    say=lambda text, share=None: None,
-    platforms=(),
-    kind=None,
-    modes=None,
-    cage=None,
-):
+    bearing: Any = None,
+    rivet: Any = None,
+    out: Any = None,
+    say: Any = lambda text, share=None: None,
+    platforms: Any = (),
+    kind: Any = None,
+    modes: Any = None,
+    cage: Any = None,
+) -> Any:
     """Build an FMU and return its path.
 
     bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet
@@ -118,7 +124,7 @@ def build_fmu(
     return out
 
 
-def platform_names(text):
+def platform_names(text: str | None) -> Any:
     """Platforms by "all" or names separated by commas; UserError for an unknown one."""
     names = PLATFORMS if text == "all" else tuple(filter(None, (text or "").split(",")))
     for name in names:
@@ -303,7 +309,7 @@ def generator(folder):
     return ["-G", "Ninja", f"-DCMAKE_MAKE_PROGRAM={ninja}"] if ninja and not (folder / "Makefile").is_file() else []
 
 
-def case_with(bearing, rivet, cage=None):
+def case_with(bearing: Any, rivet: Any, cage: Any = None) -> Case:
     """The Case of a bearing, with the rivet of a geometry file if there is one: preload and seat follow from its shank."""
     if rivet is None or Path(rivet).suffix != ".toml":
         return bearing_case(bearing or "6207", cage=cage)
@@ -339,7 +345,7 @@ def check_material(path, table, case):
             )
 
 
-def table_copy(bearing=None, cage=None):
+def table_copy(bearing: Any = None, cage: Any = None) -> Any:
     """Where the rivet table lies that build_fmu put into the FMU of a bearing."""
     return build_folder(source_folder(), bearing, cage) / "rivet_table.json"
 

@@ -9,8 +9,11 @@ parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the r
 seeds.
 """
 
+from __future__ import annotations
+
 import re
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from rich.markup import escape
@@ -22,6 +25,10 @@ from bearing_model.solver import integrator
 from ..base.errors import UserError
 from ..running.runner import simulate
 from .reference import is_installed
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
+    from ..running.scene import Scene
 
 POINTS = 20  # instants of the short horizon
 FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's
@@ -97,7 +104,15 @@ class Comparison:
     ledger: integrator.Ledger | None = None
 
 
-def compare(model, scene, short=1e-3, long=0.1, seeds=SEEDS, method="DOP853", progress=None):
+def compare(
+    model: Model,
+    scene: Scene,
+    short: float = 1e-3,
+    long: float = 0.1,
+    seeds: Any = SEEDS,
+    method: str = "DOP853",
+    progress: Any = None,
+) -> Any:
     """Run a Scene, checked against the Model, through FMU and reference as the head of this file says; returns a
     Comparison.
 
@@ -187,7 +202,7 @@ def scale_of(variable, values, parameters):
     return max(float(np.max(np.abs(values))), LEAST[variable.unit])
 
 
-def is_motion(channel):
+def is_motion(channel: Any) -> bool:
     """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in parts of 10 um
     and 0.1 m/s.
     """
@@ -236,7 +251,7 @@ def with_statistics(found, model, scene, tolerance, long, seeds, progress):
 # --------------------------------------------------------------------------------------------------------------- tables
 
 
-def short_table(found):
+def short_table(found: Any) -> Any:
     """Rich table of the short horizon: size and largest difference of each output, worst first within motion, loads and
     stresses.
     """
@@ -256,7 +271,7 @@ def short_table(found):
     return table
 
 
-def long_table(found):
+def long_table(found: Any) -> Any:
     """Rich table of the statistics."""
     columns = ("reference", "FMU, mean", "scatter", "difference", "in scatters")
     table = Table(
@@ -274,7 +289,7 @@ def long_table(found):
     return table
 
 
-def ledger_table(ledger):
+def ledger_table(ledger: Any) -> Any:
     """Rich table of the energies supplied, stored and lost in the reference."""
     table = Table("", Column("J", justify="right"), box=None, pad_edge=False)
     for title, account in (("supplied", ledger.supplied), ("stored", ledger.stored), ("lost", ledger.lost)):

@@ -5,12 +5,18 @@ leaves those of its bearing in its folder.  A fresh interpreter takes them from 
 and runs the command again.
 """
 
+from __future__ import annotations
+
 import hashlib
 import importlib.util
 import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
 
 VARIABLES = "bearing_model.generated.variables"
 AGAIN = (
@@ -20,14 +26,14 @@ AGAIN = (
 )
 
 
-def is_installed(model):
+def is_installed(model: Model) -> bool:
     """Whether the installed reference is that of the FMU's bearing."""
     from bearing_model.generated import variables
 
     return model.description.guid == variables.MODEL_GUID
 
 
-def folder_of(model):
+def folder_of(model: Model) -> Any:
     """The build folder that has left this very FMU; UserError if there is none."""
     from ..base.errors import UserError
     from ..running.fmu import FMU_NAME
@@ -45,7 +51,7 @@ def folder_of(model):
     )
 
 
-def run_again(folder, arguments):
+def run_again(folder: Path, arguments: Any) -> int:
     """Run the program with the reference of a build folder in a fresh interpreter; returns its exit code."""
     here = Path(__file__).resolve()
     path = os.pathsep.join(filter(None, [str(here.parents[2]), os.environ.get("PYTHONPATH")]))

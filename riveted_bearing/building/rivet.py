@@ -3,9 +3,11 @@ finite elements.
 """
 
 import math
+from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor
 from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rich.table import Column, Table
@@ -41,7 +43,7 @@ CAGE_NAMES = {  # key of a geometry file -> of a bearing file
 
 
 @threadpool_limits.wrap(limits=1)  # small matrices
-def rivet_curves(source=None, bearing=None):
+def rivet_curves(source: Any = None, bearing: Any = None) -> Any:
     """Title, curves (see rivet_model.pictures.curves) and Joint of a rivet.
 
     source: rivet table (JSON) or geometry (TOML), None for the tracked table, or for the own rivet of the bearing
@@ -63,10 +65,11 @@ def rivet_curves(source=None, bearing=None):
         geometry = Geometry(**t.geometry)
         joint = condensed(geometry, path)
         response, title = pictures.table_response(t), f"{path.name}: {table_text(t)}"
-    return title, pictures.curves(*response, geometry.size, is_papers(geometry)), joint
+    stress, fit_eff = response
+    return title, pictures.curves(stress, fit_eff, geometry.size, is_papers(geometry)), joint
 
 
-def source_geometry(source, bearing):
+def source_geometry(source: Any, bearing: Any) -> Any:
     """Geometry of a rivet given as for rivet_curves."""
     if source is None:
         return geometry_of(bearing_case(bearing))
@@ -246,7 +249,7 @@ def sources_digest():
     return sha256(b"".join(file.read_bytes() for file in files)).hexdigest()[:8]
 
 
-def curve_tables(curves):
+def curve_tables(curves: Any) -> Iterator[Any]:
     """Title and rich table of each curve, a row every Curve.row."""
     for curve in curves.values():
         shown = np.isclose(curve.x / curve.row, np.round(curve.x / curve.row), atol=1e-6)
@@ -266,7 +269,7 @@ def curve_tables(curves):
 
 
 @threadpool_limits.wrap(limits=1)
-def write_pictures(folder, title, curves, joint):
+def write_pictures(folder: Path, title: str, curves: Any, joint: Any) -> Any:
     """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their
     paths.
     """
@@ -285,19 +288,19 @@ def write_figure(figure, path):
     write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=120, format="png"))
 
 
-def write_drawing(geometry, path):
+def write_drawing(geometry: Any, path: Path) -> Path:
     """Write the drawing of a rivet with its dimensions; returns the path."""
     write_figure(pictures.plot_geometry(geometry), path)
     return path
 
 
-def given_geometry(rivet, bearing=None):
+def given_geometry(rivet: Any, bearing: Any = None) -> Any:
     """Geometry of a rivet given as table (JSON) or geometry (TOML), in the cage of a bearing."""
     path = Path(rivet)
     return read_geometry(path, bearing) if path.suffix == ".toml" else Geometry(**read_table(path).geometry)
 
 
-def seat_note(geometry):
+def seat_note(geometry: Any) -> str:
     """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than
     the shank is pulled; else "".
     """

@@ -73,6 +73,7 @@ def matrices(
         TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal
     ) as bar:
         task, found = bar.add_task("matrices", total=1.0), balanced if static else []
+        whirls: list[float | None]
         whirls = [] if static else [2.0 * math.pi * f for f in sorted(set(frequencies or ()))] or [None]
         for i, w in enumerate(whirls):
 

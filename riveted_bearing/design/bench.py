@@ -64,7 +64,7 @@ class Box:
             if not low < high:
                 raise refusal(path, f"between.{name}", list(pair), "the lowest value must be below the highest")
             pairs.append((low, high))
-        self.names, self.low, self.high = list(found), *np.array(pairs).T
+        self.names, (self.low, self.high) = list(found), np.array(pairs).T
 
     def problem(self):
         """The box as SALib has it."""

@@ -25,10 +25,13 @@ by fatigue.acceleration, equal those of the restarted runs apart from the scatte
 How sure the order is: the share of bootstrap resamples of the seeds in which the same place is the next to break.
 """
 
+from __future__ import annotations
+
 import json
 import textwrap
 from dataclasses import asdict, dataclass, replace
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import Field
@@ -42,6 +45,9 @@ from ..base.units import hours_text
 from ..show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
 from ..studies.sweep_file import known_names
 from .bench import Bench, Seeded
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
 
 SECTIONS = ("parameters", "inputs")
 HOURS = {"h": 1.0, "d": 1.0 / 24.0, "years": 1.0 / 8766.0}  # of one hour
@@ -108,7 +114,7 @@ class Cascade:
         ]
 
 
-def plan_cascade(path, document):
+def plan_cascade(path: Path, document: dict[str, Any]) -> Any:
     """Names and parameters of the cases, number of breaks, hours that are followed; UserError names what cannot be used."""
     check_keys(path, document, CascadeFile.model_fields, "cascade")
     file = checked(CascadeFile, document, path)
@@ -131,7 +137,7 @@ def bench_of(path, document, model, folder, client, progress, case, own=()):
     return Bench(path, common, model, folder, client, progress)
 
 
-def default_document(model, shipped):
+def default_document(model: Model, shipped: Any) -> Any:
     """What a cascade is without a file: the shipped one, of an FMU of its own with the fit that the FMU has, and long
     enough for its speed.
     """
@@ -143,7 +149,9 @@ def default_document(model, shipped):
     return kept | {"description": "Rivet after rivet at the FMU's own working point", "simulation": {"t_end": t_end}}
 
 
-def run_cascades(path, document, model, folder, client, progress=None):
+def run_cascades(
+    path: Path, document: dict[str, Any], model: Model, folder: Path, client: Any, progress: Any = None
+) -> Any:
     """The Cascades of all cases; runs are read from the folder where they are there."""
     cases, breaks, until = plan_cascade(path, document)
     found = []
@@ -164,7 +172,15 @@ def run_cascades(path, document, model, folder, client, progress=None):
     return found
 
 
-def run_single(path, document, model, folder, client, found, progress=None):
+def run_single(
+    path: Path,
+    document: dict[str, Any],
+    model: Model,
+    folder: Path,
+    client: Any,
+    found: Any,
+    progress: Any = None,
+) -> Any:
     """Breaks of one simulation for each seed, by the case's name: [seed][break] (rivet, place, hours since the begin).
 
     found: Cascades of run_cascades, whose first state says by how much the damage is to be accelerated.  A case in which
@@ -285,7 +301,7 @@ def next_break(damage, rates):
     return hours[at], (int(at[0]), int(at[1]))
 
 
-def write_cascades(found, path, single=None):
+def write_cascades(found: Any, path: Path, single: Any = None) -> Path:
     """JSON: for each case what it rests on, its breaks (rivet, place, hours, sure), its states, and the breaks of single
     simulations by seed, if there are any (run_single); returns the path.
     """
@@ -322,7 +338,7 @@ def write_cascades(found, path, single=None):
     return path
 
 
-def write_picture(found, path):
+def write_picture(found: Any, path: Path) -> Path:
     """Picture: a row for each case, a circle of rivets for each of its states with the damage rate of the worse place,
     what is gone crossed out.
     """

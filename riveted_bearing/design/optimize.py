@@ -14,12 +14,14 @@ fresh seeds, and the answer and its confidence come from these alone. The search
 seed, so that a call after a stop reads the runs that are done and goes on from there.
 """
 
+from __future__ import annotations
+
 import json
 import math
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import Field
@@ -32,6 +34,9 @@ from ..base.units import to_si
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from .bench import BenchFile, Box, Responses
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
 BAD = 1e30  # of an objective whose run was stopped
@@ -91,7 +96,7 @@ class Optimum:
     present: np.ndarray
 
 
-def plan_optimize(path, document, model):
+def plan_optimize(path: str | Path, document: dict[str, Any], model: Model) -> Any:
     """The Study of a document; raises UserError naming what cannot be used."""
     check_keys(path, document, OptimizeFile.model_fields, "search for best values")
     file = checked(OptimizeFile, document, path)
@@ -113,7 +118,7 @@ def plan_optimize(path, document, model):
     return Study(Path(path), file.description, Box(path, file.between, model), names, signs, limits, **counts)
 
 
-def optuna_library():
+def optuna_library() -> Any:
     """Optuna; UserError if it is missing."""
     try:
         import optuna
@@ -123,7 +128,7 @@ def optuna_library():
     return optuna
 
 
-def search(study, evaluate):
+def search(study: Any, evaluate: Any) -> Any:
     """The Optimum; evaluate(names, points [n, d], responses, seeds=None) returns [n, seeds, m]."""
     points, values = explore(study, evaluate)
     candidates = most_promising(study, values)
@@ -131,12 +136,13 @@ def search(study, evaluate):
     means, errors = mean_and_error(evaluate(study.box.names, points[candidates], study.responses, seeds=fresh))
     present = mean_and_error(evaluate([], np.zeros((1, 0)), study.responses, seeds=fresh))
     allowed = np.all(excess(study, means) <= 0.0, axis=1) & np.isfinite(means).all(axis=1)
-    best = min(np.flatnonzero(allowed), key=lambda i: distance(study, means, allowed)[i]) if allowed.any() else None
-    best = None if best is None else int(best)
+    best = None
+    if allowed.any():
+        best = int(min(np.flatnonzero(allowed), key=lambda i: distance(study, means, allowed)[i]))
     return Optimum(study, points, values, candidates, means, errors, best, np.array(present)[:, 0])
 
 
-def fresh_seeds(study):
+def fresh_seeds(study: Any) -> Any:
     """start.seed of the runs that the search has not seen."""
     return range(study.seed + FRESH, study.seed + FRESH + study.check_seeds)
 
@@ -146,7 +152,7 @@ def mean_and_error(values):
     return values.mean(axis=1), values.std(axis=1, ddof=1) / math.sqrt(values.shape[1])
 
 
-def criterion(study):
+def criterion(study: Any) -> str:
     """In words, by which of the points simulated again one is recommended."""
     wanted = [
         f"{'least' if sign > 0 else 'largest'} {name}" for name, sign in zip(study.objectives, study.signs, strict=True)
@@ -227,7 +233,7 @@ def most_promising(study, values):
     return [int(i) for i in ranked[: study.candidates]]
 
 
-def write_optimum(found, path, basis=()):
+def write_optimum(found: Any, path: Path, basis: Any = ()) -> Path:
     """Write the answer as JSON, whole or not at all; basis: what the runs rest on.  Returns the path."""
     study = found.study
     rows = [
@@ -256,7 +262,7 @@ def write_optimum(found, path, basis=()):
     return path
 
 
-def write_picture(found, path):
+def write_picture(found: Any, path: Path) -> Path:
     """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first
     two variables; returns the path.
     """

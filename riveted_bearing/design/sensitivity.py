@@ -17,11 +17,13 @@ variance that the seeds leave in a point's mean, delta the step of a trajectory;
 share s^2/V.  Both stand beside the indices.
 """
 
+from __future__ import annotations
+
 import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -34,8 +36,11 @@ from ..running.responses import display_of
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
 from .bench import BenchFile, Box, Responses, noise_variance
 
+if TYPE_CHECKING:
+    from ..running.fmu import Model
 
-def even(value):
+
+def even(value: Any) -> Any:
     """An even number from 2 on; ValueError for anything else."""
     if value < 2 or value % 2:
         raise UserError("an even number is needed")
@@ -112,7 +117,7 @@ class Study:
     seed: int
 
 
-def plan_sensitivity(path, document, model, assumed=None):
+def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, assumed: Any = None) -> Any:
     """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what
     cannot be used.
     """
@@ -122,7 +127,7 @@ def plan_sensitivity(path, document, model, assumed=None):
     return Study(Path(path), file.description, Box(path, file.between, model, assumed), file.responses, **settings)
 
 
-def salib(command="sensitivity"):
+def salib(command: str = "sensitivity") -> Any:
     """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
     missing.
     """
@@ -136,14 +141,14 @@ def salib(command="sensitivity"):
     return sample_morris, analyze_morris, sample_sobol, analyze_sobol
 
 
-def analyse(study, evaluate):
+def analyse(study: Any, evaluate: Any) -> Any:
     """The Sensitivity of a Study; evaluate(names, points [n, d], responses) returns [n, seeds, m]."""
     sample_morris, analyze_morris, sample_sobol, analyze_sobol = salib()
     problem = study.box.problem()
     points = sample_morris.sample(problem, study.trajectories, num_levels=study.levels, seed=study.seed)
     values = complete(study, evaluate(study.box.names, points, study.responses))
     noise, step = noise_variance(values), study.levels / (2.0 * (study.levels - 1))
-    morris = {}
+    morris: dict[str, dict[str, Any]] = {}
     for i, name in enumerate(study.responses):
         found = analyze_morris.analyze(
             problem, points, values.mean(axis=1)[:, i], num_levels=study.levels, seed=study.seed
@@ -155,7 +160,8 @@ def analyse(study, evaluate):
         [np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0
     )
     chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: study.factors]]
-    sobol, seeds = {}, values.shape[1]
+    sobol: dict[str, dict[str, Any]] = {}
+    seeds = values.shape[1]
     if chosen:
         box = study.box.chosen(chosen)
         points = sample_sobol.sample(box.problem(), study.count, calc_second_order=False, seed=study.seed)
@@ -194,12 +200,12 @@ def complete(study, values):
     return values
 
 
-def order(found, name):
+def order(found: Any, name: str) -> Any:
     """Factors of the screening by their effect on a response, the largest first."""
     return sorted(range(len(found.factors)), key=lambda k: -found.morris[name]["mu_star"][k])
 
 
-def write_indices(found, path):
+def write_indices(found: Any, path: Path) -> Path:
     """Write all indices as JSON, whole or not at all; returns the path."""
     write_atomically(
         path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8")
@@ -207,7 +213,7 @@ def write_indices(found, path):
     return path
 
 
-def read_indices(path):
+def read_indices(path: str | Path) -> Any:
     """The Sensitivity that write_indices wrote at a path, or in a folder; UserError names what is wrong."""
     path = Path(path)
     path = path / "sensitivity.json" if path.is_dir() else path
@@ -235,7 +241,7 @@ def read_indices(path):
     return found
 
 
-def write_picture(found, path):
+def write_picture(found: Any, path: Path) -> Path:
     """Write the picture: mu_star of each factor with its confidence and the noise, and Sobol indices; returns the path."""
     columns = 2 if found.sobol else 1
     with plt.rc_context(STYLE):

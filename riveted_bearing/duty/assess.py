@@ -6,6 +6,8 @@ import hashlib
 import json
 import math
 from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -163,7 +165,7 @@ def number_of_rivets(rows):
     return sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows)
 
 
-def assess(mission, runs, progress=lambda found, target: None):
+def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: None) -> Life:
     """The Life of a mission from runs(counts), which returns for each case its damages [n, Z, 2].
 
     Points that are rare are not simulated if a bound on their damage shows that they cannot matter.
@@ -338,20 +340,20 @@ def record(life):
     }
 
 
-def check_folder(folder, mission, remedy):
+def check_folder(folder: Path, mission: Mission, remedy: Any) -> None:
     """UserError if a folder has the life of another FMU, whose pages and runs would be replaced in part."""
     if is_of_another(folder, mission):
         other = read_record(folder)["fmu"]
         raise UserError(f"{folder}: has the life of another FMU, {other}, not of {mission.fmu}: {remedy}")
 
 
-def is_of_another(folder, mission):
+def is_of_another(folder: Path, mission: Mission) -> bool:
     """Whether life.json of a folder is of the FMU of another file; one that was built again at its place is no other one."""
     known = read_record(folder)
     return "fmu" in known and known["fmu"] != mission.fmu and known["fmu_sha256"] != mission.fmu_sha256
 
 
-def is_current(life, folder):
+def is_current(life: Life, folder: Path) -> bool:
     """Whether life.json of a folder is this Life's."""
     return read_record(folder) == json.loads(json.dumps(record(life)))
 
@@ -364,7 +366,7 @@ def read_record(folder):
         return {}
 
 
-def write_record(life, folder):
+def write_record(life: Life, folder: Path) -> Path:
     """Write life.json, whole or not at all; returns its path."""
     path = folder / RECORD
     write_atomically(

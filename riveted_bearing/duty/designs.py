@@ -12,6 +12,7 @@ import math
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.stats import t as student
@@ -105,7 +106,7 @@ class Comparison:
     warnings: tuple = ()
 
 
-def read_designs(words, number_or_text):
+def read_designs(words: Any, number_or_text: Any) -> Any:
     """The Designs of the command's words: FMUs, each followed by NAME=VALUE of its own."""
     found = []
     for word in words:
@@ -165,11 +166,14 @@ def check_same_inputs(missions, designs):
                     )
 
 
-def compare_designs(path, designs, folder, client, progress=None, say=lambda name: None):
+def compare_designs(
+    path: str | Path, designs: Any, folder: str | Path, client: Any, progress: Any = None, say: Any = lambda name: None
+) -> Any:
     """The Comparison of designs under the mission of a file; folder: for the runs, client and progress: as of Runs."""
     missions = [plan(path, design) for design in designs]
     check_same_inputs(missions, designs)
-    all_runs, counts = [], None
+    all_runs: list[Any] = []
+    counts: Any = None
     for k, (mission, design) in enumerate(zip(missions, designs, strict=True)):
         say(design.name)
         runs = Runs(mission, design.model, Path(folder) / f"design_{k + 1}", client, progress)
@@ -194,7 +198,10 @@ def compare_designs(path, designs, folder, client, progress=None, say=lambda nam
                 }
                 for part, of_part in rows[k].items()
             },
-            max(rows[k], key=dict(zip((part.name for part in missions[k].parts), found[k].shares, strict=True)).get),
+            max(
+                rows[k],
+                key=dict(zip((part.name for part in missions[k].parts), found[k].shares, strict=True)).__getitem__,
+            ),
             missions[k].raceways(),
         )
         for k, design in enumerate(designs)
@@ -332,6 +339,6 @@ def lowest_mode(model):
 # What is written ------------------------------------------------------------------------------------------------------
 
 
-def ends_of(outcome):
+def ends_of(outcome: Any) -> Any:
     """Life, lower and upper end of its interval [h]."""
     return outcome.estimate.life, outcome.estimate.low, outcome.estimate.high

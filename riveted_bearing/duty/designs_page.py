@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.ticker import NullFormatter
@@ -20,7 +21,7 @@ RECORD, PAGE = "designs.json", "designs.html"
 COLOURS = (FORCE, MIDDLE, HEAD, RING, MUTED)
 
 
-def ratio_text(ratio):
+def ratio_text(ratio: Any) -> str:
     """A Ratio with its interval, or that it is open; – where there is none."""
     if ratio is None:
         return ""
@@ -37,7 +38,7 @@ def parts_of_stress(outcome):
     return [outcome.responses[outcome.deciding][f"{place}_{part}"] for part in ("static", "swing")]
 
 
-def parts_text(outcome):
+def parts_text(outcome: Any) -> str:
     """These two in words, with their ratios to the first design's."""
     if not outcome.responses:
         return ""
@@ -58,7 +59,7 @@ def against_stress(outcome):
     return ""
 
 
-def verdict(outcome):
+def verdict(outcome: Any) -> str:
     """A sentence on a design against the first one."""
     ratio = outcome.life
     if ratio is None or math.isnan(ratio.ratio):
@@ -114,7 +115,7 @@ def ratio_record(ratio):
     return {key: finite(getattr(ratio, key)) for key in ("ratio", "low", "high", "correlation")}
 
 
-def write_record(found, folder):
+def write_record(found: Any, folder: str | Path) -> Path:
     """Write designs.json, whole or not at all; returns its path."""
     path, text = Path(folder) / RECORD, json.dumps(record(found), indent=1) + "\n"
     write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
@@ -179,7 +180,7 @@ def ratio_chart(fig, found):
     ax.grid(axis="y", visible=False)
 
 
-def write_page(found, path):
+def write_page(found: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns its path."""
     from ..show import charts
 

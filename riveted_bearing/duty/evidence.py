@@ -1,7 +1,10 @@
 """The figures that a sheet rests on, of a mission or of one run."""
 
+from __future__ import annotations
+
 import functools
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,6 +21,10 @@ from .miner import lives
 from .page import ends_of, interval_text
 from .raceways import Raceways
 from .starts import started
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
+    from .assess import Life, Runs
 
 
 @dataclass(frozen=True)
@@ -46,13 +53,14 @@ class Evidence:
     raceways: Raceways = field(default_factory=Raceways, repr=False)
 
 
-def of_mission(life, runs, model, progress=lambda done, total: None):
+def of_mission(life: Life, runs: Runs, model: Model, progress: Any = lambda done, total: None) -> Any:
     """Evidence of a mission's Life and its Runs; simulates each point and event once more, with all outputs."""
     mission, duty = life.mission, life.mission.duty
     used = used_cases(duty, list(life.kept)).tolist()
     share = dict(zip(life.kept, life.estimate.shares, strict=True))
-    worst = max(share, key=share.get)
-    results, rivet = {}, None
+    worst = max(share, key=lambda i: share[i])
+    results: dict[str, Any] = {}
+    rivet = 0
     chosen = [(i, c) for i in life.kept if (c := first_case(mission, i)) in used]
     for done, (i, c) in enumerate(chosen):
         progress(done, len(chosen))
@@ -61,7 +69,7 @@ def of_mission(life, runs, model, progress=lambda done, total: None):
         if mission.settings["rivets"] == "each":
             judged = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
         most = np.unravel_index(np.argmax(judged), damage.shape)
-        if i == worst or rivet is None:
+        if i == worst or not rivet:
             rivet = int(most[1]) // 2 + 1
             of_rivets = damage.mean(axis=0) if mission.settings["rivets"] == "each" else damage[most[0]]
         scene = started(mission.cases[c].scene, model, mission.settings["seed"], int(most[0]))

@@ -2,10 +2,13 @@
 the keys of the file, docs/life.md an example.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,6 +32,9 @@ from .parts import FORCED
 from .points import points
 from .raceways import Raceways, cleanliness_of, of_parts, rated, slip_warning, why_unrated
 from .slow import slow_warnings
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
 
 MOST_TRIED = 8  # parts in which a setting without effect in one is tried
 
@@ -66,7 +72,7 @@ class Mission:
         return (*of_parts, *self.slow, *slip_warning(self.raceways()))
 
 
-def load_mission(path, model):
+def load_mission(path: str | Path, model: Model) -> Mission:
     """Read a mission's TOML file; raises UserError naming file, key, value and what is allowed."""
     path = Path(path)
     if not path.is_file():
@@ -144,7 +150,7 @@ def raceway_figures(model, scene):
     return {} if why_unrated(case) is not None else rated(case).lives
 
 
-def curves(path, section, scenes, model):
+def curves(path: Path, section: Any, scenes: Any, model: Model) -> Any:
     """The S-N curves of the scenes in words, and what of them is assumed; section: [sn] of a mission."""
     found = {}
     for scene in scenes:

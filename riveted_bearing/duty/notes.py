@@ -2,7 +2,10 @@
 which effects the life does not contain.
 """
 
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,6 +15,9 @@ from . import raceways
 from .assess import part_duty
 from .miner import NO_DAMAGE, class_factors
 from .page import ends_of, open_ends, percent, width_text
+
+if TYPE_CHECKING:
+    from .assess import Life, Runs
 
 ENOUGH = 0.95  # of the damage that the FMU counts: with less in the matrices the life is too long
 WIDE, MATTERS = 1.3, 0.05  # factor of a class, and share in the damage from which it is named
@@ -31,7 +37,7 @@ def wide_classes(life):
     ]
 
 
-def matrix_warnings(runs):
+def matrix_warnings(runs: Runs) -> Any:
     """Sentences on a mission with its own S-N curve whose matrices miss damage, because stress between the communication
     points is not in them.
     """
@@ -62,7 +68,7 @@ def oil_in_pockets(mission, model):
     )
 
 
-def notes(life, runs, scatter=None):
+def notes(life: Life, runs: Runs, scatter: Any = None) -> Any:
     """Sentences on a Life, its Runs and, if there are tolerances, the Scatter of bearings."""
     mission, found = life.mission, life.estimate
     settings = mission.settings

@@ -4,8 +4,13 @@ Between both ends lies what a jet leaves in the pockets: the film of oil takes t
 with a high power of the stress.
 """
 
+from __future__ import annotations
+
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ..base.errors import UserError
 from ..base.files import make_folder, write_atomically
@@ -16,6 +21,10 @@ from .mission import plan_mission
 from .page import ends_of, interval_text
 from .points import changed_points
 from .raceways import finite
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
+    from .mission import Mission
 
 FILLING = "cage.pocket_filling"
 ENDS = {"dry": 0.0, "flooded": 1.0}
@@ -29,7 +38,7 @@ class OilRange:
     lives: dict[str, Life]
 
 
-def plan_ends(mission, model):
+def plan_ends(mission: Mission, model: Model) -> Any:
     """The Missions of both ends by name.  UserError where the FMU knows no oil in its pockets, and where points or events set
     their own filling: both ends would be the same there.
     """
@@ -59,7 +68,7 @@ def has_filling(mission, model, filling):
     return all(case.scene.parameters.get(FILLING, own) == filling for case in mission.cases)
 
 
-def oil_range(found, model, folder, assessed):
+def oil_range(found: Any, model: Model, folder: Path, assessed: Any) -> Any:
     """The OilRange beside a Life that was found in a folder; assessed(mission, folder): Life.  An end that the mission has
     itself is not simulated again; the other ones have folders of their own.
     """
@@ -75,13 +84,13 @@ def oil_range(found, model, folder, assessed):
     return OilRange(lives)
 
 
-def rows(ends):
+def rows(ends: Any) -> Iterator[Any]:
     """Title, life and interval of each end."""
     for end, life in ends.lives.items():
         yield f"Life, {end}", hours_text(life.estimate.life), f"{interval_text(*ends_of(life))} · {life.place}"
 
 
-def remarks(ends):
+def remarks(ends: Any) -> Any:
     """Sentences on both ends."""
     texts = {end: hours_text(life.estimate.life) for end, life in ends.lives.items()}
     return [
@@ -90,7 +99,7 @@ def remarks(ends):
     ]
 
 
-def write_oil_range(ends, folder):
+def write_oil_range(ends: Any, folder: Path) -> Path:
     """Write oil_range.json, whole or not at all; returns its path."""
     path = folder / RECORD
     record = {

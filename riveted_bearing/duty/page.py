@@ -1,19 +1,26 @@
 """The page of a mission: life with its confidence, who contributes, rivet by rivet, damage against load and speed."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 import numpy as np
 from scipy.stats import t as student
 
 from ..base.files import write_atomically
-from ..base.units import LONGEST, hours_text
+from ..base.units import LONGEST, figure, hours_text
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
-from ..show.report import figure
 from .raceways import card
+
+if TYPE_CHECKING:
+    from .assess import Life
 
 MOST_BARS = 14
 OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
@@ -21,7 +28,7 @@ BEYOND = 1.6  # half-widths of ln life that the picture shows on each side
 WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
-def write_page(life, path, notes, warnings=()):
+def write_page(life: Life, path: Path, notes: Any, warnings: Any = ()) -> Path:
     """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out; warnings:
     beside those of the mission.  Returns the path.
     """
@@ -46,7 +53,7 @@ def share_text(share):
     return f"{100 * share:.3g} %" if share < 0.9995 and share >= 1e-3 else "100 %" if share > 0.5 else "< 0.1 %"
 
 
-def cards(life):
+def cards(life: Life) -> Iterator[Any]:
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
     yield "Life of the rivets", hours_text(found.life), f"{life.place} · Miner's sum 1"
@@ -82,7 +89,7 @@ def open_ends(life, low, high):
     return [end for end, far in (("lower", life > OPEN * low), ("upper", high > OPEN * life)) if far]
 
 
-def interval_text(life, low, high):
+def interval_text(life: Life, low: Any, high: Any) -> str:
     """The interval, without the ends that are open."""
     low_text, high_text, ends = hours_text(low), hours_text(high), open_ends(life, low, high)
     if len(ends) == 2:
@@ -117,12 +124,12 @@ def passes_text(life, hours):
     return f"{'> ' if life > LONGEST else ''}{figure(min(life, max(LONGEST, hours)) / hours)} passes"
 
 
-def percent(half_width):
+def percent(half_width: Any) -> str:
     """A half-width of ln life as a share of life."""
     return f"{100 * math.expm1(half_width):.3g} %" if half_width <= math.log(OPEN) else f"> {100 * (OPEN - 1):,.0f} %"
 
 
-def part_rows(life):
+def part_rows(life: Life) -> Iterator[Any]:
     """Name, load, speed, weight, how it was simulated, damage per hour or event, share of each part."""
     share = dict(zip(life.kept, life.estimate.shares, strict=True))
     for i, part in enumerate(life.mission.parts):
@@ -272,7 +279,7 @@ CHARTS = {
 }
 
 
-def write_picture(life, path):
+def write_picture(life: Life, path: Path) -> Path:
     """The four charts as one PNG, whole or not at all; returns the path."""
     from ..show.plot import STYLE
 

@@ -8,15 +8,22 @@
 90 % of equal bearings reach such a life.
 """
 
+from __future__ import annotations
+
 import math
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..base.errors import UserError, shortlist
 from ..base.units import hours_text
 from ..running.scene_case import scene_case
+
+if TYPE_CHECKING:
+    from ..bearing.case import Case
 
 MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ASSUMED = "normal"  # cleanliness where nobody gave one
@@ -43,7 +50,7 @@ class Rated:
         return self.turns > 0.0 and self.load < self.least
 
 
-def rated(case):
+def rated(case: Case) -> Any:
     """The Rated of a Case; UserError without load ratings or an equilibrium."""
     from bearing_model.load_ratings import equivalent_load, fatigue_load_limit, life_factor
 
@@ -73,7 +80,7 @@ def rated(case):
     return Rated(turns, max(F_r, F_a), least, kappa, lives)
 
 
-def why_unrated(case):
+def why_unrated(case: Case) -> Any:
     """Why a Case has no rating life; None if it has one."""
     if not {"C", "C_0"} <= case.catalogue.keys():
         return "the load ratings C and C_0 are not known: build the FMU from a bearing file or a designation"
@@ -82,7 +89,7 @@ def why_unrated(case):
     return None
 
 
-def too_little_load(case):
+def too_little_load(case: Case) -> Iterator[Any]:
     """A sentence if the bearing turns under less than its minimum load: balls then skid."""
     if why_unrated(case) is None and (found := rated(case)).slips:
         rule = "" if "minimum_load" in case.catalogue else "0.01 C = "
@@ -95,7 +102,7 @@ def too_little_load(case):
 # Cleanliness ----------------------------------------------------------------------------------------------------------
 
 
-def cleanliness_of(value):
+def cleanliness_of(value: Any) -> Any:
     """A name of load_ratings.CLEANLINESS, or a contamination factor e_C, from what the user wrote: "normal", "20/17/14",
     "-/15/12 filtered", 0.4.
     """
@@ -113,11 +120,7 @@ def cleanliness_of(value):
     if text in CLEANLINESS:
         return text
     if code := CODE.fullmatch(text):
-        classes = {
-            int(CODE.fullmatch(name)[1]): name
-            for name in CLEANLINESS
-            if (own := CODE.fullmatch(name)) and own[2] == code[2]
-        }
+        classes = {int(own[1]): name for name in CLEANLINESS if (own := CODE.fullmatch(name)) and own[2] == code[2]}
         if found := next((name for limit, name in sorted(classes.items()) if int(code[1]) <= limit), None):
             return found
     raise UserError(f"allowed: e_C from 0 to 1, {', '.join(CLEANLINESS)}")
@@ -130,7 +133,7 @@ def contamination(cleanliness, kappa, d_m):
     return cleanliness if isinstance(cleanliness, float) else contamination_factor(cleanliness or ASSUMED, kappa, d_m)
 
 
-def in_words(cleanliness):
+def in_words(cleanliness: Any) -> str:
     """A cleanliness in words."""
     if cleanliness is None:
         return f"{ASSUMED} cleanliness, assumed"
@@ -243,7 +246,7 @@ def life_text(found):
     return f"L_10mr {hours_text(found.life('L_10mr'))} ({in_words(found.cleanliness)}), L_10r {hours_text(found.life('L_10r'))}"
 
 
-def card(found):
+def card(found: Any) -> Any:
     """Life of Raceways to see first and what it is, for a page: (value, remark)."""
     if found.untold:
         return "not judged", found.untold

@@ -10,13 +10,17 @@ seed whose run had the largest damage.  A result of `run` is judged as if it wen
     contact pressure      largest pressure over bearing.p_limit
 """
 
+from __future__ import annotations
+
 import hashlib
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..base.units import figure
 from ..base.version import __version__
 from ..bearing.assumed import assumed_rows, measured_in
 from ..running.fmu import Model
@@ -26,11 +30,15 @@ from ..running.summary import settled, table_note
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, plt
-from ..show.report import curve, figure
+from ..show.report import curve
 from .evidence import of_result
 from .page import mission_text, part_rows, share_text
 from .raceways import of_result as raceways_of
 from .verdict import CHARACTERS, LINES, checks, clipped, judged, limits_crossed
+
+if TYPE_CHECKING:
+    from ..running.results import Result
+    from .assess import Life
 
 MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 8, 3, 5, 4, 2
 
@@ -193,7 +201,9 @@ def part_lines(life):
     return lines
 
 
-def mission_sheet(life, evidence, target=None, decides=None, files=(), remarks=()):
+def mission_sheet(
+    life: Life, evidence: Any, target: Any = None, decides: Any = None, files: Any = (), remarks: Any = ()
+) -> Any:
     """The Sheet of a mission; remarks: sentences beside the mission's own warnings."""
     mission = life.mission
     hours, passes = mission_text(life)
@@ -210,7 +220,7 @@ def mission_sheet(life, evidence, target=None, decides=None, files=(), remarks=(
     )
 
 
-def write_sheet(sheet, path):
+def write_sheet(sheet: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns its path."""
     return save_page(
         path,
@@ -224,7 +234,9 @@ def write_sheet(sheet, path):
     )
 
 
-def result_sheet(result, path, fmu=None, target=None, decides=None, cleanliness=None):
+def result_sheet(
+    result: Result, path: str | Path, fmu: Any = None, target: Any = None, decides: Any = None, cleanliness: Any = None
+) -> Any:
     """The Sheet of a file of results; fmu: path of the FMU for its digest and ratings, None if it is not there."""
     about = result.about
     basis = dict(about.get("basis", {}))

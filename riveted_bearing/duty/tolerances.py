@@ -11,9 +11,13 @@ cage.guide_clearance = { distribution = "triangular", low = "0.15 mm", mode = "0
 joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68 % within median/factor ... median factor
 """
 
+from __future__ import annotations
+
 import json
 import math
 from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +28,11 @@ from ..base.units import to_si
 from .assess import Runs, places
 from .blends import Case, loosened
 from .weibull import Weibull, fit_weibull
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
+    from .assess import Life
+    from .mission import Mission
 
 DISTRIBUTIONS = {
     "normal": ("mean", "sd"),
@@ -58,7 +67,7 @@ class Scatter:
     law: Weibull
 
 
-def read_tolerances(mission, model):
+def read_tolerances(mission: Mission, model: Model) -> Any:
     """The Tolerances of a mission, None if it has none; raises UserError naming parameter and distribution."""
     path, section = mission.path, mission.file.tolerance
     if section is None:
@@ -124,7 +133,15 @@ def drawn(tolerances, seed):
     return {name: law.rvs(tolerances.bearings, random_state=rng) for name, law in tolerances.distributions.items()}
 
 
-def scatter(life, tolerances, model, folder, client, progress=None, runs_of=None):
+def scatter(
+    life: Life,
+    tolerances: Any,
+    model: Model,
+    folder: Path,
+    client: Any,
+    progress: Any = None,
+    runs_of: Any = None,
+) -> Any:
     """The Scatter of life over bearings drawn from the tolerances, for the mission of a Life.
 
     Points and events that have the share asked for are simulated for each bearing with common seeds, at the preload of
@@ -210,7 +227,7 @@ def changed(mission, model, i, values):
     return loosened(scene, part.factor, model)
 
 
-def write_scatter(found, path):
+def write_scatter(found: Any, path: Path) -> Path:
     """Write bearings.json: the Weibull law, the seeds' share of the scatter, lives and what was drawn; returns the
     path.
     """

@@ -4,6 +4,8 @@ R(t) = exp(-(t/eta)^beta)        B10: life that 10 % do not reach, eta (-ln 0.9)
 """
 
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -75,7 +77,7 @@ def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
     )
 
 
-def write_weibull_plot(law, title, path):
+def write_weibull_plot(law: Any, title: str, path: Path) -> Path:
     """Weibull paper: lives at their median ranks, the law as a straight line, B10 with its interval; returns the path."""
     with plt.rc_context(STYLE):
         figure, ax = plt.subplots(figsize=(6.4, 4.8), layout="constrained")

@@ -1,6 +1,10 @@
 """What an identification leaves: identify.json, the scene file identified.toml, and the page identify.html."""
 
+from __future__ import annotations
+
 import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -13,10 +17,13 @@ from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
 
+if TYPE_CHECKING:
+    from ..running.scene import Scene
+
 VERDICTS = {"both": "decided", "below": "bounded from below", "above": "bounded from above", "no": "not decided"}
 
 
-def parameter_rows(found):
+def parameter_rows(found: Any) -> Any:
     """(parameter, value, interval, range, verdict) as texts."""
     rows = []
     for parameter in found.study.parameters:
@@ -66,7 +73,7 @@ def unit_of(target):
     )
 
 
-def error_rows(found):
+def error_rows(found: Any) -> Any:
     """(targets, number, after, before the fit): RMS deviations in uncertainties with their scatter by the seeds."""
     rows = []
     for label, key in (("fitted", "fit"), ("held out", "held_out")):
@@ -79,7 +86,7 @@ def error_rows(found):
     return rows
 
 
-def write_answer(found, basis, path):
+def write_answer(found: Any, basis: Any, path: Path) -> Path:
     """Write the answer as JSON, whole or not at all; returns the path."""
     study = found.study
     document = {
@@ -119,7 +126,7 @@ def write_answer(found, basis, path):
     return path
 
 
-def write_scene(found, scene, path):
+def write_scene(found: Any, scene: Scene, path: Path) -> Path:
     """Write the scene with the values found as a scene file in SI units, intervals as comments; returns the path."""
     simulation = {"t_end": scene.t_end, "step": scene.step}
     for key in ("output_interval", "tolerance"):
@@ -153,7 +160,7 @@ def plain(history):
     return {"t": history.t.tolist(), "value": history.value.tolist()} | kind
 
 
-def write_page(found, basis, path):
+def write_page(found: Any, basis: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns the path."""
     study = found.study
     pictures = [

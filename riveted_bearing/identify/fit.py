@@ -12,6 +12,7 @@ quantile grows by the ratio (Birge 1932).  The answer's errors come from runs wi
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -154,7 +155,7 @@ class Objective:
         return np.linalg.inv(J.T @ (J / (self.variance + variance[0])[:, None]) + np.diag(prior))
 
 
-def identify(study, evaluate, start):
+def identify(study: Any, evaluate: Any, start: Any) -> Any:
     """found_by on one thread: on small matrices the threads of the linear algebra wait longer than they compute."""
     with threadpool_limits(1):
         return found_by(study, evaluate, start)

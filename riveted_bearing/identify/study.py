@@ -3,9 +3,11 @@
 A weight is 1/uncertainty^2.  Without an uncertainty a target has no weight and is refused.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
@@ -19,6 +21,9 @@ from ..design.sensitivity import even
 from ..running.scene import load_scene
 from ..studies.sweep_file import Settings, beside, bounds, known_names
 from .targets import Reader, SeriesBlock, TargetBlock, quantity, spread
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
 
 PARAMETER = ("low", "high", "scale", "mean", "sd")
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
@@ -154,7 +159,7 @@ class Study:
         return np.array([not target.held_out for target in self.targets])
 
 
-def plan_identify(path, document, model):
+def plan_identify(path: str | Path, document: dict[str, Any], model: Model) -> Any:
     """The Study of a document; raises UserError naming what cannot be used."""
     path = Path(path)
     check_keys(path, document, IdentifyFile.model_fields, "identification")
@@ -167,8 +172,8 @@ def plan_identify(path, document, model):
     reader = Reader(path, model, points, scenes, file.held_out)
     for i, block in enumerate(file.target, 1):
         reader.target(f"target {i}", block)
-    for i, block in enumerate(file.series, 1):
-        reader.series(f"series {i}", block)
+    for i, series in enumerate(file.series, 1):
+        reader.series(f"series {i}", series)
     if not reader.targets:
         raise UserError(
             f"{path}: no target: [[target]] with value and uncertainty, or [[series]] with a file, is needed"

@@ -2,7 +2,10 @@
 pages and files.
 """
 
+from __future__ import annotations
+
 import itertools
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,6 +13,9 @@ from ..base.errors import UserError, shortlist
 from ..bearing import oil as oils
 from . import preload as preloads
 from .scene import in_words
+
+if TYPE_CHECKING:
+    from .fmu import Model
 
 LOADS = (
     *(f"shaft.{name}" for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "tilt_y", "tilt_z")),
@@ -19,7 +25,7 @@ SPEEDS = ("shaft.omega", "housing.omega", "frame.omega")
 PARTS = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", "cage": "cage.T"}
 
 
-def basis(model, scenes, curve=""):
+def basis(model: Model, scenes: Any, curve: str = "") -> Any:
     """Name and text of each line for runs of a Model: values that differ between the scenes, or in time, as their
     range; curve: the S-N curve in words.
     """
@@ -68,7 +74,7 @@ def text(model, scenes, name):
     return in_words(model, name, values(model, scenes, name), symbols.pop() if len(symbols) == 1 else None)
 
 
-def loads(model, scenes):
+def loads(model: Model, scenes: Any) -> Any:
     """Loads, tilts and impacts that are not zero; none where all scenes prescribe the motion of the inner ring."""
     if set(values(model, scenes, "ring.motion")) == {"prescribed"}:
         return "none: the motion of the inner ring is prescribed"
@@ -76,7 +82,7 @@ def loads(model, scenes):
     return ", ".join(f"{name.removeprefix('shaft.')} {text(model, scenes, name)}" for name in acting) or "none"
 
 
-def speeds(model, scenes):
+def speeds(model: Model, scenes: Any) -> Any:
     """Speed of the inner ring, and those of the outer ring and the frame unless they are zero."""
     first, *others = SPEEDS
     return ", ".join(

@@ -4,7 +4,10 @@ Runs are the same to the last bit where nothing acts.  So a value acts if the FM
 most values do in the first steps, others once damage and statistics count, and the rest is tried over the whole run.
 """
 
+from __future__ import annotations
+
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,13 +15,18 @@ from ..base.errors import UserError
 from .runner import simulate
 from .scene import ALWAYS
 
+if TYPE_CHECKING:
+    from .fmu import Model
+    from .results import Result
+    from .scene import Scene
+
 FIRST = 5  # communication steps
 COUNTED = 0.01  # s after start.settle
 LONGEST = 30.0  # s of computing that whole runs may take
 TIMES = ("solver.", "simulated_time", "cpu_time", "wall_time", "real_time_factor")  # of a summary: how, not what
 
 
-def all_figures(result):
+def all_figures(result: Result) -> Any:
     """What a Result tells of the bearing: {name: array or number}."""
     told = {name: value for name, value in result.summary.items() if not name.startswith(TIMES)}
     return result.data | told | {"stopped": bool(result.stopped)}
@@ -34,7 +42,15 @@ def without(scene, name):
     )
 
 
-def without_effect(model, scene, names, figures=all_figures, prepared=lambda scene: scene, whole=None, cost=0.0):
+def without_effect(
+    model: Model,
+    scene: Scene,
+    names: Any,
+    figures: Any = all_figures,
+    prepared: Any = lambda scene: scene,
+    whole: Any = None,
+    cost: float = 0.0,
+) -> Any:
     """Those of the names of a scene's values without effect, and the time [s] up to which that was seen, inf for the whole run.
 
     figures(result): what counts of a run, {name: array}; prepared(scene): what the command runs of it; whole: figures of the whole
@@ -55,7 +71,7 @@ def without_effect(model, scene, names, figures=all_figures, prepared=lambda sce
     return list(names), np.inf
 
 
-def acts(name, scene, figures, reference):
+def acts(name: str, scene: Scene, figures: Any, reference: Any) -> bool:
     """Whether the figures of a scene, {name: array}, change without one of its values; what is refused changes them, the
     record of the value itself does not.
     """
@@ -68,7 +84,7 @@ def acts(name, scene, figures, reference):
     )
 
 
-def in_words(names, until=np.inf):
+def in_words(names: Any, until: Any = np.inf) -> str:
     """A line on settings without effect."""
     seen = "here" if np.isinf(until) else f"in the first {until:g} s"
     return f"without effect {seen}: {', '.join(names)}"

@@ -1,11 +1,17 @@
 """Parameters that changed and rivets that broke while the bearing ran, in words."""
 
+from __future__ import annotations
+
 import re
+from typing import TYPE_CHECKING, Any
 
 from bearing_model.generated import variables
 
 from ..base.units import scales_of, suffix
 from .summary import breaks, rivets_of
+
+if TYPE_CHECKING:
+    from .results import Result
 
 ALONE = (
     "all rivets are gone: the halves come apart, held by pockets and lands alone, and there is no stress of rivets; "
@@ -13,13 +19,13 @@ ALONE = (
 )
 
 
-def variable_of(name):
+def variable_of(name: str) -> Any:
     """The parameter of this name in the table, where those of an array have one entry; None for an unknown one."""
     names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
     return next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
 
 
-def unit_of(result, name, variable):
+def unit_of(result: Result, name: str, variable: Any) -> Any:
     """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset
     from SI.
     """
@@ -38,13 +44,13 @@ def value_of(result, name, value):
     return f"{factor * value + offset:.6g}", unit
 
 
-def changes(result):
+def changes(result: Result) -> Any:
     """Parameters that the scene changed before the run ended, in the order of time: (time [s], {name: value})."""
     found = ((float(at.removesuffix(" s")), values) for at, values in result.about.get("changes", {}).items())
     return [(at, values) for at, values in found if at < result.data["time"][-1]]
 
 
-def change_lines(result):
+def change_lines(result: Result) -> Any:
     """One line for each time: "at 80 ms: joint.preload 20 N, joint.mu 0.3"."""
     return [
         f"at {1e3 * at:.6g} ms: {', '.join(' '.join((name, *filter(None, value_of(result, name, value)))) for name, value in values.items())}"
@@ -52,7 +58,7 @@ def change_lines(result):
     ]
 
 
-def later_values(result, name):
+def later_values(result: Result, name: str) -> str:
     """Values that a parameter took in the run: "; 20 from 80 ms", "" for one that did not change."""
     return "".join(
         f"; {value_of(result, name, values[name])[0]} from {1e3 * at:.6g} ms"
@@ -66,7 +72,7 @@ def last_value(result, name):
     return next((values[name] for _, values in changes(result)[::-1] if name in values), result.parameters.get(name))
 
 
-def break_lines(result):
+def break_lines(result: Result) -> Any:
     """The rivets that broke by their damage; with scene.breakage = on and none broken the one that was nearest to it."""
     broken = [f"rivet {k} broke in the {place} at {1e3 * t:.4g} ms" for k, place, t in breaks(result)]
     if broken or not breakage_is_on(result) or not any_rivet_stands(result):
@@ -96,7 +102,7 @@ def largest_damage(result):
     return max(found, default=(0.0, 0, ""), key=lambda each: each[0])
 
 
-def alone_note(result):
+def alone_note(result: Result) -> str:
     """A warning where rivet[k].intact = 0 has taken out every rivet and the run goes on, else ""."""
     gone = rivets_of(result) and not any_rivet_stands(result) and not breakage_is_on(result)
     return ALONE if gone else ""

@@ -4,13 +4,19 @@ k = k_stack (alpha_flange - alpha_rivet) grip (bearing_model/rivet/rivet_rom.py)
 is the temperature at which the rivets are set.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
 from ..base.errors import UserError
 from .fmu import Instance
 from .inputs import History
 from .scene import Scene
+
+if TYPE_CHECKING:
+    from .fmu import Model
 
 PRELOAD, TEMPERATURE, OUTPUT = "joint.preload", "cage.T", "rivet[1].P"
 TRIALS = (293.15, 303.15)  # temperatures at which an FMU tells its preload [K]
@@ -38,7 +44,7 @@ class Thermal:
         return max(0.0, preload + self.rate * (T - self.T_0))
 
 
-def of_fmu(model):
+def of_fmu(model: Model) -> Any:
     """The Thermal of an FMU; None if it is not known."""
     if model not in KNOWN:
         KNOWN[model] = measured(model)
@@ -60,7 +66,7 @@ def measured(model):
     return Thermal(rate, TRIALS[0] - (found[0] - LARGE) / rate if rate else TRIALS[0])
 
 
-def of_geometry(geometry):
+def of_geometry(geometry: Any) -> Any:
     """The Thermal of a rivet in its cage by rule from the shipped table's, without finite elements."""
     from bearing_model.physics.derived import default_table  # SciPy: not for a run
     from rivet_model.closed_form import stack_stiffness

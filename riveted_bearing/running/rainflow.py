@@ -2,7 +2,10 @@
 of bearing_model.instance.fatigue.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import rainflow
@@ -11,6 +14,9 @@ from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle, fatigue_law_in_hole, strengthened
 
 from .summary import settled
+
+if TYPE_CHECKING:
+    from .results import Result
 
 CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
 
@@ -26,13 +32,13 @@ class RivetLife:
     life: float
 
 
-def fatigue_law(parameters):
+def fatigue_law(parameters: dict[str, Any]) -> Any:
     """FatigueLaw of a result's parameters."""
     values = {name.removeprefix("fatigue."): value for name, value in parameters.items() if name.startswith("fatigue.")}
     return FatigueLaw(**values | {"mean_stress": int(MeanStress[values["mean_stress"].upper()])})
 
 
-def cycle_damages(law, span, mean):
+def cycle_damages(law: Any, span: Any, mean: Any) -> Any:
     """fatigue_cycle() of many cycles: arrays of ranges and means [Pa]."""
     half, mean = 0.5 * np.asarray(span, float), np.asarray(mean, float)
     with np.errstate(over="ignore"):
@@ -48,7 +54,7 @@ def cycle_damages(law, span, mean):
         return np.minimum((amplitude / law.sigma_D) ** slope / law.N_D, 1.0)
 
 
-def fatigue_law_at(parameters, k, place):
+def fatigue_law_at(parameters: dict[str, Any], k: Any, place: str) -> Any:
     """FatigueLaw of a result's rivet k at "head" or "mid": strength_factor scales its strengths, fretting weakens a shank
     on which its hole presses.
     """
@@ -59,7 +65,7 @@ def fatigue_law_at(parameters, k, place):
     return fatigue_law_in_hole(law, sum(fits))  # of the sign of the effective fit
 
 
-def stress_history(result, k, place):
+def stress_history(result: Result, k: Any, place: str) -> Any:
     """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None
     if not recorded.
 
@@ -73,13 +79,13 @@ def stress_history(result, k, place):
     return np.column_stack([peaks[late], ends[late]]).ravel()
 
 
-def cycles_of(history):
+def cycles_of(history: Any) -> Any:
     """Rainflow cycles of a series: rows of range, mean and count."""
     cycles = [(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(history)]
     return np.array(cycles, float).reshape(-1, 3)
 
 
-def rivet_life(result, k, place):
+def rivet_life(result: Result, k: Any, place: str) -> Any:
     """RivetLife of rivet k at "head" or "mid", None if its stress was not recorded."""
     history = stress_history(result, k, place)
     if history is None:

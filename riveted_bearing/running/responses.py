@@ -1,6 +1,8 @@
 """Responses of runs by name, and the units in which people read them."""
 
 import re
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +25,7 @@ DAMAGE_UNIT = "log10 per hour"
 NO_DAMAGE = 1e-300
 
 
-def response(path, rows, name):
+def response(path: Path, rows: Any, name: str) -> Any:
     """A response of all rows."""
     if name == "damage":
         damage = np.column_stack(
@@ -44,7 +46,7 @@ def response(path, rows, name):
     return np.asarray(rows[column], float)
 
 
-def display_of(name):
+def display_of(name: str) -> Any:
     """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the
     SI value.
     """
@@ -65,19 +67,19 @@ def display_of(name):
     return "" if symbol == "1" else symbol, *variables.UNITS[variable.unit][symbol]
 
 
-def titled(name):
+def titled(name: str) -> str:
     """A name with the unit in which its values are shown."""
     unit = display_of(name)[0]
     return f"{name} [{unit}]" if unit else name
 
 
-def displayed(name, values):
+def displayed(name: str, values: Any) -> Any:
     """SI values in the unit in which people read them."""
     _, factor, offset = display_of(name)
     return factor * np.asarray(values, float) + offset
 
 
-def shown(name, value):
+def shown(name: str, value: Any) -> str:
     """An SI value as text with its unit."""
     unit = display_of(name)[0]
     return f"{displayed(name, value):.4g}{unit and f' {unit}'}"

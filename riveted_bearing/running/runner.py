@@ -1,9 +1,12 @@
 """Run a scene through the FMU, step by step, and keep its outputs."""
 
+from __future__ import annotations
+
 import itertools
 import platform
 import time
 from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from fmpy import __version__ as fmpy_version
@@ -20,10 +23,14 @@ from .record import Record
 from .results import Result
 from .scene import own_names
 
+if TYPE_CHECKING:
+    from .fmu import Model
+    from .scene import Scene
+
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
-def simulate(model, scene, progress=None):
+def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
     """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run
     after the step under way.
     """
@@ -103,7 +110,7 @@ def march(instance, scene, progress, interrupts):
     return row_times[: row + 1], record.columns(), stopped
 
 
-def is_peak(name):
+def is_peak(name: str) -> bool:
     """Whether a channel is the largest value since the last communication point."""
     return name.endswith("_peak") or name in ("rivet.sigma_head_max", "rivet.sigma_mid_max")
 
@@ -116,7 +123,7 @@ def closing_values(instance, model):
         return {}
 
 
-def closing_names(model):
+def closing_names(model: Model) -> list[str]:
     """Variables that say how it went over the whole run: statistics, damage, broken rivets, solver counters, processor
     time, and what the rivets' stress rests on.
     """
@@ -143,7 +150,7 @@ def vibrations(model, parameters):
     return {"mode_frequencies": [frequency / denser**0.5 for frequency in modes["frequency"]]}
 
 
-def turns(model, scene, end):
+def turns(model: Model, scene: Scene, end: Any) -> Any:
     """Revolutions of the shaft against the housing before statistics begin, and from there to the end of the run [s]."""
     settle = min(scene.parameters.get("start.settle", model.default(model.parameters["start.settle"])), end)
     return {

@@ -3,8 +3,11 @@
 Inputs are evaluated at the communication points and held over each step.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +23,9 @@ from ..bearing import seats
 from ..bearing.oil import OF_PROPERTY, PARTS_TEMPERATURES, check_given, merged, named
 from .inputs import input_history, unit_of
 from .scene_file import SceneFile, Simulation
+
+if TYPE_CHECKING:
+    from .fmu import Model
 
 SIMULATION = (*Simulation.model_fields,)
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
@@ -58,7 +64,7 @@ class Scene:
         return np.minimum(np.arange(count + 1) * self.step, self.t_end)
 
 
-def load_scene(source, model, *changes):
+def load_scene(source: Any, model: Model, *changes: Any) -> Scene:
     """Read a scene and apply changes to it.
 
     source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs, over at least
@@ -105,7 +111,7 @@ def working_point(model):
     return f"own working point of {model.path.name}, {', '.join(shown)}"
 
 
-def own_names(scene, model):
+def own_names(scene: Scene, model: Model) -> Any:
     """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene; what follows from
     the kind or the temperature of its oil is not among them.
     """
@@ -118,7 +124,7 @@ def own_names(scene, model):
     ]
 
 
-def in_words(model, name, value=None, symbol=None):
+def in_words(model: Model, name: str, value: Any = None, symbol: Any = None) -> str:
     """A start value of the FMU, or values of a scene, in the unit `symbol`, None for the one in which people read it."""
     variable = (model.parameters | model.inputs)[name]
     value = model.default(variable) if value is None else value

@@ -1,6 +1,9 @@
 """Cases of scenes and FMUs at their start, and whatever `info` may be asked for."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ..base.errors import UserError, is_file
 from ..base.file_kinds import OF_BEARINGS
@@ -14,15 +17,19 @@ from ..bearing.origin import EXAMPLE
 from ..bearing.rules import SHAPE
 from .scene import load_scene
 
+if TYPE_CHECKING:
+    from .fmu import Model
+    from .scene import Scene
 
-def is_bearing(source):
+
+def is_bearing(source: Any) -> bool:
     """Whether a name or file means a bearing, not a scene."""
     if str(source) in known_bearings() or str(source) in shipped_scenes():
         return str(source) in known_bearings()
     return is_file(source) and not read_toml(Path(source)).keys().isdisjoint(OF_BEARINGS)
 
 
-def case_of(target=None, fmu=None, cage=None):
+def case_of(target: Any = None, fmu: Any = None, cage: Any = None) -> Case:
     """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the
     FMU itself, and without both EXAMPLE.
 
@@ -41,7 +48,7 @@ def case_of(target=None, fmu=None, cage=None):
     return scene_case(target, Model(fmu))
 
 
-def scene_case(source, model):
+def scene_case(source: Any, model: Model) -> Case:
     """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set;
     None: of the FMU itself.
 
@@ -50,7 +57,7 @@ def scene_case(source, model):
     return case_at(load_scene(source, model), model)
 
 
-def case_at(scene, model):
+def case_at(scene: Scene, model: Model) -> Case:
     """The Case of a Scene at its start."""
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
@@ -66,5 +73,10 @@ def case_at(scene, model):
     alone = tuple(name for name in SHAPE if name in scene.parameters)
     name = f"{designation}, scene {scene.name}" if scene.source else designation
     origin = {} if scene.source else model.origin
-    about = {"origin": origin, "alone": alone, "model": model, "oil": scene.oil or oil.name_of(model.origin)}
+    about: dict[str, Any] = {
+        "origin": origin,
+        "alone": alone,
+        "model": model,
+        "oil": scene.oil or oil.name_of(model.origin),
+    }
     return Case(name, scene.description, Z, values, data, rivet=None, **about)

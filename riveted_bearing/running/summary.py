@@ -1,11 +1,18 @@
 """The main figures of a run, as rows of mean, RMS, p99.9 and largest value."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..bearing.plausible import fast
 from ..bearing.ribbon import is_guided_by_balls
+
+if TYPE_CHECKING:
+    from .results import Result
 
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi
@@ -30,7 +37,7 @@ class Row:
     every_step: bool
 
 
-def summary_rows(result):
+def summary_rows(result: Result) -> Any:
     """Rows for every channel that the result has; values before start.settle [s] do not count, and without later ones
     there are no rows.
     """
@@ -65,12 +72,12 @@ def channels(result):
     ]
 
 
-def has_statistics(result):
+def has_statistics(result: Result) -> bool:
     """Whether the run went on after start.settle, where statistics begin."""
     return float(result.data["time"][-1]) > result.parameters.get("start.settle", 0.0)
 
 
-def no_statistics(result):
+def no_statistics(result: Result) -> str:
     """Why there are no statistics and how to get them: a sentence; "" if there are some."""
     if has_statistics(result):
         return ""
@@ -80,12 +87,12 @@ def no_statistics(result):
     return f"no statistics yet: they begin at start.settle = {settle}, and the run ended at {end}; let it run longer (t_end), or set start.settle lower"
 
 
-def fewer(turns, wanted):
+def fewer(turns: Any, wanted: Any) -> bool:
     """Whether a number of revolutions, as it is printed, is below another one; a shaft at rest apart."""
     return 0.0 < float(f"{turns:.2g}") < wanted
 
 
-def settle_note(result):
+def settle_note(result: Result) -> str:
     """A warning where the statistics begin before the bearing has settled, for slow shafts; else ""."""
     turns, settle = result.about.get("settle_turns", 0.0), result.parameters.get("start.settle", 0.0)
     if not fewer(turns, SETTLED) or not has_statistics(result):
@@ -97,7 +104,7 @@ def settle_note(result):
     )
 
 
-def count_note(result):
+def count_note(result: Result) -> str:
     """A warning where statistics rest on few revolutions of the shaft; else ""."""
     turns = result.about.get("count_turns", 0.0)
     if not fewer(turns, COUNTED) or not has_statistics(result):
@@ -108,14 +115,14 @@ def count_note(result):
     )
 
 
-def speed_note(result):
+def speed_note(result: Result) -> str:
     """A warning where the shaft turns faster in the mean than few ball bearings do; else ""."""
     seconds, d_m = result.summary.get("simulated_time", 0.0), result.parameters.get("bearing.d_m", 0.0)
     turns = result.about.get("settle_turns", 0.0) + result.about.get("count_turns", 0.0)
     return "".join(fast(2.0 * np.pi * turns / seconds, d_m)) if seconds else ""
 
 
-def early_rows(result):
+def early_rows(result: Result) -> Iterator[Any]:
     """For a run without statistics: (channel, unit, value at the end, largest since the start) of what it has."""
     peaks = [
         ("pocket force, largest in the step", "N", 1.0, ["cage.F_pocket_peak"], None),
@@ -143,7 +150,7 @@ TABLE_NOTES = {  # by rivet.table_kind: what the stress rests on, as far as the 
 }
 
 
-def table_note(result):
+def table_note(result: Result) -> str:
     """What limits the rivets' stress beside the model: "" for a full table by finite elements, or if it is not known."""
     if (kind := result.summary.get("rivet.table_kind", 0)) not in TABLE_NOTES:
         return ""
@@ -152,7 +159,7 @@ def table_note(result):
     return f"the rivets' stress rests on {written if written.startswith(known.partition(',')[0]) else known}{remedy}"
 
 
-def flag_note(result):
+def flag_note(result: Result) -> str:
     """Which parts yield, and where the stress table ends, at a communication point of the run; "" for none."""
     flags = columns(result, "rivet[", "].flag")
     seen = int(np.bitwise_or.reduce(np.concatenate([result.data[name] for name in flags]).astype(int))) if flags else 0
@@ -160,7 +167,7 @@ def flag_note(result):
     return f"flags of the rivets (rivet[k].flag): {', '.join(found)}" if found else ""
 
 
-def clearance_of_cage(parameters):
+def clearance_of_cage(parameters: dict[str, Any]) -> str:
     """The clearance that lets the cage move, and over which its eccentricity stands: "guide" or "pocket"."""
     return "pocket" if is_guided_by_balls(parameters) else "guide"
 
@@ -171,12 +178,12 @@ def eccentricity_title(parameters):
     return f"{title} / pocket clearance" if is_guided_by_balls(parameters) else title
 
 
-def life_is_known(result):
+def life_is_known(result: Result) -> bool:
     """Whether the stress is good enough to speak of a life: not from closed forms."""
     return result.summary.get("rivet.table_kind", 0) != 3
 
 
-def static_and_swing(values, place):
+def static_and_swing(values: Any, place: str) -> Any:
     """Stress of the rivets' heads ("head") or middles ("mid") in two parts: the largest mean of a rivet, and the largest
     distance of a 99.9 % quantile from its own mean; values: stat.* by name.  Fatigue follows the second one.
     """
@@ -185,7 +192,7 @@ def static_and_swing(values, place):
     return mean.max(axis=0), (p999 - mean).max(axis=0)
 
 
-def rivet_rows(result):
+def rivet_rows(result: Result) -> Any:
     """Head and middle stress [MPa] of each rivet over every internal step, as (k, Row of the head, Row of the middle)."""
     count = sum(name.startswith("stat.rivet_head_mean[") for name in result.summary)
     pairs = [
@@ -236,7 +243,7 @@ def combined(result, names, combine):
     return combine(values) if combine else values[:, 0]
 
 
-def settled(result):
+def settled(result: Result) -> np.ndarray:
     """Mask of the rows from start.settle on; of all rows if the run ends by then."""
     late = result.data["time"] >= result.parameters.get("start.settle", 0.0)
     return late if has_statistics(result) else np.ones_like(late)
@@ -245,14 +252,14 @@ def settled(result):
 PLACES = {1: "head", 2: "middle", 3: "by rivet[k].intact = 0"}
 
 
-def breaks(result):
+def breaks(result: Result) -> Any:
     """Rivets that broke by their damage, in the order of time: (number, place, time [s])."""
     times = {k: t for k in rivets_of(result) if (t := result.summary.get(f"rivet[{k}].break_time", -1.0)) >= 0.0}
     places = {k: PLACES.get(int(result.summary.get(f"rivet[{k}].broken", 1.0)), "") for k in times}
     return sorted(((k, places[k], float(t)) for k, t in times.items()), key=lambda each: each[2])
 
 
-def gone_from(result):
+def gone_from(result: Result) -> Any:
     """Time [s] from which on each broken rivet is gone: 0 of one that never was there."""
     begun = {k: 0.0 for k in rivets_of(result) if result.parameters.get(f"rivet[{k}].intact", 1) == 0}
     return begun | {k: t for k, _, t in breaks(result)}
@@ -263,13 +270,13 @@ def rivets_of(result):
     return [k for k in range(1, 33) if f"rivet[{k}].intact" in result.parameters]
 
 
-def accelerated(result):
+def accelerated(result: Result) -> str:
     """Words on damage that was not counted as it is, "" where it was."""
     factor = result.parameters.get("fatigue.acceleration", 1.0)
     return "" if factor == 1.0 else f"damage accelerated {factor:g} times (fatigue.acceleration)"
 
 
-def columns(result, head, tail):
+def columns(result: Result, head: Any, tail: Any) -> Any:
     """Recorded channels of one quantity of all balls or rivets."""
     return [name for name in result.data if name.startswith(head) and name.endswith(tail)]
 

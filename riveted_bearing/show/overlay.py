@@ -9,6 +9,7 @@ and a measurement has no common start with a run: no point of one is compared wi
 
 import re
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.signal import welch
@@ -44,7 +45,7 @@ class Series:
     gap: str = ""
 
 
-def assigned(options):
+def assigned(options: Any) -> Any:
     """{channel: column} of texts CHANNEL=COLUMN."""
     found = {}
     for text in options:

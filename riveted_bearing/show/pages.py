@@ -1,6 +1,7 @@
 """HTML pages: templates of data/report, which share a frame (frame.html) and parts (parts.html)."""
 
 from pathlib import Path
+from typing import Any
 
 import jinja2
 
@@ -29,7 +30,7 @@ def page_text(template, style="style.css", **values):
     )
 
 
-def save_page(path, template, **values):
+def save_page(path: str | Path, template: Any, **values: Any) -> Path:
     """Write a page (page_text), whole or not at all; returns its path."""
     text = page_text(template, **values)
     write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))

@@ -1,6 +1,10 @@
 """One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit, and the rivets side by side."""
 
+from __future__ import annotations
+
 import textwrap
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import matplotlib
 
@@ -13,6 +17,9 @@ from matplotlib.patches import Circle
 from ..base.files import write_atomically
 from ..running.in_run import changes
 from ..running.summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
+
+if TYPE_CHECKING:
+    from ..running.results import Result
 
 HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
 NOTHING = 1e-3  # um; an orbit below a nanometre is a point
@@ -36,7 +43,7 @@ STYLE = {
 }
 
 
-def plot_result(result, path):
+def plot_result(result: Result, path: Path) -> Path:
     """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded are left out."""
     panels = [(draw, data) for draw, data in ((draw, wanted(result, names)) for draw, names in OVER_TIME) if data]
     with plt.rc_context(STYLE):
@@ -246,7 +253,7 @@ def rivet_bars(ax, result):
 OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), ("rivet[k].V", "Loads of the joints"))
 
 
-def plot_comparison(found, path, dpi=110):
+def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
     """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by
     tolerance, statistics in standard deviations.
     """

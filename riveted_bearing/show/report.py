@@ -1,8 +1,12 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
+from __future__ import annotations
+
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -10,7 +14,7 @@ from bearing_model.generated import variables
 
 from ..base.errors import UserError
 from ..base.files import FORMATS, write_atomically
-from ..base.units import hours_text
+from ..base.units import duration, figure
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
@@ -41,6 +45,9 @@ from .animation import frames, number_of_balls
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
 
+if TYPE_CHECKING:
+    from ..running.results import Result
+
 FIRST = 3  # rows without statistics that stand on the cards
 PLACE_NAMES = {"head": "head", "mid": "middle"}
 OF_LAND = ("cage.guide_clearance", "cage.land_x", "cage.land_width", "cage.mu_land")  # no effect without a land
@@ -66,7 +73,9 @@ def report_files(source):
     return found
 
 
-def report_pages(source, out=None, decides=None, overlay=None, columns=None):
+def report_pages(
+    source: Any, out: Any = None, decides: Any = None, overlay: Any = None, columns: Any = None
+) -> Iterator[Any]:
     """Write a page for each result of a path and yield the pages' paths one by one.
 
     out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show;
@@ -149,7 +158,7 @@ def render(result, decides=None, measured=()):
     )
 
 
-def curve(result):
+def curve(result: Result) -> str:
     """The S-N curve in words, with what of it is assumed."""
     strength = Strength(fatigue_law(result.parameters))
     return in_words(strength) + assumed(strength, result.about.get("given", ()))
@@ -433,15 +442,3 @@ def solver_rows(result):
         yield "onsets of events", ", ".join(seen) or "none"
     if columns(result, "rivet[", "].flag"):
         yield "flags of the rivets", flag_note(result).partition(": ")[2] or "none"
-
-
-def figure(value):
-    """A number with four digits, thousands apart."""
-    if isinstance(value, int) or (math.isfinite(value) and value == round(value) and 1e4 <= abs(value) < 1e7):
-        return f"{value:,.0f}" if abs(value) >= 1e4 else f"{value:g}"
-    return f"{value:,.0f}" if 1e4 <= abs(value) < 1e7 else f"{value:.4g}"
-
-
-def duration(seconds):
-    """A life in hours, in seconds if it is short."""
-    return f"{figure(seconds)} s" if seconds < 360.0 else hours_text(seconds / 3600.0)

@@ -11,9 +11,12 @@
 Amplitudes are those of sines, with a Hann window.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
@@ -29,6 +32,9 @@ from ..running.inputs import History
 from ..running.scene import ALWAYS, Scene
 from ..running.summary import settled
 from .animation import number_of_balls
+
+if TYPE_CHECKING:
+    from ..running.results import Result
 
 CHANNELS = ("housing.a_y", "housing.F_y", "ring.a_y", "ring.y")  # first of these that moves, unless one is named
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
@@ -84,7 +90,7 @@ class Spectra:
         return "orders" if self.orders else "Hz"
 
 
-def spectra(result, channel=None, band=None):
+def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any:
     """Spectra of a Result.  channel: name, default the first of CHANNELS that moves; band: (low, high) of the envelope in
     Hz, default by spectral kurtosis.  UserError names what the result lacks.
     """
@@ -111,7 +117,7 @@ def spectra(result, channel=None, band=None):
     return Spectra(channel, unit, orders, frequency, amplitude, envelope_frequency, of_envelope, band, kinematic, lines)
 
 
-def idle_settings(result, found):
+def idle_settings(result: Result, found: Any) -> Any:
     """Names of what the run's scene sets without effect on its Spectra, and the time [s] up to which that was seen; none
     where the run cannot be repeated: its FMU is another one by now, or parameters or long inputs changed in it.
     """
@@ -120,7 +126,7 @@ def idle_settings(result, found):
     if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):
         return [], math.inf
     model = Model(path)
-    inputs = {n: History(*map(np.asarray, (of["t"], of["value"])), of["hold"]) for n, of in about["inputs"].items()}
+    inputs = {n: History(np.asarray(of["t"]), np.asarray(of["value"]), of["hold"]) for n, of in about["inputs"].items()}
     own = {n: model.default(v) for n, v in model.parameters.items()}
     parameters = {n: value for n, value in result.parameters.items() if n in own and value != own[n]}
     if set(names) - {*inputs, *parameters}:
@@ -150,7 +156,7 @@ def default_channel(result):
     raise UserError(f"spectrum: none of {', '.join(CHANNELS)} was recorded; name a channel or record one of them")
 
 
-def speed_of(result, name, rows):
+def speed_of(result: Result, name: str, rows: Any) -> Any:
     """A recorded speed [rad/s]; UserError if it was not recorded."""
     if name == "housing.omega" and name not in result.data:
         return np.zeros(np.count_nonzero(rows))
@@ -214,7 +220,7 @@ def envelope_of(x, rate, band):
     return squared - squared.mean()
 
 
-def kinematic_frequencies(result, speeds, orders):
+def kinematic_frequencies(result: Result, speeds: Any, orders: Any) -> Any:
     """Frequencies by name [Hz]; orders of the shaft where its speed changes."""
     Z, parameters = number_of_balls(result), result.parameters
     unit = np.abs(speeds["shaft.omega"]) if orders else 2.0 * math.pi
@@ -280,7 +286,7 @@ def highest(found, count=5):
     return [(float(found.envelope_frequency[k]), float(found.envelope[k])) for k in best]
 
 
-def write_spectra(found, path):
+def write_spectra(found: Any, path: Path) -> Path:
     """CSV: comments with band and kinematic frequencies, then frequency, amplitude and squared envelope."""
 
     def write(temporary):
@@ -319,11 +325,11 @@ def draw(figure, found):
     below.legend(loc="upper right", frameon=False, ncols=4)
 
 
-def squared(unit):
+def squared(unit: str) -> Any:
     return f"{unit}²" if unit.isalpha() else f"({unit})²"
 
 
-def plot_spectra(found, path):
+def plot_spectra(found: Any, path: Path) -> Path:
     """A picture of both spectra."""
     import matplotlib
 

@@ -16,8 +16,12 @@ label.waviness, the largest amplitude), the kinematic frequencies of the compute
 from start.settle on, signal.rate apart.  Rows are written as they arrive; a second call does only runs that are missing.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import Field
@@ -28,6 +32,10 @@ from ..base.toml_files import read_toml, section_of
 from ..running.summary import settled
 from ..show.spectrum import kinematic_frequencies, speed_of
 from .sweep_file import SweepFile, plan_sweep
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
+    from .sweep_file import Sweep
 
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
 RACES = ("outer", "inner")
@@ -47,7 +55,7 @@ class DatasetFile(SweepFile):
     dataset: Channels = Channels()
 
 
-def load_dataset(path, model):
+def load_dataset(path: str | Path, model: Model) -> Sweep:
     """The Sweep of a dataset's TOML file, whose rows have labels and signals; UserError naming file, key and value."""
     from pathlib import Path
 

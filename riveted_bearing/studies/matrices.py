@@ -9,8 +9,12 @@ i w C.  Each shake runs with +A and with -A: half the difference of the two runs
 forces by which passing balls alone change R.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -24,6 +28,11 @@ from ..running.fmu import Instance
 from ..running.inputs import History
 from ..running.scene import own_names
 from ..running.scene_case import case_at
+
+if TYPE_CHECKING:
+    from ..bearing.case import Case
+    from ..running.fmu import Model
+    from ..running.scene import Scene
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
@@ -54,7 +63,7 @@ class Matrices:
     C: np.ndarray | None = None
 
 
-def quasi_static_matrices(case, speeds, loads=(1.0,)):
+def quasi_static_matrices(case: Case, speeds: Any, loads: Any = (1.0,)) -> Any:
     """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is
     no equilibrium.
 
@@ -63,7 +72,15 @@ def quasi_static_matrices(case, speeds, loads=(1.0,)):
     return [Matrices(omega, load, abs(omega), *equilibrium(case, load, omega)) for load in loads for omega in speeds]
 
 
-def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLITUDE, progress=lambda share: None):
+def dynamic_matrices(
+    model: Model,
+    case: Case,
+    scene: Scene,
+    points: Any,
+    frequency: Any = None,
+    amplitude: Any = AMPLITUDE,
+    progress: Any = lambda share: None,
+) -> Any:
     """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the
     FMU refuses.
 
@@ -80,7 +97,7 @@ def dynamic_matrices(model, case, scene, points, frequency=None, amplitude=AMPLI
     return found
 
 
-def scene_at(model, scene, point):
+def scene_at(model: Model, scene: Scene, point: Any) -> Any:
     """The scene at the speed and the load factor of a point."""
     own = {
         name: scene.inputs[name](0.0) if name in scene.inputs else model.default(model.inputs[name])
@@ -94,7 +111,7 @@ def scene_at(model, scene, point):
     )
 
 
-def idle_settings(model, scene, point, speeds_given, static):
+def idle_settings(model: Model, scene: Scene, point: Any, speeds_given: Any, static: Any) -> Any:
     """Names of what a scene sets without effect on the matrices at the highest speed, a Matrices: neither on the stiffness
     of the equilibrium nor, unless static, on the reactions of the ring that is held there.
     """
@@ -192,7 +209,7 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
 # ---------------------------------------------------------------------------------------------------------------- files
 
 
-def write_table(found, path, basis=()):
+def write_table(found: Any, path: Path, basis: Any = ()) -> Path:
     """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry,
     SI; in front, behind "# ", the basis.
     """
@@ -252,7 +269,7 @@ def entry(point, kind):
     return np.zeros((5, 5)) if point.C is None else point.C
 
 
-def write_ross(found, path, node=0, tag="bearing", basis=(), version=3):
+def write_ross(found: Any, path: Path, node: int = 0, tag: str = "bearing", basis: Any = (), version: int = 3) -> Path:
     """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising.
 
     version: of ROSS.  In 2 the one axis is called frequency and is the rotor's speed; it has no tables over both.
@@ -268,7 +285,7 @@ def write_ross(found, path, node=0, tag="bearing", basis=(), version=3):
     return path
 
 
-def plot_matrices(found, path):
+def plot_matrices(found: Any, path: Path) -> Path:
     """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
     factor.
     """

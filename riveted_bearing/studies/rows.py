@@ -7,6 +7,8 @@ import json
 import sqlite3
 from pathlib import Path
 
+import numpy as np
+
 from ..base.errors import UserError
 from ..base.files import KEY, make_folder, one_line, read_table, write_atomically, write_table
 from ..base.interrupts import held_interrupts
@@ -111,7 +113,7 @@ def read_rows(path):
         raise UserError(f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; {AGAIN}") from None
 
 
-def columns_of(folder):
+def columns_of(folder: str | Path) -> dict[str, np.ndarray]:
     """The rows of a sweep's folder by column name, as numpy arrays; raises UserError if there are none."""
     path = Path(folder) / ROWS
     if not path.is_file():

@@ -30,6 +30,8 @@ after start.settle, as `mean(ring.y)`. Rows are written as they arrive, a few in
 file whole or not at all; a second call does only runs that are missing or failed.
 """
 
+from __future__ import annotations
+
 import contextlib
 import hashlib
 import json
@@ -38,6 +40,7 @@ import time
 from concurrent.futures import CancelledError
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -51,6 +54,9 @@ from ..running.runner import closing_names, simulate
 from ..running.summary import has_statistics, settled
 from .rows import Store, columns_of
 from .sweep_file import ROW_VERSION
+
+if TYPE_CHECKING:
+    from .sweep_file import Sweep
 
 KINDS = {
     "mean": np.mean,
@@ -149,7 +155,7 @@ class cluster:
                 self.local.close()
 
 
-def run_sweep(sweep, folder, client, progress=None, keys=None):
+def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, keys: Any = None) -> dict[str, np.ndarray]:
     """Do the runs that a sweep's folder lacks and return the rows that it then has.
 
     folder: of the rows, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with
@@ -241,7 +247,7 @@ def about_run(sweep, key):
     return row
 
 
-def schema_of(sweep):
+def schema_of(sweep: Sweep) -> Any:
     """Columns of the dataset with their units; the design itself in the metadata."""
     import pyarrow as pa
 

@@ -1,12 +1,14 @@
 """Files of sweeps: the axes of a design, read and checked before the first run."""
 
+from __future__ import annotations
+
 import hashlib
 import itertools
 import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from pydantic import Field
@@ -19,6 +21,9 @@ from ..base.toml_files import leaves, read_toml
 from ..base.units import SECONDS, to_si
 from ..running.fmu import Model
 from ..running.scene import SIMULATION, load_scene
+
+if TYPE_CHECKING:
+    from ..running.scene import Scene
 
 RANGE = ("from", "to", "count", "spacing")
 SETTINGS = {
@@ -84,7 +89,7 @@ class Sweep:
     grows: bool = False  # whether further runs may join the design: rows that do not belong to it are kept
 
 
-def load_sweep(path, model):
+def load_sweep(path: str | Path, model: Model) -> Sweep:
     """Read a sweep's TOML file; raises UserError naming file, key, value and what is allowed."""
     path = Path(path)
     if not path.is_file():
@@ -138,7 +143,7 @@ def vary_axis(path, block, model):
     return [dict(zip(values, point, strict=True)) for point in zip(*values.values(), strict=True)]
 
 
-def known_names(model):
+def known_names(model: Model) -> Any:
     """Names of everything that can vary."""
     return ["scene", *(f"simulation.{key}" for key in SIMULATION), *model.parameters, *model.inputs]
 
@@ -156,10 +161,8 @@ def values_of(path, name, value, model):
             value,
             'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed',
         )
-    low, high, count = (
-        *bounds(path, name, (value["from"], value["to"]), model),
-        points_of(path, f"vary.{name}.count", value["count"]),
-    )
+    low, high = bounds(path, name, (value["from"], value["to"]), model)
+    count = points_of(path, f"vary.{name}.count", value["count"])
     spacing = value.get("spacing", "linear")
     if spacing not in ("linear", "log"):
         raise refusal(path, f"vary.{name}.spacing", spacing, "allowed: linear, log")
@@ -168,7 +171,7 @@ def values_of(path, name, value, model):
     return (np.linspace if spacing == "linear" else np.geomspace)(low, high, count).tolist()
 
 
-def bounds(path, name, pair, model):
+def bounds(path: Path, name: str, pair: Any, model: Model) -> tuple[float, ...]:
     """Two SI values of a Real parameter, an input or a setting of [simulation]."""
     variable = (model.parameters | model.inputs).get(name)
     if name in SETTINGS:
@@ -183,7 +186,7 @@ def bounds(path, name, pair, model):
         raise refusal(path, name, list(pair), problem) from None
 
 
-def count_of(path, name, value):
+def count_of(path: Path, name: str, value: Any) -> Any:
     """A whole number of at least 1."""
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
         raise refusal(path, name, value, "a whole number from 1 on is needed")
@@ -234,7 +237,7 @@ def sample_axes(path, sample, model):
     return [[dict(zip(box, point, strict=True)) for point in qmc.scale(points, low, high).tolist()]]
 
 
-def beside(path, source):
+def beside(path: str | Path, source: Any) -> Any:
     """A scene's name or file, looked for beside the sweep's file; None, the FMU's own parameters and inputs, stays
     None.
     """
@@ -250,7 +253,7 @@ def beside(path, source):
     return file
 
 
-def sections_of(settings, model):
+def sections_of(settings: Any, model: Model) -> Any:
     """A point of the design as a document like a scene file's."""
     document = {"simulation": {}, "parameters": {}, "inputs": {}}
     for name, value in settings.items():
@@ -261,7 +264,7 @@ def sections_of(settings, model):
     return document
 
 
-def key_of(scene, fingerprint):
+def key_of(scene: Scene, fingerprint: Any) -> str:
     """Key of a run: a digest of the FMU's content and of everything in the scene."""
     content = {name: value for name, value in vars(scene).items() if name not in WORDS} | {
         "inputs": {

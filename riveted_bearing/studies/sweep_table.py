@@ -2,8 +2,12 @@
 and a page.
 """
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import stats
@@ -14,6 +18,9 @@ from ..running.basis import basis
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
+
+if TYPE_CHECKING:
+    from .sweep_file import Sweep
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
@@ -55,7 +62,7 @@ class SweepTable:
     basis: list
 
 
-def sweep_table(sweep, rows):
+def sweep_table(sweep: Sweep, rows: Any) -> Any:
     """The SweepTable of a sweep's rows; runs that failed or were stopped do not count."""
     names = [name for name in sweep.factors if name != SEED]
     units, columns = (
@@ -72,11 +79,8 @@ def sweep_table(sweep, rows):
         if column in rows and np.any(rows[column][done]):
             responses.append(Response(title, unit, *averaged(factor * rows[column], groups)))
     if np.any(damage := damage_per_hour(rows, done)):
-        responses.append(
-            Response(
-                "log10 damage per hour", "", *averaged(np.log10(np.maximum(damage, 1e-300)), groups), logarithmic=True
-            )
-        )
+        mean, half = averaged(np.log10(np.maximum(damage, 1e-300)), groups)
+        responses.append(Response("log10 damage per hour", "", mean, half, logarithmic=True))
     factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
     seeds = np.array([len(group) for group in groups.values()])
     return SweepTable(sweep.name, factors, list(groups), seeds, responses, basis(sweep.model, sweep.scenes.values()))
@@ -119,7 +123,7 @@ def averaged(values, groups):
     return mean, np.array(half)
 
 
-def lines(table):
+def lines(table: Any) -> Any:
     """Heads and cells of the table as texts."""
     heads = [
         *table.factors,
@@ -182,7 +186,7 @@ def colours(count):
     return [MIDDLE, HEAD, RING, FORCE, MUTED][:count] if count <= MOST_LINES else [MIDDLE] * count
 
 
-def write_picture(table, path):
+def write_picture(table: Any, path: Path) -> Path:
     """The responses side by side as PNG, whole or not at all; returns the path."""
     columns = min(3, len(table.responses))
     rows = -(-len(table.responses) // columns)
@@ -202,7 +206,7 @@ def write_picture(table, path):
     return path
 
 
-def write_page(table, description, path):
+def write_page(table: Any, description: Any, path: Path) -> Path:
     """Table and charts as one HTML page, whole or not at all; returns the path."""
     heads, cells = lines(table)
     pictures = [
