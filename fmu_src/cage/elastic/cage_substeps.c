@@ -289,7 +289,8 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
 
 // Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
 static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS],
-                         const double pushed[CAGE_MOTIONS], bool last, RimFilmsStep *films, double *v, const Work *w)
+                         const double pushed[CAGE_MOTIONS], bool last, RimFilmsStep *films, double *v,
+                         const Work *w)
 {
     double halves[2 * RELATIVE_MOTIONS] = {0.0};
     to_halves(model, &w->half[0], 1.0, speed, 0, halves);
@@ -307,7 +308,8 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
     double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
     double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
-    double push[CAGE_MOTIONS] = {0.0}, pushed[CAGE_MOTIONS] = {0.0}, way[CAGE_MOTIONS] = {0.0};  // by changes of the loads on walls
+    double push[CAGE_MOTIONS] = {0.0}, pushed[CAGE_MOTIONS] = {0.0},
+           way[CAGE_MOTIONS] = {0.0};  // by changes of the loads on walls
     JointVelocities middle;
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);

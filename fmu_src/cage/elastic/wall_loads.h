@@ -16,11 +16,11 @@ typedef double wall_load_array[WALL_LOADS];
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
-    int count, of_0;                     // all, those of half 0, which come first
-    double middle, c;                    // of the step [s]; compliance of the walls beside their modes
-    wall_load_array K, damped, Q;        // law K delta^1.5 times `damped`, load at the step's start
-    wall_load_array x, from;             // approach and motion of the wall at the step's start
-    wall_load_array rate, acceleration;  // of the rigid approach, in the middle of the step and at its start
+    int count, of_0;                      // all, those of half 0, which come first
+    double middle, c;                     // of the step [s]; compliance of the walls beside their modes
+    wall_load_array K, damped, Q;         // law K delta^1.5 times `damped`, load at the step's start
+    wall_load_array x, from;              // approach and motion of the wall at the step's start
+    wall_load_array rate, acceleration;   // of the rigid approach, in the middle of the step and at its start
     wall_load_array along[CAGE_MOTIONS];  // motion along the normal by those of the halves
     mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
