@@ -250,6 +250,33 @@ def test_units_of_parameter_sets_are_converted_by_their_definitions(tmp_path):
             )
 
 
+def test_connections_convert_units(tmp_path):
+    """An output in kN feeds an input in N with 1,000 times its number; another quantity and a transformation are refused."""
+    _, parts, _ = transmission.load(SYSTEM, tmp_path / "a")
+    wire = ("shaft", "shaft.F_y", "bearing", "shaft.F_y")
+    assert transmission.conversion(parts, wire) == (1.0, 0.0)
+    exponents, factor, offset = parts["shaft"].units["N"]
+    parts["shaft"].units["kN"] = exponents, 1e3 * factor, offset
+    parts["shaft"].variables["shaft.F_y"].unit = "kN"
+    assert transmission.conversion(parts, wire) == (1e3, 0.0)
+    with pytest.raises(ValueError, match=r"shaft.F_y \[kN\] is connected with bearing.shaft.omega \[rad/s\]"):
+        transmission.conversion(parts, (*wire[:3], "shaft.omega"))
+    for part in parts.values():
+        part.fmu.freeInstance()
+    changed = tmp_path / "b.ssp"
+    with zipfile.ZipFile(SYSTEM) as old, zipfile.ZipFile(changed, "w") as new:
+        for name in old.namelist():
+            data = old.read(name)
+            if name.endswith(".ssd"):
+                head, *rest = data.decode().split("<ssd:Connection ", 1)
+                tail = rest[0].split("/>", 1)
+                linear = f'<ssc:LinearTransformation xmlns:ssc="{COMMON}" factor="2"/>'
+                data = f"{head}<ssd:Connection {tail[0]}>{linear}</ssd:Connection>{tail[1]}"
+            new.writestr(name, data)
+    with pytest.raises(ValueError, match="LinearTransformation"):
+        transmission.load(changed, tmp_path / "b")
+
+
 def test_reaction_carries_the_load(result):
     """After 10 ms: mean force on the housing = load, but for the momentum of ring, balls and cage, below 0.5 kg x 0.1
     m/s / 40 ms = 1 N.
