@@ -9,7 +9,8 @@ import numpy as np
 from . import oil as oils
 from . import preload as preloads
 from .errors import UserError, shortlist
-from .scene import in_words
+from .plausible import fast
+from .scene import History, in_words
 
 LOADS = (
     *(f"shaft.{name}" for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "tilt_y", "tilt_z")),
@@ -39,6 +40,11 @@ def basis(model, scenes, curve=""):
         *([("replaced", f"the scene has {shortlist(replaced)}")] if replaced else []),
         ("loads", loads(model, scenes)),
         ("speed", speeds(model, scenes)),
+        *(
+            [("not reached", "; ".join(late))]
+            if (late := list(dict.fromkeys(t for s in scenes for t in s.outside())))
+            else []
+        ),
         ("oil", oil(model, scenes)),
         ("temperatures", temperatures(model, scenes)),
         ("preload", preload(model, scenes)),
@@ -56,10 +62,15 @@ def accelerated(model, scenes):
 
 
 def values(model, scenes, name):
-    """All values that a parameter or an input has in the scenes, SI."""
+    """All values that a parameter or an input has in the runs of the scenes, SI."""
     own = model.default((model.parameters | model.inputs)[name])
     given = ((scene.parameters | scene.inputs).get(name, own) for scene in scenes)
-    return np.concatenate([np.atleast_1d(getattr(value, "value", value)) for value in given])
+    return np.concatenate(
+        [
+            value.reached(scene.t_end) if isinstance(value, History) else np.atleast_1d(value)
+            for scene, value in zip(scenes, given, strict=True)
+        ]
+    )
 
 
 def text(model, scenes, name):
@@ -85,6 +96,17 @@ def speeds(model, scenes):
             *(f"{name} {text(model, scenes, name)}" for name in others if np.any(values(model, scenes, name))),
         ]
     )
+
+
+def fast_speeds(model, scenes):
+    """A sentence on the largest speed of the scenes if few ball bearings reach it."""
+    extreme = [
+        abs(one - other)
+        for scene in scenes
+        for one in extremes(values(model, [scene], "shaft.omega"))
+        for other in extremes(values(model, [scene], "housing.omega"))
+    ]
+    return tuple(fast(max(extreme, default=0.0), model.default(model.parameters["bearing.d_m"])))
 
 
 def oil(model, scenes):

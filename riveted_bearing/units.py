@@ -336,6 +336,20 @@ def to_si(value, scales):
     return float(value)
 
 
+def check_alike(values, scales):
+    """UserError if one of several values of a quantity has a unit other than SI and another, not 0, has none: few who write
+    ["4000 rev/min", 9000] mean 9000 rad/s.  Bare numbers of times are s beside any unit.
+    """
+    base = next(iter(scales))
+    if base in ("1", "s"):
+        return
+    texts = (one for one in values if isinstance(one, str) and symbol_of(one) not in (None, "1", canonical(base)))
+    given = next(texts, None)
+    bare = next((one for one in values if isinstance(one, Real) and not isinstance(one, bool) and one), None)
+    if given is not None and bare is not None:
+        raise UserError(f'{bare:g} has no unit beside "{given}": write it at both')
+
+
 def is_finite(number):
     """Whether a number is finite as a float: an integer may have more digits."""
     try:

@@ -134,6 +134,8 @@ def test_profile_as_waves(tmp_path, fmu):
     expected[[8, 59]] = 1e-6, 4e-7
     np.testing.assert_allclose(amplitude, expected, atol=1e-18)
     np.testing.assert_allclose(phase[[8, 59]], [0.4, -2.0], atol=1e-9)
+    with pytest.raises(UserError, match=r"57\.\d turns; one is allowed: angles without a unit are in rad"):
+        waves_of(np.degrees(phi), h)
     rows = "\n".join(f"{math.degrees(a)},{1e6 * b}" for a, b in zip(phi, h, strict=True))
     (tmp_path / "race.csv").write_text(f"phi,h\n{rows}\n")
     text = '[surfaces]\nouter = { file = "race.csv", angle = "phi", angle_unit = "deg", height = "h", unit = "um" }\n'

@@ -59,7 +59,7 @@ from pathlib import Path
 import numpy as np
 
 from ..assumed import given_names
-from ..basis import basis, loads, speeds
+from ..basis import basis, fast_speeds, loads, speeds
 from ..bearings import case_at
 from ..effects import acts, without_effect
 from ..errors import UserError, unknown
@@ -216,7 +216,7 @@ def plan_mission(name, document, model, path):
         any("share" in block for block in tables(path, document, "point")),
         str(model.path.resolve()),
         model.digest,
-        tuple(slow_warnings(parts, model)),
+        (*slow_warnings(parts, model), *fast_speeds(model, scenes)),
         cache(lambda: of_parts(model, parts, settings["cleanliness"])),
         cache(lambda: idle_settings(model, parts)),
     )
@@ -487,7 +487,7 @@ def event_in_time(path, label, block, scene, settle, names):
     counted = f"damage counts from start.settle = {settle:g} s to t_end = {scene.t_end:g} s"
     warnings = []
     for name, history in varying.items():
-        begin, end = changing_time(history)
+        begin, end = history.changing_time()
         told = f"{label}: inputs.{name} changes from {begin:g} s to {end:g} s"
         over = end <= settle and history.value[0] == history.value[-1]
         if over or begin >= scene.t_end:
@@ -498,13 +498,6 @@ def event_in_time(path, label, block, scene, settle, names):
         if begin < settle or end > scene.t_end:
             warnings.append(f"{told}, but {counted}: a part of the event does not count")
     return scene, tuple(warnings)
-
-
-def changing_time(history):
-    """First and last time [s] of the changes of a History that is not constant."""
-    first = int(np.argmax(history.value != history.value[0]))
-    last = len(history.t) - 1 - int(np.argmax(history.value[::-1] != history.value[-1]))
-    return float(history.t[first if history.hold else first - 1]), float(history.t[last + 1])
 
 
 def values_of(scene, model):
