@@ -121,7 +121,7 @@ def idle_settings(result, found):
     model = Model(path)
     inputs = {n: History(*map(np.asarray, (of["t"], of["value"])), of["hold"]) for n, of in about["inputs"].items()}
     own = {n: model.default(v) for n, v in model.parameters.items()}
-    parameters = {n: value for n, value in result.parameters.items() if n in own and value != own[n]}
+    parameters = {n: value for n, value in result.parameters.items() if n in own and (value != own[n] or n in names)}
     if set(names) - {*inputs, *parameters}:
         return [], math.inf
     scene = Scene(
