@@ -17,6 +17,7 @@ LOADS = (
     *("impact.F_r", "impact.F_a", "pulse.F_r", "pulse.F_a"),
 )
 SPEEDS = ("shaft.omega", "housing.omega", "frame.omega")
+LIQUID = (3e-4, 3.0)  # Pa.s: kerosene hot, ISO VG 460 near its pour point
 PARTS = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", "cage": "cage.T"}
 
 
@@ -115,6 +116,8 @@ def oil(model, scenes):
     alone = dict.fromkeys(text for scene in scenes for text in point_assumed(model, scene))
     names = ", ".join(dict.fromkeys(filter(None, (scene.oil or oils.name_of(model.origin) for scene in scenes))))
     words = f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}"
+    if not LIQUID[0] <= min(found) <= max(found) <= LIQUID[1]:
+        words += f" (few oils in bearings have less than {1e3 * LIQUID[0]:g} or more than {1e3 * LIQUID[1]:g} mPa.s)"
     return "; ".join([f"{names}, {words}" if names else words, *alone])
 
 

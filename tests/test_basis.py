@@ -78,6 +78,10 @@ def test_viscosity_is_that_at_the_oils_temperature(model, warm):
     rows = dict(basis(model, [load_scene(warm, model)]))
     eta = 25e-6 * 900.0 * (1.0 - 7.5e-4 * (40.0 - 85.8506))
     assert rows["oil"] == f"{1e3 * eta:.5g} mPa.s at 40 degC"
+    thick = load_scene(None, model, ("test", {"parameters": {"oil.eta": 6}}))  # meant as mPa.s
+    assert dict(basis(model, [thick]))["oil"].endswith(
+        "(few oils in bearings have less than 0.3 or more than 3000 mPa.s)"
+    )
     assert rows["loads"] == "F_x 515 N, F_y 3 kN"  # as it was written
 
 
