@@ -5,6 +5,7 @@ masters.
 import importlib.util
 import json
 import os
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -248,6 +249,21 @@ def test_units_of_parameter_sets_are_converted_by_their_definitions(tmp_path):
             transmission.load(
                 packed(tmp_path / "b.ssp", {"shaft.omega": f'value="1" unit="{unit}"'}, units), tmp_path / unit
             )
+
+
+def test_integers_and_enumerations_of_parameter_sets(tmp_path):
+    """Items by their numbers or names; fractions and other names are refused, not cut."""
+    part = transmission.Component(
+        "bearing", Path(shutil.copy(ROOT / "fmus" / "RivetedBearing.fmu", tmp_path / "b.fmu"))
+    )
+    names = {item.name: int(item.value) for item in part.variables["scene.cage"].declaredType.items}
+    for name, number in names.items():
+        assert part.whole("scene.cage", name) == part.whole("scene.cage", str(number)) == number
+    assert part.whole("start.seed", "7") == part.whole("start.seed", 7.0) == 7
+    for name, value in (("start.seed", "3.7"), ("scene.cage", "elastc"), ("scene.cage", 1.5), ("start.seed", "nan")):
+        with pytest.raises(ValueError, match=f"{name} = {value}: whole numbers"):
+            part.set(name, value)
+    part.fmu.freeInstance()
 
 
 def test_connections_convert_units(tmp_path):

@@ -63,7 +63,20 @@ class Component:
         if variable.type == "Real":
             self.fmu.setReal([variable.valueReference], [float(value)])
         else:
-            self.fmu.setInteger([variable.valueReference], [int(value)])
+            self.fmu.setInteger([variable.valueReference], [self.whole(name, value)])
+
+    def whole(self, name, value):
+        """The number of an integer or an item of an enumeration, which may be named; ValueError for fractions."""
+        items = getattr(self.variables[name].declaredType, "items", None) or ()
+        numbers = {item.name: item.value for item in items}
+        try:
+            number = float(numbers.get(value, value))
+        except ValueError:
+            number = 0.5
+        if not number.is_integer():
+            allowed = ", ".join(["whole numbers", *numbers])
+            raise ValueError(f"{name} = {value}: {allowed} are allowed")
+        return int(number)
 
     def get(self, name):
         return self.fmu.getReal([self.variables[name].valueReference])[0]
