@@ -13,7 +13,7 @@ from library import ROOT
 from bearing_model.generated.variables import UNITS
 from riveted_bearing.errors import UserError
 from riveted_bearing.tables import Table, Wanted, read
-from riveted_bearing.units import BASE, SECONDS, check_alike, conversion, parsed, plain, scales_of
+from riveted_bearing.units import BASE, SECONDS, check_alike, conversion, parsed, plain, scales_of, to_si
 
 RPM = math.pi / 30.0
 UNITS_OF = {  # SI value of one unit by definition: SI brochure, NIST SP 811
@@ -371,11 +371,14 @@ def test_dates_in_parquet_and_excel(tmp_path):
 
 @pytest.mark.parametrize("base", [base for base in UNITS if base not in ("1", "s")])
 def test_a_bare_number_beside_another_unit_is_refused(base):
-    """Of every quantity of the FMU: the SI unit and 0 may stand beside bare numbers, other units may not."""
+    """Of every quantity of the FMU: the SI unit and 0 may stand beside bare numbers, as may SI values of the size of the
+    text's; numbers that go with the text's own unit may not.
+    """
     own = scales(base)
     check_alike([f"1 {base}", 2], own)
     for symbol in own:
         check_alike([f"1 {symbol}", f"2 {base}", 0, 0.0], own)
+        check_alike([f"1 {symbol}", 1.1 * to_si(f"1 {symbol}", own)], own)
         if symbol != base:
             with pytest.raises(UserError, match=r"2 has no unit beside"):
                 check_alike([f"1 {symbol}", 2], own)
