@@ -38,7 +38,7 @@ from . import seats, tables
 from .errors import UserError, is_file, refusal, shortlist, unknown
 from .file_kinds import check_keys
 from .oil import OF_PROPERTY, check_given, merged, named
-from .units import SECONDS, canonical, scale, suffix, symbol_of, to_si
+from .units import SECONDS, canonical, check_alike, scale, suffix, symbol_of, to_si
 from .variable_list import is_like
 
 SHIPPED = files("riveted_bearing") / "data" / "scenes"
@@ -70,6 +70,19 @@ class History:
             return self.value[np.maximum(np.searchsorted(self.t, t, side="right") - 1, 0)]
         return np.interp(t, self.t, self.value)
 
+    def reached(self, end):
+        """The values that it has from 0 to the time `end` [s]."""
+        inside = self.value[(self.t > 0.0) & (self.t < end)]
+        return np.concatenate([inside, self(np.array([0.0, end]))])
+
+    def changing_time(self):
+        """First and last time [s] of its changes; None if it is constant."""
+        if np.ptp(self.value) == 0.0:
+            return None
+        first = int(np.argmax(self.value != self.value[0]))
+        last = len(self.t) - 1 - int(np.argmax(self.value[::-1] != self.value[-1]))
+        return float(self.t[first if self.hold else first - 1]), float(self.t[last + 1])
+
 
 @dataclass(frozen=True)
 class Scene:
@@ -94,6 +107,17 @@ class Scene:
     def stride(self):
         """Communication steps per row of the result."""
         return round((self.output_interval or self.step) / self.step)
+
+    def outside(self):
+        """What of its inputs and changes lies outside the run and does not act, in words."""
+        for name, history in self.inputs.items():
+            begin, end = history.changing_time() or (0.0, 0.0)
+            if begin < 0.0 or end > self.t_end:
+                acts = "" if begin < self.t_end and end > 0.0 else "no change of it acts: "
+                yield f"{name} changes from {begin:g} s to {end:g} s, {acts}the run goes from 0 to {self.t_end:g} s"
+        for at, values in self.changes:
+            if at >= self.t_end:
+                yield f"{', '.join(values)} at {at:g} s, the run ends at {self.t_end:g} s"
 
     def communication_points(self):
         """0, step, 2 step ... t_end [s]; the last step may be shorter."""
@@ -516,6 +540,8 @@ def from_points(value, scales):
     if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
         raise UserError("t and value must be lists")
     factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+    if "unit" not in value:
+        check_alike(value["value"], scales)
     si = [
         to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor
         for entry in value["value"]

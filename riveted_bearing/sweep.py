@@ -54,7 +54,7 @@ from .results import KEY, make_folder, one_line, read_table, write_atomically, w
 from .runner import closing_names, simulate
 from .scene import SIMULATION, leaves, load_scene, read_toml, refusal, section_of, shipped_scenes
 from .summary import has_statistics, settled
-from .units import SECONDS, to_si
+from .units import SECONDS, check_alike, to_si
 from .version import __version__
 
 SECTIONS = ("description", "scene", "repeats", "simulation", "parameters", "inputs", "vary", "sample")
@@ -166,6 +166,11 @@ def values_of(path, name, value, model):
     if name not in known_names(model):
         raise unknown(path, "parameter, input or setting", name, known_names(model))
     if isinstance(value, list) and value:
+        variable = (model.parameters | model.inputs).get(name)
+        try:
+            check_alike(value, SETTINGS.get(name) or model.units[getattr(variable, "unit", None) or "1"])
+        except UserError as problem:
+            raise refusal(path, f"vary.{name}", value, problem) from None
         return value
     if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
         raise refusal(
@@ -196,6 +201,7 @@ def bounds(path, name, pair, model):
     else:
         raise refusal(path, name, list(pair), "only real numbers have ranges: list the values instead")
     try:
+        check_alike(pair, scales)
         return tuple(to_si(value, scales) for value in pair)
     except UserError as problem:
         raise refusal(path, name, list(pair), problem) from None

@@ -45,6 +45,8 @@ DOUBTFUL = {",": re.compile(PLAIN + r",\d{3}"), ".": re.compile(PLAIN + r"\.\d{3
 GROUPED = {",": re.compile(PLAIN + r"(,\d{3})+(\.\d*)?"), ".": re.compile(PLAIN + r"(\.\d{3})+(,\d*)?")}
 UNSURE = ("in", "min")  # units that end a name as words do: d_in, t_min
 GAP = 10.0  # usual intervals: a longer one is a gap
+YEAR = 365.25 * 86400.0
+LATEST = 1000.0 * YEAR  # s: beyond it a time is no time since 1970 in s
 FEWEST = 5  # intervals that show what is usual
 USUAL = 0.75  # share of the intervals that lie within a factor of 2 of the median in a record of a fixed rate
 
@@ -176,6 +178,12 @@ class Clock:
         """The next piece; UserError naming the row of the first fault."""
         if self.last is not None:
             rows, t = np.concatenate([self.last[0], rows]), np.concatenate([self.last[1], t])
+        if np.any(np.abs(t) > LATEST):
+            k = int(np.argmax(np.abs(t) > LATEST))
+            raise UserError(
+                f"{self.where}, row {rows[k]}: {t[k]:.4g} s are {t[k] / YEAR:,.0f} years: if they are ms, us or ns since "
+                "1970, write [ms], [us] or [ns] behind the name"
+            )
         step = np.diff(t)
         self.last = rows[-1:], t[-1:]
         if np.any(step <= 0.0):
@@ -473,6 +481,19 @@ def sign_of(text):
     return f"?{signs}" if DOUBTFUL[signs].fullmatch(text) else signs
 
 
+def has_commas(texts):
+    """Whether the numbers among texts have decimal commas."""
+    return any("," in text and sign_of(GROUPS.sub("", text)) == "," for text in texts)
+
+
+def with_point(text):
+    """A number with a decimal comma as one with a point; other texts as they are."""
+    plain = GROUPS.sub("", text)
+    if not is_number(plain) or not sign_of(plain):
+        return text
+    return (plain.replace(".", "") if GROUPED["."].fullmatch(plain) else plain).replace(",", ".")
+
+
 def encoding_of(path, start):
     """UTF-8, UTF-16 or UTF-32 by the mark of the byte order or its zeros, else Latin-1 as Windows writes it."""
     for mark, encoding in MARKS.items():
@@ -603,6 +624,7 @@ class ParquetRows:
         kind = column.type
         if types.is_string(kind) or types.is_large_string(kind):
             texts = ["" if text is None else text.strip() for text in column.to_pylist()]
+            texts = list(map(with_point, texts)) if has_commas(texts) else texts
             for row, text in zip(rows, texts, strict=True):
                 if not DIGITS.fullmatch(text):
                     raise entry_fault(self.path, row, head, text)
@@ -631,7 +653,8 @@ class SheetRows(TextRows):
         except Exception as problem:  # openpyxl has many
             raise UserError(f"{path}: not an Excel workbook (.xlsx): {one_line(problem)}") from None
         for sheet in sheets:
-            self.cells = [(number, [cell_text(cell) for cell in row]) for number, row in enumerate(sheet, 1)]
+            commas = has_commas(cell for row in sheet for cell in row if isinstance(cell, str))
+            self.cells = [(number, [cell_text(cell, commas) for cell in row]) for number, row in enumerate(sheet, 1)]
             faults, self.first, self.heads = head_of(list(islice(self.rows(), SAMPLE)))
             if faults <= 1.0:
                 return
@@ -642,8 +665,10 @@ class SheetRows(TextRows):
         yield from ((number, row) for number, row in self.cells if number >= first and any(row) and row[0][:1] != "#")
 
 
-def cell_text(cell):
-    """A cell as the text that a CSV table would have."""
+def cell_text(cell, commas=False):
+    """A cell as the text that a CSV table would have; commas: whether cells of texts have decimal commas."""
+    if commas and isinstance(cell, str):
+        return with_point(cell.strip())
     if isinstance(cell, timedelta):
         seconds = cell.total_seconds()
         return f"{int(seconds // 3600)}:{int(seconds // 60 % 60):02}:{seconds % 60:09.6f}"

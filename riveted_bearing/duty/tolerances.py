@@ -22,7 +22,7 @@ from ..errors import UserError, unknown
 from ..results import write_atomically
 from ..scene import leaves, refusal, section_of
 from ..sweep import count_of
-from ..units import to_si
+from ..units import check_alike, to_si
 from .assess import Runs, places
 from .mission import SHARES, Case, loosened, number
 
@@ -105,6 +105,10 @@ def distribution(path, name, entry, model):
             values.append(to_si(entry[key], allowed))
         except UserError as problem:
             raise refusal(path, f"{where}.{key}", entry[key], problem) from None
+    try:
+        check_alike([entry[key] for key in DISTRIBUTIONS[kind] if key != "factor"], scales)
+    except UserError as problem:
+        raise refusal(path, where, entry, problem) from None
     first, *rest = values
     if kind == "normal" and rest[0] > 0.0:
         return stats.norm(first, rest[0])
