@@ -23,7 +23,7 @@ from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import cards, ends_of, interval_text, passes_text, percent, width_text, write_page
-from riveted_bearing.running.basis import basis
+from riveted_bearing.running.basis import basis, fast_speeds
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.rainflow import FatigueLaw
 from riveted_bearing.running.runner import provenance
@@ -79,6 +79,10 @@ def test_viscosity_is_that_at_the_oils_temperature(model, warm):
     rows = dict(basis(model, [load_scene(warm, model)]))
     eta = 25e-6 * 900.0 * (1.0 - 7.5e-4 * (40.0 - 85.8506))
     assert rows["oil"] == f"{1e3 * eta:.5g} mPa.s at 40 degC"
+    thick = load_scene(None, model, ("test", {"parameters": {"oil.eta": 6}}))  # meant as mPa.s
+    assert dict(basis(model, [thick]))["oil"].endswith(
+        "(few oils in bearings have less than 0.3 or more than 3000 mPa.s)"
+    )
     assert rows["loads"] == "F_x 515 N, F_y 3 kN"  # as it was written
 
 
@@ -93,6 +97,51 @@ def test_several_scenes_are_a_range(model, own):
     other = Model(own)
     rows = dict(basis(other, [load_scene(None, other), load_scene("demo", other)]))
     assert rows["scene"] == f"{NO_SCENE}, demo" and rows["replaced"] == "the scene has shaft.F_y 2994 N for 4100 N"
+
+
+@pytest.mark.parametrize("kind", ["linear", "hold"])
+@pytest.mark.parametrize(
+    ("t", "seen", "said"),
+    [
+        ([0.0, 0.05], (3000, 6000), ""),
+        ([-0.2, 0.05], (5400, 6000), "shaft.omega changes from -0.2 s to 0.05 s, the run"),
+        ([0.05, 0.2], (3000, 4000), "shaft.omega changes from 0.05 s to 0.2 s, the run goes from 0 to 0.1 s"),
+        ([100.0, 100.3], (3000, 3000), "shaft.omega changes from 100 s to 100.3 s, no change of it acts: the run"),
+        ([-2.0, -1.0], (6000, 6000), "shaft.omega changes from -2 s to -1 s, no change of it acts: the run"),
+    ],
+)
+def test_what_of_an_input_lies_outside_the_run(model, kind, t, seen, said):
+    """A record whose clock began before the run, or that ends after it: its part in the run is what stands in the lines."""
+    if kind == "hold":  # its only change is at the second time
+        seen = [6000 if t[1] <= 0.0 else 3000, 6000 if t[1] <= 0.1 else 3000]
+        said = said.replace(f"from {t[0]:g} s", f"from {t[1]:g} s") if not 0.0 < t[1] <= 0.1 else ""
+        said = said.replace(" s, the run", " s, no change of it acts: the run") if "acts" not in said else said
+    speed = {"t": t, "value": [3000, 6000], "unit": "rev/min", "interpolation": kind}
+    document = {"simulation": {"t_end": 0.1}, "inputs": {"shaft.omega": speed}}
+    rows = dict(basis(model, [load_scene(None, model, ("test", document))]))
+    assert rows["speed"] == f"{' to '.join(dict.fromkeys(map(str, seen)))} rev/min"
+    assert rows.get("not reached", "").startswith(said) and bool(said) == ("not reached" in rows)
+
+
+def test_a_change_after_the_end_is_not_reached(model):
+    change = [{"at": "0.1 s", "joint.mu": 0.3}, {"at": 0.05, "joint.mu": 0.2}]
+    scene = load_scene(None, model, ("test", {"simulation": {"t_end": 0.1}, "change": change}))
+    assert dict(basis(model, [scene]))["not reached"] == "joint.mu at 0.1 s, the run ends at 0.1 s"
+
+
+def test_speeds_that_few_bearings_reach_are_told_of_every_scene(model, tmp_path):
+    """A speed without its unit: 3,000 "rev/min" of a 6207 are 28,648, at which n d_m is 1.53 million mm/min."""
+    for inputs, told in (
+        ({"shaft.omega": 3000}, True),
+        ({"shaft.omega": 0.0, "housing.omega": -3000}, True),
+        ({"shaft.omega": 3000, "housing.omega": 3000}, False),
+        ({"shaft.omega": "3000 rev/min"}, False),
+    ):
+        scene = load_scene(None, model, ("test", {"inputs": inputs}))
+        assert bool(fast_speeds(model, [load_scene("demo", model), scene])) == told
+        document = {"simulation": {"t_end": 0.2}, "inputs": inputs, "point": [{"hours": 1}]}
+        warnings = plan_mission("m", document, model, tmp_path / "m.toml").slow
+        assert any("n d_m" in text for text in warnings) == told
 
 
 def test_a_prescribed_motion_takes_no_loads(model):

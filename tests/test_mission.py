@@ -343,6 +343,37 @@ def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
     assert cells[:, 0].tolist() == [0, 1, 3] and np.all(spreads < 1e-6)
 
 
+@pytest.mark.parametrize("bins", range(1, 8))
+@pytest.mark.parametrize(
+    ("low", "high"), [(-2.0, 2.0), (-0.3, 4.0), (-5.0, 0.2), (1.0, 4.0), (-4.0, -1.0), (-0.01, 4.0)]
+)
+def test_no_class_has_values_of_both_signs(tmp_path, low, high, bins):
+    """A load and its opposite, or a shaft that reverses: their mean is none of both; the noise of a sensor at 0 is no sign."""
+    x = np.linspace(low, high, 400)
+    path = tmp_path / "record.csv"
+    path.write_text("time,load\n" + "".join(f"{k},{value}\n" for k, value in enumerate(x)))
+    spent, cells, means, spreads = binned(path, Wanted("time", SECONDS), [Wanted("load", {"N": (1.0, 0.0)})], [bins])
+    both = low < -0.1 and high > 0.1
+    assert spent.sum() == 399.0 and len(spent) == (2 if both and bins == 1 else bins)
+    assert means[:, 0] @ spent == pytest.approx(x[:-1].sum(), rel=1e-9)
+    assert np.all(np.diff(cells[:, 0]) == 1) and np.all(np.diff(means[:, 0]) > 0.0)
+    if both:  # of values of one sign, evenly spread: none is farther than sqrt(3) sigma from the mean
+        assert np.all(np.abs(means) > 0.98 * math.sqrt(3.0) * spreads)
+
+
+@pytest.mark.parametrize(("swing", "bins", "told"), [(0.0, 1, False), (0.5, 1, True), (0.5, 5, False), (1.2, 2, True)])
+def test_classes_too_wide_for_the_raceways_are_told(tmp_path, model, swing, bins, told):
+    """F = 2 kN (1 + s sin): the mean of F^3 is 1 + 1.5 s^2 times the mean's cube, 37 % more at s = 0.5."""
+    t = np.arange(1000)
+    force = 2.0 * (1.0 + swing * np.sin(2.0 * np.pi * t / 100.0))
+    (tmp_path / "r.csv").write_text("time,F\n" + "".join(f"{k},{f}\n" for k, f in zip(t, force, strict=True)))
+    column = {"column": "F", "unit": "kN", "bins": bins}
+    document = {"history": {"file": "r.csv", "time": "time", "inputs": {"shaft.F_y": column}}}
+    warnings = plan_mission("m", document, model, tmp_path / "m.toml").warnings
+    found = [text for text in warnings if "of F^3, by which raceways live" in text]
+    assert len(found) == told and (swing != 0.5 or not told or "miss 38 %" in found[0] or "miss 37 %" in found[0])
+
+
 def test_classes_of_a_record_have_the_mean_damage_of_their_samples(tmp_path, model):
     """Damage exp(g F + k omega) at every sample, a record of both: the exact life is the sum over the samples.  The
     rate at the mean values alone is off by sinh(x)/x of uniform classes, x half the logarithm of the change across

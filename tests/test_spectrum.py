@@ -92,6 +92,12 @@ def test_refusals(tmp_path):
         spectra(result_of(x[:100], t[:100], omega[:100], omega[:100]))
     with pytest.raises(UserError, match="band = 100 to 90000"):
         spectra(fine, band=(100.0, 90_000.0))
+    with pytest.raises(UserError, match=r"band = 2 to 5 Hz: at least .* Hz wide"):  # meant as kHz
+        spectra(fine, band=(2.0, 5.0))
+    narrow = {line.name: line for line in spectra(fine, band=(1000.0, 1100.0)).lines}  # no beat above 100 Hz is in it
+    assert all(line.expected > 100.0 for line in narrow.values() if math.isnan(line.found)) and not any(
+        line.stands_out for line in narrow.values() if line.expected > 100.0 + spectra(fine).resolution
+    )
     with pytest.raises(UserError, match="housing.a_q"):
         spectra(fine, channel="housing.a_q")
     path = write_spectra(spectra(fine, band=(300.0, 5000.0)), tmp_path / "s.csv")
@@ -134,6 +140,8 @@ def test_profile_as_waves(tmp_path, fmu):
     expected[[8, 59]] = 1e-6, 4e-7
     np.testing.assert_allclose(amplitude, expected, atol=1e-18)
     np.testing.assert_allclose(phase[[8, 59]], [0.4, -2.0], atol=1e-9)
+    with pytest.raises(UserError, match=r"57\.\d turns; one is allowed: angles without a unit are in rad"):
+        waves_of(np.degrees(phi), h)
     rows = "\n".join(f"{math.degrees(a)},{1e6 * b}" for a, b in zip(phi, h, strict=True))
     (tmp_path / "race.csv").write_text(f"phi,h\n{rows}\n")
     text = '[surfaces]\nouter = { file = "race.csv", angle = "phi", angle_unit = "deg", height = "h", unit = "um" }\n'

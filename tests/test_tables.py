@@ -13,7 +13,7 @@ from library import ROOT
 from bearing_model.generated.variables import UNITS
 from riveted_bearing.base.errors import UserError
 from riveted_bearing.base.tables import Table, Wanted, read
-from riveted_bearing.base.units import BASE, SECONDS, conversion, parsed, plain, scales_of
+from riveted_bearing.base.units import BASE, SECONDS, check_alike, conversion, parsed, plain, scales_of, to_si
 
 RPM = math.pi / 30.0
 UNITS_OF = {  # SI value of one unit by definition: SI brochure, NIST SP 811
@@ -220,6 +220,7 @@ def test_ways_of_writing(text, base, expected, tmp_path):
         (b"time;n\n[s];[V]\n0;1\n1;2\n", ['"n [V]"', '"V" does not fit']),
         (b'time,n\n0,1\n1,"2\n2,3\n', ["row 4", '"2 2,3"', "not a number"]),
         (b"timeMs,n\n0,1\n1,2\n", ['"timeMs"', 'is "Ms" its unit?']),
+        (b"time,n\n1700000000000,1\n1700000000010,2\n", ["row 2", "53,870 years", "[ms]"]),
     ],
 )
 def test_faults_of_files(data, said, tmp_path):
@@ -240,10 +241,13 @@ def test_parquet_is_read_as_csv_is(tmp_path):
     parquet.write_table(pa.table({names[0]: list(range(9)), names[1]: pa.array([60] * 8 + [90], pa.int32())}), path)
     t, n = Table(path).series(Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
     assert t[-1] == pytest.approx(8e-3) and n[[0, -1]] == pytest.approx([2 * math.pi, 3 * math.pi])
+    parquet.write_table(pa.table({"time": [0, 1], "n": ["1.000,5", "2,25"]}), path)
+    assert read(path, Wanted("n", scales("N")))[0].tolist() == [1000.5, 2.25]
     for values, said in (
         ([60.0, None, 1.0], 'row 2, column "n'),
         ([1.0, 2.0, math.nan], "row 3"),
         (list("abc"), "row 1"),
+        (["1,250", "2,750", "3,000"], "row 1"),
     ):
         field = pa.field("n", pa.array(values).type, metadata={"unit": "rpm"})
         parquet.write_table(
@@ -352,7 +356,29 @@ def test_dates_in_parquet_and_excel(tmp_path):
     book.save(tmp_path / "rig.xlsx")
     t, n = read(tmp_path / "rig.xlsx", Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
     assert t == pytest.approx(expected, abs=1e-3) and n[-1] == pytest.approx(90.5 / 30 * math.pi)
+    for row, cells in enumerate(
+        (("0,00", "60,5"), ("0,50", "1.060,5"), ("3,00", 90)), 2
+    ):  # as a wrong locale leaves them
+        sheet[f"A{row}"], sheet[f"B{row}"] = cells
+    book.save(tmp_path / "rig.xlsx")
+    t, n = read(tmp_path / "rig.xlsx", Wanted("time", SECONDS), Wanted("n", scales("rad/s")))
+    assert t == pytest.approx(expected) and n == pytest.approx(np.array([60.5, 1060.5, 90.0]) / 30 * math.pi)
     sheet["B3"] = "fast"
     book.save(tmp_path / "rig.xlsx")
     with pytest.raises(UserError, match='row 3, column "n .rpm.": "fast"'):
         read(tmp_path / "rig.xlsx", Wanted("n", scales("rad/s")))
+
+
+@pytest.mark.parametrize("base", [base for base in UNITS if base not in ("1", "s")])
+def test_a_bare_number_beside_another_unit_is_refused(base):
+    """Of every quantity of the FMU: the SI unit and 0 may stand beside bare numbers, as may SI values of the size of the
+    text's; numbers that go with the text's own unit may not.
+    """
+    own = scales(base)
+    check_alike([f"1 {base}", 2], own)
+    for symbol in own:
+        check_alike([f"1 {symbol}", f"2 {base}", 0, 0.0], own)
+        check_alike([f"1 {symbol}", 1.1 * to_si(f"1 {symbol}", own)], own)
+        if symbol != base:
+            with pytest.raises(UserError, match=r"2 has no unit beside"):
+                check_alike([f"1 {symbol}", 2], own)

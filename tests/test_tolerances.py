@@ -153,6 +153,10 @@ def test_seeds_have_their_share_of_the_scatter(tmp_path, model):
         ),
         ({"parameters": {"joint.preload": {"distribution": "uniform", "low": 3, "high": 2}}}, ["low below high"]),
         (
+            {"parameters": {"joint.fit": {"distribution": "normal", "mean": "-10 um", "sd": 2}}},
+            ["2 has no unit beside", "-10 um"],
+        ),
+        (
             {"parameters": {"joint.preloat": {"distribution": "normal", "mean": 1, "sd": 1}}},
             ['"joint.preloat"', "joint.preload"],
         ),

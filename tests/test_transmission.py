@@ -5,6 +5,7 @@ masters.
 import importlib.util
 import json
 import os
+import shutil
 import subprocess
 import sys
 import zipfile
@@ -248,6 +249,48 @@ def test_units_of_parameter_sets_are_converted_by_their_definitions(tmp_path):
             transmission.load(
                 packed(tmp_path / "b.ssp", {"shaft.omega": f'value="1" unit="{unit}"'}, units), tmp_path / unit
             )
+
+
+def test_integers_and_enumerations_of_parameter_sets(tmp_path):
+    """Items by their numbers or names; fractions and other names are refused, not cut."""
+    part = transmission.Component(
+        "bearing", Path(shutil.copy(ROOT / "fmus" / "RivetedBearing.fmu", tmp_path / "b.fmu"))
+    )
+    names = {item.name: int(item.value) for item in part.variables["scene.cage"].declaredType.items}
+    for name, number in names.items():
+        assert part.whole("scene.cage", name) == part.whole("scene.cage", str(number)) == number
+    assert part.whole("start.seed", "7") == part.whole("start.seed", 7.0) == 7
+    for name, value in (("start.seed", "3.7"), ("scene.cage", "elastc"), ("scene.cage", 1.5), ("start.seed", "nan")):
+        with pytest.raises(ValueError, match=f"{name} = {value}: whole numbers"):
+            part.set(name, value)
+    part.fmu.freeInstance()
+
+
+def test_connections_convert_units(tmp_path):
+    """An output in kN feeds an input in N with 1,000 times its number; another quantity and a transformation are refused."""
+    _, parts, _ = transmission.load(SYSTEM, tmp_path / "a")
+    wire = ("shaft", "shaft.F_y", "bearing", "shaft.F_y")
+    assert transmission.conversion(parts, wire) == (1.0, 0.0)
+    exponents, factor, offset = parts["shaft"].units["N"]
+    parts["shaft"].units["kN"] = exponents, 1e3 * factor, offset
+    parts["shaft"].variables["shaft.F_y"].unit = "kN"
+    assert transmission.conversion(parts, wire) == (1e3, 0.0)
+    with pytest.raises(ValueError, match=r"shaft.F_y \[kN\] is connected with bearing.shaft.omega \[rad/s\]"):
+        transmission.conversion(parts, (*wire[:3], "shaft.omega"))
+    for part in parts.values():
+        part.fmu.freeInstance()
+    changed = tmp_path / "b.ssp"
+    with zipfile.ZipFile(SYSTEM) as old, zipfile.ZipFile(changed, "w") as new:
+        for name in old.namelist():
+            data = old.read(name)
+            if name.endswith(".ssd"):
+                head, *rest = data.decode().split("<ssd:Connection ", 1)
+                tail = rest[0].split("/>", 1)
+                linear = f'<ssc:LinearTransformation xmlns:ssc="{COMMON}" factor="2"/>'
+                data = f"{head}<ssd:Connection {tail[0]}>{linear}</ssd:Connection>{tail[1]}"
+            new.writestr(name, data)
+    with pytest.raises(ValueError, match="LinearTransformation"):
+        transmission.load(changed, tmp_path / "b")
 
 
 def test_reaction_carries_the_load(result):

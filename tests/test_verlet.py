@@ -556,16 +556,18 @@ def test_acceptance(core):
         assert by_core[2] == by_twin[2] == refused
 
 
-@pytest.mark.parametrize(("rpm", "part"), [(4000.0, None), (0.0, 0.1)])
-def test_acceptance_by_the_orbit(core, rpm, part):
-    """Below an orbital speed of 20 m/s the scale of velocities along the orbit is in proportion to it, down to a tenth."""
+@pytest.mark.parametrize(("rpm", "part", "tolerance"), [(4000.0, None, 1.0), (0.0, 0.1, 1.0 / 3.0)])
+def test_acceptance_by_the_orbit(core, rpm, part, tolerance):
+    """Below an orbital speed of 20 m/s the scale of velocities along the orbit is in proportion to it, down to a tenth; below 60 rad/s of
+    the cage the tolerance is, down to a third.
+    """
     h, model = 2e-5, soft(Model.of(TWO_HALF))
     y = Instance(core, {}, {"shaft.omega": rpm * np.pi / 30.0}).step(5e-3).y
     speed = np.mean(np.abs(y[BALL_OMEGA_M])) * 0.5 * model.p.bearing.d_m
     scale = model.d.scale.copy()
     scale[BALL_OMEGA_M] *= part or speed / 20.0
     assert part or 4.2 < speed < 4.6  # the kinematic speed is 4.43 m/s
-    _, error = verlet.verlet_step(model, 0.0, h, 1.0 / scale, verlet_evaluate(model, 0.0, y))
+    error = verlet.verlet_step(model, 0.0, h, 1.0 / scale, verlet_evaluate(model, 0.0, y))[1] / tolerance
     for factor, refused in ((1.001, 0.0), (0.999, 1.0)):
         c = soft(core.model({}))
         c.rhs(0.0, y)
@@ -582,10 +584,10 @@ def test_filter():
     g/h_n, and h_{n+1} = (g h_n)^(1/2).
     """
     goal, y = 1e-6, np.zeros(N_STATES)
-    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y, cage=CageMemory())
+    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y, cage=CageMemory(omega_2=1e4))
 
     def plant(model, t, h, *_):
-        return VerletState(y, y, h=h, cage=CageMemory()), 0.512 * (h / goal) ** 3
+        return VerletState(y, y, h=h, cage=CageMemory(omega_2=1e4)), 0.512 * (h / goal) ** 3
 
     first = 1.1 * goal
     start.h, start.ratio = first, goal / first
@@ -619,7 +621,7 @@ def test_no_derivative(core):
     assert (integrator.state.t, integrator.state.error_tests_failed) == (pytest.approx(0.2 * 2e-3, rel=1e-12), 1.0)
 
     errors = iter((np.nan, 0.0, 0.0, 0.0, 0.0))
-    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y, cage=CageMemory())
+    model, start = soft(Model.of(TWO_HALF)), VerletState(y, y, cage=CageMemory(omega_2=1e4))
 
     def plant(model, t, h, *_):
         return VerletState(y, y, h=h, cage=CageMemory()), next(errors)

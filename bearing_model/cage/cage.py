@@ -347,7 +347,7 @@ def cage_slide(model, before, y, w):
 
 
 SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
-SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of the longest step that it has at least
+SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of step and tolerance that it has at least
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
@@ -371,19 +371,25 @@ def rigid_fastest(p, d):
     return 2.0 * max(along * max(1.0 / p.cage.m, 0.5 * r * r / d.J_t), across * max(1.0 / p.cage.m, r * r / d.J_p))
 
 
+def cage_part(memory):
+    """Part of the longest step and of the tolerance that the cage is given: 1, less of a slow cage."""
+    return min(max(np.sqrt(memory.omega_2) / SLOW, LEAST_PART), 1.0)
+
+
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, but two substeps at least, of a pocket one.  Slow halves have a part of it, by their speed.
+    not follow in the substeps, but two substeps at least, of a pocket one, of a ribbon's half a one.  Slow halves have a part of it.
     """
-    part = min(max(np.sqrt(memory.omega_2) / SLOW, LEAST_PART), 1.0)
+    part = cage_part(memory)
     if not model.modes:
         return part * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
     most = part * model.modes.longest_step
     lands, pockets = rate / model.p.cage.m, memory.pocket * model.modes.wall_mobility
-    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (1.0, pockets))))
+    least = 0.5 if model.d.spheres else 1.0
+    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (least, pockets))))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation

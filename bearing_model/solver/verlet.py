@@ -29,6 +29,7 @@ from bearing_model.cage.cage import (
     cage_foreseen,
     cage_longest_step,
     cage_matrices,
+    cage_part,
     cage_predict,
     cage_remember,
     cage_split,
@@ -438,6 +439,7 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
             length = left if h >= left * (1.0 - LAST_STEP) else 0.5 * left if left < 2.0 * h else h
         last = length == left
         end, error = step(model, t, length, weight, state)
+        error /= cage_part(end.cage)
         factor = step_factor(length, error, (state.h, state.ratio))
         if not error <= 1.0:
             h, refused = length * factor, refused + 1

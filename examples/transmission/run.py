@@ -53,12 +53,30 @@ class Component:
             raise ValueError(f"{name} = {parameter.value} {parameter.unit}: the unit {reason}")
         return (here[1] * float(parameter.value) + here[2] - there[2]) / there[1]
 
+    def unit(self, name):
+        """Name and definition of a variable's unit."""
+        own = self.variables[name].unit or "1"
+        return own, self.units.get(own)
+
     def set(self, name, value):
         variable = self.variables[name]
         if variable.type == "Real":
             self.fmu.setReal([variable.valueReference], [float(value)])
         else:
-            self.fmu.setInteger([variable.valueReference], [int(value)])
+            self.fmu.setInteger([variable.valueReference], [self.whole(name, value)])
+
+    def whole(self, name, value):
+        """The number of an integer or an item of an enumeration, which may be named; ValueError for fractions."""
+        items = getattr(self.variables[name].declaredType, "items", None) or ()
+        numbers = {item.name: item.value for item in items}
+        try:
+            number = float(numbers.get(value, value))
+        except ValueError:
+            number = 0.5
+        if not number.is_integer():
+            allowed = ", ".join(["whole numbers", *numbers])
+            raise ValueError(f"{name} = {value}: {allowed} are allowed")
+        return int(number)
 
     def get(self, name):
         return self.fmu.getReal([self.variables[name].valueReference])[0]
@@ -71,6 +89,9 @@ def load(path, folder):
     with zipfile.ZipFile(path) as archive:
         archive.extractall(folder)
     system = read_ssd(str(path)).system
+    description = etree.parse(str(folder / "SystemStructure.ssd"))
+    if (one := next(description.iter("{*}LinearTransformation", "{*}BooleanMappingTransformation"), None)) is not None:
+        raise ValueError(f"{path}: {etree.QName(one).localname} of a connection: transformations are not read")
     parts = {element.name: Component(element.name, folder / element.source) for element in system.elements}
     owners = [("", system), *((f"{element.name}.", element) for element in system.elements)]
     bindings = [(prefix, binding) for prefix, owner in owners for binding in owner.parameterBindings]
@@ -84,6 +105,19 @@ def load(path, folder):
             component, variable = name.split(".", 1)
             start[name] = parts[component].converted(variable, parameter, units)
     return system, parts, start
+
+
+def conversion(parts, wire):
+    """Factor and offset from the unit of an output to that of the input that it is connected with, as SSP wants; numbers
+    without a unit, 1, go to any input as they are.
+    """
+    source, output, to, name = wire
+    (here, of_output), (there, of_input) = parts[source].unit(output), parts[to].unit(name)
+    if here == there or "1" in (here, there):
+        return 1.0, 0.0
+    if of_output is None or of_input is None or of_output[0] != of_input[0]:
+        raise ValueError(f"{source}.{output} [{here}] is connected with {to}.{name} [{there}]")
+    return of_output[1] / of_input[1], (of_output[2] - of_input[2]) / of_input[1]
 
 
 def units_of(path):
@@ -125,13 +159,14 @@ def simulate(path=SYSTEM, stop=0.05, step=1e-4, changes=None, without=()):
 
 def march(parts, wires, shown, steps, step):
     """Rows of the outputs `shown` at the start and after each step."""
+    wires = [(*wire, *conversion(parts, wire)) for wire in wires]
 
     def exchange():
         """All outputs are read before the first input is set: no component is ahead of another."""
-        for value, (_, _, to, name) in [
+        for value, (_, _, to, name, factor, offset) in [
             (parts[source].get(output), wire) for wire in wires for source, output in [wire[:2]]
         ]:
-            parts[to].set(name, value)
+            parts[to].set(name, factor * value + offset)
 
     for part in parts.values():
         part.fmu.enterInitializationMode()

@@ -147,6 +147,9 @@ void cage_finish(const Model *model, const CageStep *step, double *y, const doub
 void cage_remember(const Model *model, double h, double h_0, const double *f, const double *jerk,
                    const double *y, double *f_end, double *jerk_end, double *error);
 
+// Part of the longest step and of the tolerance that the cage is given: 1, less of a slow cage.
+double cage_part(const CageMemory *memory);
+
 // The longest step that the cage bears from a state with these films [s]: of all films, or of those that do not follow in the
 // substeps of a step from `memory`.
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory);

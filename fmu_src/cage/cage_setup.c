@@ -76,14 +76,20 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has three substeps at most.  A slow cage has many steps in a turn, and what is left shakes it: below SLOW
-// its steps are shorter in proportion to its speed.  Films of the rate A that the substeps leave out allow 1/A, or two substeps,
-// which are always stable; one of a pocket 1/A, A by the wall's mobility, or one substep: in longer steps the halves shake on thick oil.
+// that it has three substeps at most.  A slow cage has many steps in a turn, and what is left shakes it; and its own speed is
+// of the order of the tolerance's scale.  So below SLOW steps and tolerance are smaller in proportion to its speed.  Films of the rate A that
+// the substeps leave out allow 1/A, or two substeps, which are always stable; one of a pocket 1/A, A by the wall's mobility, or
+// one substep: in longer steps the halves shake on thick oil.  A ribbon's light halves do so in steps of one substep, and have half a one.
 static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the longest step
+
+double cage_part(const CageMemory *memory)
+{
+    return fmin(fmax(sqrt(memory->fast.omega_2) / SLOW, LEAST_PART), 1.0);
+}
 
 double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
 {
-    const double part = fmin(fmax(sqrt(memory->fast.omega_2) / SLOW, LEAST_PART), 1.0);
+    const double part = cage_part(memory);
     if (!model->modes) return part * LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
     const double d = model->modes->substep;
     double rate = 0.0;
@@ -93,7 +99,8 @@ double cage_longest_step(const Model *model, double film[2][3], const CageMemory
     }
     const double most = part * elastic_longest_step(model->modes);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
-    const double pockets = fmax(d, 1.0 / (memory->pocket * model->modes->wall_mobility));
+    const double least = model->d->spheres.on ? 0.5 * d : d;
+    const double pockets = fmax(least, 1.0 / (memory->pocket * model->modes->wall_mobility));
     return fmin(most, fmin(lands, pockets));
 }
 

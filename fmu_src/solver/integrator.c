@@ -231,7 +231,8 @@ static double verlet_take(void *context, double t, double h, N_Vector y_0, N_Vec
     if (in->warming_up) return 0.0;
     state_vector_show(y_0, in->now->y);
     state_vector_show(y, in->next->y);
-    const double error = in->kernels->verlet(in->model, t, h, in->weight, in->now, in->next, in->w);
+    const double norm = in->kernels->verlet(in->model, t, h, in->weight, in->now, in->next, in->w);
+    const double error = is_fixed(in) ? norm : norm / cage_part(&in->next->cage);
     in->next->ratio = ratio_of(error);
     in->s->rhs_evals += 1.0;
     return is_fixed(in) ? watch_error(in, h, error) : error;

@@ -254,6 +254,19 @@ def sign_of(text):
     return f"?{signs}" if DOUBTFUL[signs].fullmatch(text) else signs
 
 
+def has_commas(texts):
+    """Whether the numbers among texts have decimal commas."""
+    return any("," in text and sign_of(GROUPS.sub("", text)) == "," for text in texts)
+
+
+def with_point(text):
+    """A number with a decimal comma as one with a point; other texts as they are."""
+    plain = GROUPS.sub("", text)
+    if not is_number(plain) or not sign_of(plain):
+        return text
+    return (plain.replace(".", "") if GROUPED["."].fullmatch(plain) else plain).replace(",", ".")
+
+
 def encoding_of(path, start):
     """UTF-8, UTF-16 or UTF-32 by the mark of the byte order or its zeros, else Latin-1 as Windows writes it."""
     for mark, encoding in MARKS.items():
@@ -384,6 +397,7 @@ class ParquetRows:
         kind = column.type
         if types.is_string(kind) or types.is_large_string(kind):
             texts = ["" if text is None else text.strip() for text in column.to_pylist()]
+            texts = list(map(with_point, texts)) if has_commas(texts) else texts
             for row, text in zip(rows, texts, strict=True):
                 if not DIGITS.fullmatch(text):
                     raise entry_fault(self.path, row, head, text)
@@ -412,7 +426,8 @@ class SheetRows(TextRows):
         except Exception as problem:  # openpyxl has many
             raise UserError(f"{path}: not an Excel workbook (.xlsx): {one_line(problem)}") from None
         for sheet in sheets:
-            self.cells = [(number, [cell_text(cell) for cell in row]) for number, row in enumerate(sheet, 1)]
+            commas = has_commas(cell for row in sheet for cell in row if isinstance(cell, str))
+            self.cells = [(number, [cell_text(cell, commas) for cell in row]) for number, row in enumerate(sheet, 1)]
             faults, self.first, self.heads = head_of(list(islice(self.rows(), SAMPLE)))
             if faults <= 1.0:
                 return
@@ -423,8 +438,10 @@ class SheetRows(TextRows):
         yield from ((number, row) for number, row in self.cells if number >= first and any(row) and row[0][:1] != "#")
 
 
-def cell_text(cell):
-    """A cell as the text that a CSV table would have."""
+def cell_text(cell, commas=False):
+    """A cell as the text that a CSV table would have; commas: whether cells of texts have decimal commas."""
+    if commas and isinstance(cell, str):
+        return with_point(cell.strip())
     if isinstance(cell, timedelta):
         seconds = cell.total_seconds()
         return f"{int(seconds // 3600)}:{int(seconds // 60 % 60):02}:{seconds % 60:09.6f}"

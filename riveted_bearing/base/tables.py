@@ -25,6 +25,8 @@ OTHERS = {
     b"\x1f\x8b": "compressed: unpack it first",
 }
 GAP = 10.0  # usual intervals: a longer one is a gap
+YEAR = 365.25 * 86400.0
+LATEST = 1000.0 * YEAR  # s: beyond it a time is no time since 1970 in s
 FEWEST = 5  # intervals that show what is usual
 USUAL = 0.75  # share of the intervals that lie within a factor of 2 of the median in a record of a fixed rate
 
@@ -156,6 +158,12 @@ class Clock:
         """The next piece; UserError naming the row of the first fault."""
         if self.last is not None:
             rows, t = np.concatenate([self.last[0], rows]), np.concatenate([self.last[1], t])
+        if np.any(np.abs(t) > LATEST):
+            k = int(np.argmax(np.abs(t) > LATEST))
+            raise UserError(
+                f"{self.where}, row {rows[k]}: {t[k]:.4g} s are {t[k] / YEAR:,.0f} years: if they are ms, us or ns since "
+                "1970, write [ms], [us] or [ns] behind the name"
+            )
         step = np.diff(t)
         self.last = rows[-1:], t[-1:]
         if np.any(step <= 0.0):

@@ -339,6 +339,26 @@ def to_si(value: Any, scales: Any) -> float:
     return float(value)
 
 
+def check_alike(values: Any, scales: Any) -> None:
+    """UserError if a bare number stands beside a text with a unit other than SI and is nearer to that text's number than to
+    its SI value: few who write ["4000 rev/min", 9000] mean 9000 rad/s, but ["1 kN", 2000] is 2000 N.  Times are s beside
+    any unit.
+    """
+    base = next(iter(scales))
+    if base in ("1", "s"):
+        return
+    texts = [one for one in values if isinstance(one, str) and symbol_of(one) not in (None, "1", canonical(base))]
+    found = {text: NUMBER.fullmatch(text) for text in texts if symbol_of(text) in scales}  # others are refused later
+    given = {text: (abs(float(match[1])), abs(to_si(text, scales))) for text, match in found.items() if match}
+    given = {text: pair for text, pair in given.items() if all(pair)}
+    for bare in (
+        one for one in values if isinstance(one, Real) and not isinstance(one, bool) and one and is_finite(one)
+    ):
+        apart = [[abs(math.log(abs(bare)) - math.log(size)) for size in pair] for pair in given.values()]
+        if apart and min(own for own, _ in apart) < min(si for _, si in apart):
+            raise UserError(f'{bare:g} has no unit beside "{next(iter(given))}": write it at both')
+
+
 def is_finite(number):
     """Whether a number is finite as a float: an integer may have more digits."""
     try:

@@ -8,6 +8,7 @@ from bearing_model.generated.variables import PARAMETERS
 
 from ..base.errors import UserError
 
+MOST_TURNS = 1.1  # of a profile, whose ends may overlap
 ORDERS = PARAMETERS["outer.waviness[n]"].count
 
 
@@ -27,6 +28,8 @@ def waves_of(angle: Any, height: Any) -> Any:
         raise UserError("angles and heights must be finite numbers")
     if len(angle) < 3 * ORDERS:
         raise UserError(f"{len(angle)} points; at least {3 * ORDERS} are needed, three a wave of order {ORDERS}")
+    if (turns := np.ptp(angle) / (2.0 * np.pi)) > MOST_TURNS:
+        raise UserError(f"angles of {turns:.3g} turns; one is allowed: angles without a unit are in rad")
     gaps = np.diff(
         np.sort(np.remainder(angle, 2.0 * np.pi)), append=np.remainder(angle, 2.0 * np.pi).min() + 2.0 * np.pi
     )

@@ -45,7 +45,7 @@ def matrices(
     import math
 
     from ..base.units import to_si
-    from ..running.basis import basis
+    from ..running.basis import basis, fast_speeds
     from ..running.effects import in_words
     from ..running.fmu import Model
     from ..running.scene import load_scene
@@ -67,7 +67,7 @@ def matrices(
     omegas = [speed_of(text, variable, model, to_si) for text in speeds or ()] or [
         case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)
     ]
-    balanced = quasi_static_matrices(case, sorted(omegas), loads or [1.0])  # refuses before anything is written
+    balanced = quasi_static_matrices(case, sorted(set(omegas)), loads or [1.0])  # refuses before anything is written
     make_folder(out)
     with Progress(
         TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal
@@ -87,6 +87,8 @@ def matrices(
         console.print(f"{in_words(idle)}: the shake moves the inner ring, without stress")
     rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
     print_basis(rows)
+    for text in fast_speeds(model, [scene_at(model, plan, point) for point in found]):
+        messages.print(f"[yellow]note:[/] {text}", soft_wrap=True)
     console.print(table(found))
     paths = [write_table(found, out / f"{stem}_matrices.csv", rows), plot_matrices(found, out / f"{stem}_matrices.png")]
     for load in dict.fromkeys(point.load for point in found):

@@ -24,6 +24,7 @@ def sweep(
     report: Annotated[bool, typer.Option("--report", help="write a page with table and charts, sweep.html")] = False,
 ):
     """Run a design of experiments on a Dask cluster, one row a run; a second call does only missing runs."""
+    from ..running.basis import fast_speeds
     from ..running.fmu import Model
     from ..studies.sweep import run_sweep
     from ..studies.sweep_file import load_sweep
@@ -38,6 +39,8 @@ def sweep(
     spent = rows["cpu_time"][rows["status"] == "done"].sum()
     table = sweep_table(plan, rows)
     print_basis(table.basis)
+    for text in fast_speeds(plan.model, plan.scenes.values()):
+        messages.print(f"[yellow]note:[/] {text}", soft_wrap=True)
     if table.responses:
         print_table(table)
     console.print(f"{len(rows['key'])} runs, {len(failures)} of them failed, CPU time {spent:.1f} s")

@@ -33,7 +33,7 @@ def event_in_time(path, label, moved, scene, settle, names):
     counted = f"damage counts from start.settle = {settle:g} s to t_end = {scene.t_end:g} s"
     warnings = []
     for name, history in varying.items():
-        begin, end = changing_time(history)
+        begin, end = history.changing_time()
         told = f"{label}: inputs.{name} changes from {begin:g} s to {end:g} s"
         over = end <= settle and history.value[0] == history.value[-1]
         if over or begin >= scene.t_end:
@@ -44,10 +44,3 @@ def event_in_time(path, label, moved, scene, settle, names):
         if begin < settle or end > scene.t_end:
             warnings.append(f"{told}, but {counted}: a part of the event does not count")
     return scene, tuple(warnings)
-
-
-def changing_time(history):
-    """First and last time [s] of the changes of a History that is not constant."""
-    first = int(np.argmax(history.value != history.value[0]))
-    last = len(history.t) - 1 - int(np.argmax(history.value[::-1] != history.value[-1]))
-    return float(history.t[first if history.hold else first - 1]), float(history.t[last + 1])

@@ -5,12 +5,27 @@ import numpy as np
 from ..base.errors import UserError
 from ..base.tables import Table
 
+NOISE = 0.01  # of the range of a column: values of the other sign up to it are none
+
+
+def edges_of(low, high, bins):
+    """Edges of the classes of a column from its extremes; no class has values of both signs, noise apart, because a load
+    or a speed and its opposite have no mean that stands for them.
+
+    >>> edges_of(-2.0, 4.0, 3).tolist(), edges_of(-1.0, 1.0, 1).tolist()
+    ([-2.0, 0.0, 2.0, 4.0], [-1.0, 0.0, 1.0])
+    """
+    if min(-low, high) <= NOISE * (high - low):
+        return np.linspace(low, high, bins + 1)
+    below = max(1, min(round(-bins * low / (high - low)), bins - 1))
+    return np.concatenate([np.linspace(low, 0.0, below + 1), np.linspace(0.0, high, max(1, bins - below) + 1)[1:]])
+
 
 def binned(path, time, columns, bins, gap=None):
     """Operating points of a measured record: each sample holds until the next one, and each class of values with
     samples becomes a point.
 
-    time, columns: Wanted; bins: of each column the number of equal classes between its extremes; gap: longest interval
+    time, columns: Wanted; bins: of each column the number of classes between its extremes, see edges_of; gap: longest interval
     [s] that a sample may hold, None: ten usual ones.  Returns the time spent in the classes [P] in s, their numbers along
     each column [P, columns], and the means and standard deviations of the values in them [P, columns] in SI.  The file is
     read twice, in pieces.
@@ -24,6 +39,8 @@ def binned(path, time, columns, bins, gap=None):
     if not np.all(high >= low):
         raise UserError(f"{path}: no samples")
     width = np.where(high > low, high - low, 1.0)
+    edges = [edges_of(*ends, count) for *ends, count in zip(low, high, bins, strict=True)]
+    bins = [len(ends) - 1 for ends in edges]
     spent, sums, squares = (
         np.zeros(np.prod(bins)),
         np.zeros((np.prod(bins), len(columns))),
@@ -33,8 +50,8 @@ def binned(path, time, columns, bins, gap=None):
     for _, block in table.blocks(time, *columns):
         whole = block if before is None else np.vstack([before, block])
         seconds, values = np.diff(whole[:, 0]), whole[:-1, 1:]
-        classes = np.minimum((np.asarray(bins) * (values - low) / width).astype(int), np.asarray(bins) - 1)
-        place = np.ravel_multi_index(classes.T, bins)
+        classes = [np.searchsorted(e[1:-1], v, side="right") for e, v in zip(edges, values.T, strict=True)]
+        place = np.ravel_multi_index(classes, bins)
         spent += np.bincount(place, seconds, minlength=len(spent))
         for i in range(len(columns)):
             shifted = (values[:, i] - low[i]) / width[i]  # squares of values that hardly differ would lose their digits

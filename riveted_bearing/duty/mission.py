@@ -18,7 +18,7 @@ from ..base.schema import checked
 from ..base.toml_files import read_toml
 from ..bearing.assumed import given_names
 from ..bearing.strength import assumed, in_words, read_strength
-from ..running.basis import basis
+from ..running.basis import basis, fast_speeds
 from ..running.effects import acts, without_effect
 from ..running.rainflow import fatigue_law
 from ..running.scene import own_names
@@ -112,7 +112,7 @@ def plan_mission(name, document, model, path):
         any(block.share is not None for block in file.point),
         str(model.path.resolve()),
         model.digest,
-        tuple(slow_warnings(parts, model)),
+        (*slow_warnings(parts, model), *fast_speeds(model, scenes)),
         cache(lambda: of_parts(model, parts, settings["cleanliness"])),
         cache(lambda: idle_settings(model, parts)),
     )

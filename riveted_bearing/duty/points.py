@@ -14,6 +14,8 @@ from .history import binned
 from .mission_file import HOURS, Point
 from .parts import part_of
 
+FORCES = ("shaft.F_x", "shaft.F_y", "shaft.F_z")
+WIDE = 0.1  # of the mean cube of a force: missed by wide classes of a record
 ROUNDED = 0.011  # by how much shares may miss 1, as three of 0.33 do
 MOST_CLASSES = 100_000  # of a record
 
@@ -144,11 +146,29 @@ def history_points(path, file, model):
     gap = None if section.longest_gap is None else 3600.0 * section.longest_gap
     wanted = [column for _, column, _ in columns.values()]
     spent, cells, means, spreads = binned(record, Wanted(section.time, SECONDS), wanted, bins, gap)
+    wide = wide_classes(columns, spent, means, spreads)
     hours = spent.sum() / 3600.0 if section.hours is None else section.hours
     for i, (seconds, cell, row, spread) in enumerate(zip(spent, cells, means, spreads, strict=True), 1):
         label = f"{record.name} class {i}"
         part = part_of(path, file, model, label, label, block_of(columns, row), hours * seconds / spent.sum())
-        yield replace(part, cell=tuple(cell.tolist()), means=tuple(row.tolist()), spreads=tuple(spread.tolist()))
+        warnings, wide = wide, ()
+        cell, row, spread = (tuple(each.tolist()) for each in (cell, row, spread))
+        yield replace(part, cell=cell, means=row, spreads=spread, warnings=warnings)
+
+
+def wide_classes(columns, spent, means, spreads):
+    """Sentences on columns of forces whose classes are too wide for the raceways' lives, which go with the third power of
+    the load and take the mean of each class: mean of F^3 = mu^3 + 3 mu sigma^2.
+    """
+    found = []
+    for name, mean, spread in zip(columns, np.abs(means.T), spreads.T, strict=True):
+        cubes = spent @ mean**3
+        if name in FORCES and 3.0 * spent @ (mean * spread**2) > WIDE * cubes > 0.0:
+            missed = 300.0 * spent @ (mean * spread**2) / cubes
+            found.append(
+                f"history.{name}: the means of its classes miss {missed:.2g} % of the mean of F^3, by which raceways live: more bins"
+            )
+    return tuple(found)
 
 
 def block_of(columns, row):

@@ -24,7 +24,7 @@ import numpy as np
 from ..base.errors import UserError, refusal, unknown
 from ..base.files import write_atomically
 from ..base.toml_files import leaves
-from ..base.units import to_si
+from ..base.units import check_alike, to_si
 from .assess import Runs, places
 from .blends import Case, loosened
 from .weibull import Weibull, fit_weibull
@@ -105,6 +105,10 @@ def distribution(path, name, entry, model):
             values.append(to_si(entry[key], allowed))
         except UserError as problem:
             raise refusal(path, f"{where}.{key}", entry[key], problem) from None
+    try:
+        check_alike([entry[key] for key in DISTRIBUTIONS[kind] if key != "factor"], scales)
+    except UserError as problem:
+        raise refusal(path, where, entry, problem) from None
     first, *rest = values
     if kind == "normal" and rest[0] > 0.0:
         return stats.norm(first, rest[0])

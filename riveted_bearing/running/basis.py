@@ -11,7 +11,9 @@ import numpy as np
 
 from ..base.errors import UserError, shortlist
 from ..bearing import oil as oils
+from ..bearing.plausible import fast
 from . import preload as preloads
+from .inputs import History
 from .scene import in_words
 
 if TYPE_CHECKING:
@@ -22,6 +24,7 @@ LOADS = (
     *("impact.F_r", "impact.F_a", "pulse.F_r", "pulse.F_a"),
 )
 SPEEDS = ("shaft.omega", "housing.omega", "frame.omega")
+LIQUID = (3e-4, 3.0)  # Pa.s: kerosene hot, ISO VG 460 near its pour point
 PARTS = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", "cage": "cage.T"}
 
 
@@ -45,6 +48,11 @@ def basis(model: Model, scenes: Any, curve: str = "") -> Any:
         *([("replaced", f"the scene has {shortlist(replaced)}")] if replaced else []),
         ("loads", loads(model, scenes)),
         ("speed", speeds(model, scenes)),
+        *(
+            [("not reached", "; ".join(late))]
+            if (late := list(dict.fromkeys(t for s in scenes for t in s.outside())))
+            else []
+        ),
         ("oil", oil(model, scenes)),
         ("temperatures", temperatures(model, scenes)),
         ("preload", preload(model, scenes)),
@@ -62,10 +70,15 @@ def accelerated(model, scenes):
 
 
 def values(model, scenes, name):
-    """All values that a parameter or an input has in the scenes, SI."""
+    """All values that a parameter or an input has in the runs of the scenes, SI."""
     own = model.default((model.parameters | model.inputs)[name])
     given = ((scene.parameters | scene.inputs).get(name, own) for scene in scenes)
-    return np.concatenate([np.atleast_1d(getattr(value, "value", value)) for value in given])
+    return np.concatenate(
+        [
+            value.reached(scene.t_end) if isinstance(value, History) else np.atleast_1d(value)
+            for scene, value in zip(scenes, given, strict=True)
+        ]
+    )
 
 
 def text(model, scenes, name):
@@ -93,12 +106,25 @@ def speeds(model: Model, scenes: Any) -> Any:
     )
 
 
+def fast_speeds(model: Model, scenes: Any) -> tuple[str, ...]:
+    """A sentence on the largest speed of the scenes if few ball bearings reach it."""
+    extreme = [
+        abs(one - other)
+        for scene in scenes
+        for one in extremes(values(model, [scene], "shaft.omega"))
+        for other in extremes(values(model, [scene], "housing.omega"))
+    ]
+    return tuple(fast(max(extreme, default=0.0), model.default(model.parameters["bearing.d_m"])))
+
+
 def oil(model, scenes):
     """Viscosity of the oil at its temperature, and a point of it that nobody gave beside one that is given."""
     found = {viscosity(model, scene, T) for scene in scenes for T in extremes(values(model, [scene], "oil.T"))}
     alone = dict.fromkeys(text for scene in scenes for text in point_assumed(model, scene))
     names = ", ".join(dict.fromkeys(filter(None, (scene.oil or oils.name_of(model.origin) for scene in scenes))))
     words = f"{in_words(model, 'oil.eta', list(found))} at {text(model, scenes, 'oil.T')}"
+    if not LIQUID[0] <= min(found) <= max(found) <= LIQUID[1]:
+        words += f" (few oils in bearings have less than {1e3 * LIQUID[0]:g} or more than {1e3 * LIQUID[1]:g} mPa.s)"
     return "; ".join([f"{names}, {words}" if names else words, *alone])
 
 

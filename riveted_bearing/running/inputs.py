@@ -8,7 +8,7 @@ import numpy as np
 from ..base import tables
 from ..base.errors import UserError, shortlist
 from ..base.toml_files import seconds
-from ..base.units import SECONDS, canonical, scale, symbol_of, to_si
+from ..base.units import SECONDS, canonical, check_alike, scale, symbol_of, to_si
 
 HISTORY = ("t", "value", "unit", "interpolation")
 COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
@@ -29,6 +29,19 @@ class History:
         if self.hold:
             return self.value[np.maximum(np.searchsorted(self.t, t, side="right") - 1, 0)]
         return np.interp(t, self.t, self.value)
+
+    def reached(self, end):
+        """The values that it has from 0 to the time `end` [s]."""
+        inside = self.value[(self.t > 0.0) & (self.t < end)]
+        return np.concatenate([inside, self(np.array([0.0, end]))])
+
+    def changing_time(self):
+        """First and last time [s] of its changes; None if it is constant."""
+        if np.ptp(self.value) == 0.0:
+            return None
+        first = int(np.argmax(self.value != self.value[0]))
+        last = len(self.t) - 1 - int(np.argmax(self.value[::-1] != self.value[-1]))
+        return float(self.t[first if self.hold else first - 1]), float(self.t[last + 1])
 
 
 def unit_of(value):
@@ -62,6 +75,8 @@ def from_points(value, scales):
     if not all(isinstance(value[key], (list, tuple, np.ndarray)) for key in ("t", "value")):
         raise UserError("t and value must be lists")
     factor, offset = scale(value["unit"], scales) if "unit" in value else (1.0, 0.0)
+    if "unit" not in value:
+        check_alike(value["value"], scales)
     si = [
         to_si(entry, scales) if isinstance(entry, str) else (to_si(entry, scales) - offset) / factor
         for entry in value["value"]

@@ -58,6 +58,17 @@ class Scene:
         """Communication steps per row of the result."""
         return round((self.output_interval or self.step) / self.step)
 
+    def outside(self):
+        """What of its inputs and changes lies outside the run and does not act, in words."""
+        for name, history in self.inputs.items():
+            begin, end = history.changing_time() or (0.0, 0.0)
+            if begin < 0.0 or end > self.t_end:
+                acts = "" if begin < self.t_end and end > 0.0 else "no change of it acts: "
+                yield f"{name} changes from {begin:g} s to {end:g} s, {acts}the run goes from 0 to {self.t_end:g} s"
+        for at, values in self.changes:
+            if at >= self.t_end:
+                yield f"{', '.join(values)} at {at:g} s, the run ends at {self.t_end:g} s"
+
     def communication_points(self):
         """0, step, 2 step ... t_end [s]; the last step may be shorter."""
         count = int(np.ceil(self.t_end / self.step * (1 - 1e-12)))

@@ -43,6 +43,7 @@ SEGMENTS = (16, 32, 64, 128, 256)  # samples of the short-time transforms
 FEWEST = 256  # samples
 FEWEST_BLOCKS = 16  # windows side by side in the signal, of which a kurtosis means something
 LOWEST = 0.01  # lower end of the band / rate
+NARROWEST = 4  # resolutions in a band whose envelope means something
 HARMONICS = 3
 ABOVE = 4.0  # a line stands out where its amplitude is this many times the median around it
 
@@ -108,11 +109,18 @@ def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any
     band = tuple(map(float, band)) if band else kurtosis_band(x, rate)
     if not 0.0 < band[0] < band[1] < 0.5 * rate:
         raise UserError(f"band = {band[0]:g} to {band[1]:g}: 0 < low < high < {0.5 * rate:g} is allowed, half the rate")
-    envelope = envelope_of(x, rate, band)
     frequency, amplitude = amplitude_spectrum(x, rate)
+    width, axis = band[1] - band[0], "orders" if orders else "Hz"
+    if width < NARROWEST * frequency[1]:
+        raise UserError(
+            f"band = {band[0]:g} to {band[1]:g} {axis}: at least {NARROWEST * frequency[1]:.3g} {axis} wide is allowed, {NARROWEST} "
+            "times the resolution of this run"
+        )
+    envelope = envelope_of(x, rate, band)
     envelope_frequency, of_envelope = amplitude_spectrum(envelope, rate)
     kinematic = kinematic_frequencies(result, speeds, orders)
-    lines = tuple(line_at(envelope_frequency, of_envelope, *line) for line in expected_lines(kinematic))
+    within = envelope_frequency <= width  # an envelope has no higher frequencies than its band is wide
+    lines = tuple(line_at(envelope_frequency[within], of_envelope[within], *line) for line in expected_lines(kinematic))
     unit = result.units.get(channel, "1")
     return Spectra(channel, unit, orders, frequency, amplitude, envelope_frequency, of_envelope, band, kinematic, lines)
 
@@ -128,7 +136,7 @@ def idle_settings(result: Result, found: Any) -> Any:
     model = Model(path)
     inputs = {n: History(np.asarray(of["t"]), np.asarray(of["value"]), of["hold"]) for n, of in about["inputs"].items()}
     own = {n: model.default(v) for n, v in model.parameters.items()}
-    parameters = {n: value for n, value in result.parameters.items() if n in own and value != own[n]}
+    parameters = {n: value for n, value in result.parameters.items() if n in own and (value != own[n] or n in names)}
     if set(names) - {*inputs, *parameters}:
         return [], math.inf
     scene = Scene(

@@ -18,7 +18,7 @@ from ..base.file_kinds import check_keys
 from ..base.schema import Choice, Count, Named, Section, Text, checked
 from ..base.shipped import shipped_scenes
 from ..base.toml_files import leaves, read_toml
-from ..base.units import SECONDS, to_si
+from ..base.units import SECONDS, check_alike, to_si
 from ..running.fmu import Model
 from ..running.scene import SIMULATION, load_scene
 
@@ -153,6 +153,11 @@ def values_of(path, name, value, model):
     if name not in known_names(model):
         raise unknown(path, "parameter, input or setting", name, known_names(model))
     if isinstance(value, list) and value:
+        variable = (model.parameters | model.inputs).get(name)
+        try:
+            check_alike(value, SETTINGS.get(name) or model.units[getattr(variable, "unit", None) or "1"])
+        except UserError as problem:
+            raise refusal(path, f"vary.{name}", value, problem) from None
         return value
     if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
         raise refusal(
@@ -181,6 +186,7 @@ def bounds(path: Path, name: str, pair: Any, model: Model) -> tuple[float, ...]:
     else:
         raise refusal(path, name, list(pair), "only real numbers have ranges: list the values instead")
     try:
+        check_alike(pair, scales)
         return tuple(to_si(value, scales) for value in pair)
     except UserError as problem:
         raise refusal(path, name, list(pair), problem) from None

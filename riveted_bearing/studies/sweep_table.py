@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
+LEGEND_LINE = 0.085  # height of a line of the legend, of that of the panel
 MOST_LINES = 5
 LARGEST = 60  # lines of the table on a terminal
 RESPONSES = (  # (title, unit, factor, column)
@@ -141,7 +142,7 @@ def lines(table: Any) -> Any:
 
 def cell(mean, half):
     """A mean and its half-width with the digits that these allow."""
-    return f"{mean:.4g}" if math.isnan(half) else f"{mean:.4g} ± {half:.2g}"
+    return f"{mean:.4g}" if math.isnan(half) else f"{mean:.4g} ± {float(f'{half:.2g}'):g}"
 
 
 def draw_response(ax, table, response):
@@ -158,7 +159,7 @@ def draw_response(ax, table, response):
         ]
         order = np.argsort(x)
         places, x = np.array(places)[order], np.array(x, float)[order]
-        label = ", ".join(value if isinstance(value, str) else f"{value:.4g}" for value in rest)
+        label = ", ".join(value if isinstance(value, str) else f"{value:.5g}" for value in rest)
         style = "o-" if numbers and len(groups) <= MOST_LINES else "o"
         ax.errorbar(
             x,
@@ -178,7 +179,8 @@ def draw_response(ax, table, response):
     )
     ax.margins(x=0.06, y=0.12)
     if 1 < len(groups) <= MOST_LINES:
-        ax.legend(title=", ".join(table.factors[1:]), title_fontsize=8)
+        ax.set_ylim(top=ax.get_ylim()[1] + LEGEND_LINE * (2 + (len(groups) - 1) // 3) * np.ptp(ax.get_ylim()))
+        ax.legend(title=", ".join(table.factors[1:]), title_fontsize=8, ncols=3, loc="upper left")
 
 
 def colours(count):

@@ -4,7 +4,7 @@ cage_substeps.c, which has the equations.
     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 
 a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads
-of balls on walls, which follow the walls.
+of balls on walls, which follow the walls and move both modes and halves.
 Coordinates here are those of the modes, S and D side by side [2, n], and relative rigid motions of the halves [6]: x,
 about y, about z, y, z, spin.
 """
@@ -188,6 +188,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, w):
     slow, speed, moved = between_halves(model, h0, halves(f, CAGE_RATES)), np.zeros(6), np.zeros(6)
     loads, held, modes = WallLoads(model, h, fast, f, state, y, q, w), slow_modes, fast.modes
     gyro = float(d.J_p / d.J_t * 0.5 * np.sum([half.s for half in w.half]))
+    push, pushed, way = np.zeros((3, 6, 2))  # of the halves by changes of the loads on walls
     P, k_in = cage_elastic_preload(model, memory.omega_2), cage_elastic_stiffness(model)
 
     # the joints at the step's start; their velocities by modes and relative rigid motions, and those by the slow motion
@@ -213,7 +214,10 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, w):
         speed = speed + 0.5 * sub * rigid
         turn(0.5 * gyro * sub, speed)
         halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
-        relative = add_spin(spin, time, middle, slow, halfway, speed + time * slow)
+        pushed = pushed + 0.5 * sub * push
+        way = way + sub * pushed
+        relative = between_halves(model, h0, pushed) + speed + time * slow
+        relative = add_spin(spin, time, middle, slow, halfway, relative)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
         joints.e = joints.e + 0.5 * sub * (middle_out + by_out)
@@ -221,7 +225,8 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, w):
         u = u + sub * across
         slip.before = cage_joint_follow(sub, across, y)
         y[WORK] -= sub * model.p.cage.m * np.sum(half.damping * v_m**2)
-        held = slow_modes + loads.accelerations(step * sub, q, to_halves(model, h0, moved))
+        more, push = loads.accelerations(step * sub, q, to_halves(model, h0, moved) + way)
+        held = slow_modes + more
 
         # accelerations there, of which the second half
         cage_elastic_loads(model, P, joints)
@@ -230,17 +235,18 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, w):
         rigid = turn_out(spin * (step * sub - 0.5 * h), rigid)
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
+        pushed = pushed + 0.5 * sub * push
         if films.follows.any():
-            v = v + films.follow(step * sub, v, to_halves(model, h0, speed), last=step == steps)
+            v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed, last=step == steps)
     slip.before = np.array([y[row] for row in STATES])
-    for blocks, change in ((CAGE_PLACES, moved), (CAGE_RATES, speed)):
-        for block, rows in zip(blocks, to_halves(model, h0, change), strict=True):
+    for blocks, change, more in ((CAGE_PLACES, moved, way), (CAGE_RATES, speed, pushed)):
+        for block, rows in zip(blocks, to_halves(model, h0, change) + more, strict=True):
             y[block] += rows
     for blocks, x in (((MODE_S, MODE_D), q), ((MODE_S_DOT, MODE_D_DOT), v)):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
     slip.way = u - fast.u
-    return held, to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])), slip
+    return held, push + to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])), slip
 
 
 def add_rates(model, change, y):

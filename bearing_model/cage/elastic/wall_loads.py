@@ -2,8 +2,8 @@
 
     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q = x,  Q = K delta^1.5
 
-r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: what the modes and the relative
-motions d by the joints have moved the wall.
+r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: what the modes and the
+motions d of the halves, by their joints and by the changes of these loads, have moved the wall.
 """
 
 from dataclasses import dataclass
@@ -80,6 +80,7 @@ class WallLoads:
 
     def __init__(self, model, h, fast, f, state, y, q, w):
         self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
+        self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
         for i, rows in enumerate(fast.touch):
             touch = dict(zip(TOUCH, rows, strict=True))
             if not np.any(touch["K"] > 0.0):
@@ -116,14 +117,15 @@ class WallLoads:
             delta = max(delta - (delta + cK * delta**1.5 - x) / (1.0 + 1.5 * cK * np.sqrt(delta)), 0.0)
         return load.K * delta**1.5
 
-    def accelerations(self, t, q, by_joints):
-        """Of the modes [2, n] by the changes of the loads at the time t of the step, at the coordinates q and motions of the halves
-        [6, 2] by the fast accelerations.
+    def accelerations(self, t, q, moved):
+        """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads at the time t of the step, at the coordinates q and
+        motions of the halves [6, 2] by the fast accelerations and by these.
         """
-        change = np.zeros_like(q)
+        change, force = np.zeros_like(q), np.zeros_like(moved)
         for load in self.loads:
             x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
-            x = x - (np.sum(load.shape * q) - load.start) - load.along @ by_joints[:, load.half]
-            Q = load.damped * self.at(load, x)
-            change = change + (Q - load.Q) / self.m * load.shape
-        return change
+            x = x - (np.sum(load.shape * q) - load.start) - load.along @ moved[:, load.half]
+            more = load.damped * self.at(load, x) - load.Q
+            change = change + more / self.m * load.shape
+            force[:, load.half] += more * load.along
+        return change, force / self.inertia[:, None]

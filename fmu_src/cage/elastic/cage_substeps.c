@@ -78,14 +78,13 @@ static void to_halves(const Model *model, const Rotor *h0, double h, const doubl
 }
 
 // The relative motions at the joints by rates f of both halves: the inverse of to_halves.
-static void between_halves(const Model *model, const Rotor *h0, const double *f,
+static void between_halves(const Model *model, const Rotor *h0, const double f[CAGE_MOTIONS],
                            double relative[RELATIVE_MOTIONS])
 {
     const double *b_y = h0->b_y, *b_z = h0->b_z, c_x = model->d->com_x[1], e = model->d->com_e;
     double d[6];
-    for (int i = 0; i < 6; i++) d[i] = f[Y_CAGE_V_X + 2 * i + 1] - f[Y_CAGE_V_X + 2 * i];
-    const double beta = f[Y_CAGE_BETA_DOT] + f[Y_CAGE_BETA_DOT + 1],
-                 gamma = f[Y_CAGE_GAMMA_DOT] + f[Y_CAGE_GAMMA_DOT + 1];
+    for (int i = 0; i < 6; i++) d[i] = f[2 * i + 1] - f[2 * i];
+    const double beta = f[6] + f[7], gamma = f[8] + f[9];
     relative[MOTION_ABOUT_Y] = b_y[1] * d[3] + b_y[2] * d[4];
     relative[MOTION_ABOUT_Z] = b_z[1] * d[3] + b_z[2] * d[4];
     relative[MOTION_X] = d[0] + e * relative[MOTION_ABOUT_Z];
@@ -289,11 +288,13 @@ static void turn(double t, double rates[RELATIVE_MOTIONS])
 }
 
 // Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
-static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS], bool last,
-                         RimFilmsStep *films, double *v, const Work *w)
+static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS],
+                         const double pushed[CAGE_MOTIONS], bool last, RimFilmsStep *films, double *v,
+                         const Work *w)
 {
     double halves[2 * RELATIVE_MOTIONS] = {0.0};
     to_halves(model, &w->half[0], 1.0, speed, 0, halves);
+    for (int i = 0; i < CAGE_MOTIONS; i++) halves[i] += pushed[i];
     rim_films_follow(model, w, t, v, halves, last, v, films);
 }
 
@@ -307,6 +308,8 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
     double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
     double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
+    double push[CAGE_MOTIONS] = {0.0}, pushed[CAGE_MOTIONS] = {0.0},
+           way[CAGE_MOTIONS] = {0.0};  // by changes of the loads on walls
     JointVelocities middle;
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
@@ -327,7 +330,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     turn_out(-0.5 * s * h, rigid);
     cage_elastic_preload(model, fast->omega_2, P);
     rigid_velocities(model, w, &middle);
-    between_halves(model, &w->half[0], f, slow);
+    between_halves(model, &w->half[0], &f[Y_CAGE_V_X], slow);
     half_damping(half, sub, &damping);
     wall_loads_find(model, h, fast, f, state, y, w, &loads);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
@@ -340,12 +343,19 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         turn(0.5 * gyro * sub, speed);
         const double time = (step - 0.5) * sub - 0.5 * h;  // after the middle
-        double halfway[RELATIVE_MOTIONS];
+        double halfway[RELATIVE_MOTIONS], by_loads[RELATIVE_MOTIONS] = {0.0};
         for (int i = 0; i < RELATIVE_MOTIONS; i++) {
             halfway[i] = moved[i] + 0.5 * sub * speed[i];
             moved[i] += sub * speed[i];
-            relative[i] = speed[i] + time * slow[i];
         }
+        if (loads.count > 0) {
+            for (int i = 0; i < CAGE_MOTIONS; i++) {
+                pushed[i] += 0.5 * sub * push[i];
+                way[i] += sub * pushed[i];
+            }
+            between_halves(model, &w->half[0], pushed, by_loads);
+        }
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) relative[i] = by_loads[i] + (speed[i] + time * slow[i]);
         add_spin(s, time, &middle, slow, halfway, relative);
         ball_array out[3], in[2];
         cage_elastic_out(half, v_m, out);
@@ -355,7 +365,12 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         cage_joint_follow(sub, joints.v_y, joints.v_z, y);
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
-        wall_loads_follow(model, step * sub, q, moved, &loads, foreseen->modes);
+        if (loads.count > 0) {
+            double halves[CAGE_MOTIONS];
+            memcpy(halves, way, sizeof way);
+            to_halves(model, &w->half[0], 1.0, moved, 0, halves);
+            wall_loads_follow(model, step * sub, q, halves, &loads, foreseen->modes, push);
+        }
 
         // accelerations there, of which the second half
         cage_elastic_loads(model, P, &joints);
@@ -366,7 +381,8 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         turn_out(s * (step * sub - 0.5 * h), rigid);
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
-        if (films) films_follow(model, step * sub, speed, step == steps, films, v, w);
+        for (int i = 0; i < CAGE_MOTIONS; i++) pushed[i] += 0.5 * sub * push[i];
+        if (films) films_follow(model, step * sub, speed, pushed, step == steps, films, v, w);
     }
     memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);
     for (int k = 0; k < LANES; k++) {
@@ -375,8 +391,12 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     }
     const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
                                              [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};
-    memset(foreseen->halves, 0, sizeof foreseen->halves);
+    memcpy(foreseen->halves, push, sizeof push);
     to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
+    for (int i = 0; i < CAGE_MOTIONS; i++) {
+        y[Y_CAGE_X + i] += way[i];
+        y[Y_CAGE_V_X + i] += pushed[i];
+    }
 }

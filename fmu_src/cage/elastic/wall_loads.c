@@ -5,13 +5,14 @@
 // step would find a wall that knows nothing of it.  So the approach of ball and wall follows,
 //
 //     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t)   r, b: rate in the middle of the step and acceleration of the rigid
-//                                                        approach by slow forces; u, g.d: what the modes and the relative
-//                                                        motions d by the joints have moved the wall since the start
+//                                                        approach by slow forces; u, g.d: what the modes and the motions d of
+//                                                        the halves, by their joints and by these loads, have moved the wall
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
-// and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The rigid bodies move here as velocity
-// Verlet moves them: after the step x is where the evaluation finds it.  x_0 < 0 before a contact.  Direction and
-// place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
+// and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The halves' bodies feel what the loads have changed by since the
+// start too: a load that moved the modes alone within the step would do work on a ribbon's light halves that it does not
+// do on the balls, and feed vibrations of 20 kHz in steps of 12 us.  So after the step x is where the evaluation finds it.  x_0 < 0
+// before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
 #include "cage/elastic/elastic_half.h"
@@ -52,29 +53,8 @@ static void add_forces(const WallLoads *loads, const wall_load_array force, doub
 // Rates and accelerations of the balls of a packet against half h along the contacts' normals, both as rigid bodies.
 typedef struct {
     scalar rate[LANE_WIDTH], acceleration[LANE_WIDTH];
-    scalar relative[RELATIVE_MOTIONS][LANE_WIDTH];  // motion of the half by relative motions at the joints
+    scalar along[RELATIVE_MOTIONS][LANE_WIDTH];  // motion along the normal by velocities of the half
 } RigidApproach;
-
-// Motions along n by the relative motions at the joints, of a place given from a half's centre of mass (to_halves of cage_substeps.c).
-INLINE void relative_approach(const Model *model, const Work *w, int h, wide cosine, wide sine, vec n,
-                              vec from_mass, RigidApproach *to)
-{
-    const RelativeInertia *inertia = &model->d->relative;
-    const Rotor *h0 = &w->half[0];
-    const double axis_y[3] = {0.0, h0->b_y[1], h0->b_y[2]}, axis_z[3] = {0.0, h0->b_z[1], h0->b_z[2]};
-    const vec b_y = vec_local(axis_y, cosine, sine), b_z = vec_local(axis_z, cosine, sine);
-    const vec turn = vec_cross(from_mass, n);
-    const wide part = wide_set(h == 0 ? -0.5 : 0.5), across = inertia->part * part,
-               tilt = wide_set(inertia->tilt);
-    const wide about_y = vec_dot(turn, b_y), about_z = vec_dot(turn, b_z), e = wide_set(model->d->com_e);
-    const wide by_z = across * vec_dot(n, b_z) + tilt * about_y;
-    wide_store(to->relative[MOTION_X], part * n.x);
-    wide_store(to->relative[MOTION_ABOUT_Y], part * about_y);
-    wide_store(to->relative[MOTION_ABOUT_Z], part * (about_z - e * n.x));
-    wide_store(to->relative[MOTION_ACROSS_Y], across * vec_dot(n, b_y) - tilt * about_z);
-    wide_store(to->relative[MOTION_ACROSS_Z], by_z);
-    wide_store(to->relative[MOTION_SPIN], part * turn.x + e * by_z);
-}
 
 static void rigid_approach(const Model *model, double gamma, const FastState *fast, const double *f,
                            const double *state, const double *y, const Work *w, int h, int j,
@@ -111,7 +91,8 @@ static void rigid_approach(const Model *model, double gamma, const FastState *fa
     const vec ball = {wide_load(&f[Y_BALL_V_X + j]), wide_load(&f[Y_BALL_V_R + j]) - r * omega * omega,
                       r * wide_load(&f[Y_BALL_OMEGA_M + j]) + 2.0 * v_r * omega};
     wide_store(to->acceleration, vec_dot(n, vec_sub(ball, vec_add(vec_local(moved, cosine, sine), by_turn))));
-    relative_approach(model, w, h, cosine, sine, n, from_mass, to);
+    vec_to_global(n, cosine, sine, to->along[0], to->along[1], to->along[2]);
+    vec_to_global(vec_cross(from_mass, n), cosine, sine, to->along[5], to->along[3], to->along[4]);
 }
 
 // The motion along the normal by each mode of the wall that ball k presses: that of the evaluation at this place, or found again.
@@ -155,7 +136,10 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
     loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
     loads->damped[i] = pressed ? fmin(Q / Q_0, MOST_DAMPED) : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
     loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane];
-    for (int m = 0; m < RELATIVE_MOTIONS; m++) loads->relative[m][i] = approach->relative[m][lane];
+    for (int m = 0; m < RELATIVE_MOTIONS; m++) {
+        loads->along[2 * m + half][i] = approach->along[m][lane];
+        loads->along[2 * m + 1 - half][i] = 0.0;
+    }
     return true;
 }
 
@@ -187,7 +171,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
         loads->K[i] = loads->damped[i] = loads->x[i] = loads->Q[i] = 0.0;
         loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
-        for (int m = 0; m < RELATIVE_MOTIONS; m++) loads->relative[m][i] = 0.0;
+        for (int m = 0; m < CAGE_MOTIONS; m++) loads->along[m][i] = 0.0;
     }
 }
 
@@ -204,22 +188,27 @@ INLINE wide loads_at(const WallLoads *loads, int i, wide x)
     return wide_load(&loads->damped[i]) * K * delta * wide_sqrt(delta);
 }
 
-void wall_loads_follow(const Model *model, double t, const double *q,
-                       const double by_joints[RELATIVE_MOTIONS], const WallLoads *loads,
-                       double slow[2 * N_MODES])
+void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
+                       const WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
 {
     const double bend = t * (0.5 * t - loads->middle);
-    wall_load_array change, moved;
-    memset(moved, 0, sizeof moved);
-    wall_motions(loads, q, moved);
+    wall_load_array force, by_modes;
+    memset(by_modes, 0, sizeof by_modes);
+    wall_motions(loads, q, by_modes);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
         const wide way =
             wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
-        wide u = wide_load(&moved[i]) - wide_load(&loads->from[i]);
-        for (int m = 0; m < RELATIVE_MOTIONS; m++)
-            u = wide_fma(wide_load(&loads->relative[m][i]), wide_set(by_joints[m]), u);
+        wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
+        for (int m = 0; m < CAGE_MOTIONS; m++)
+            u = wide_fma(wide_load(&loads->along[m][i]), wide_set(moved[m]), u);
         const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u);
-        wide_store(&change[i], (Q - wide_load(&loads->Q[i])) / model->p->cage.m);
+        wide_store(&force[i], Q - wide_load(&loads->Q[i]));
     }
-    add_forces(loads, change, slow, &slow[N_MODES]);
+    for (int m = 0; m < CAGE_MOTIONS; m++) {
+        double sum = 0.0;
+        for (int i = 0; i < loads->count; i++) sum += force[i] * loads->along[m][i];
+        push[m] = sum / model->d->inertia[Y_CAGE_V_X + m];
+    }
+    for (int i = 0; i < loads->count; i++) force[i] /= model->p->cage.m;
+    add_forces(loads, force, slow, &slow[N_MODES]);
 }

@@ -9,16 +9,19 @@ enum { WALL_LOADS = (2 * Z + 7) / 8 * 8 };  // room for packets
 // Relative rigid motions of the halves at the joints.
 enum { MOTION_X, MOTION_ABOUT_Y, MOTION_ABOUT_Z, MOTION_ACROSS_Y, MOTION_ACROSS_Z, MOTION_SPIN };
 
+// Rigid motions of both halves, in the order of their velocities in the state.
+enum { CAGE_MOTIONS = 2 * RELATIVE_MOTIONS };
+
 typedef double wall_load_array[WALL_LOADS];
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
-    int count, of_0;                     // all, those of half 0, which come first
-    double middle, c;                    // of the step [s]; compliance of the walls beside their modes
-    wall_load_array K, damped, Q;        // law K delta^1.5 times `damped`, load at the step's start
-    wall_load_array x, from;             // approach and motion of the wall at the step's start
-    wall_load_array rate, acceleration;  // of the rigid approach, in the middle of the step and at its start
-    wall_load_array relative[RELATIVE_MOTIONS];  // motion of the half along the normal by those at the joints
+    int count, of_0;                      // all, those of half 0, which come first
+    double middle, c;                     // of the step [s]; compliance of the walls beside their modes
+    wall_load_array K, damped, Q;         // law K delta^1.5 times `damped`, load at the step's start
+    wall_load_array x, from;              // approach and motion of the wall at the step's start
+    wall_load_array rate, acceleration;   // of the rigid approach, in the middle of the step and at its start
+    wall_load_array along[CAGE_MOTIONS];  // motion along the normal by those of the halves
     mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
 
@@ -28,9 +31,8 @@ typedef struct {
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
-// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step.  q: coordinates there,
-// by_joints: relative motions by the fast accelerations.
+// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step, and writes those of the halves.  q: coordinates there,
+// moved: rigid motions of the halves by the fast accelerations and by these.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
-void wall_loads_follow(const Model *model, double t, const double *q,
-                       const double by_joints[RELATIVE_MOTIONS], const WallLoads *loads,
-                       double slow[2 * N_MODES]);
+void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
+                       const WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
