@@ -1,6 +1,5 @@
 """Rows of a table as its file has them: text, Parquet, Excel sheets."""
 
-import codecs
 import csv
 import re
 from datetime import date, datetime, time, timedelta
@@ -8,6 +7,7 @@ from itertools import islice, pairwise
 
 import numpy as np
 
+from .encodings import encoding_of
 from .errors import UserError, extra
 from .heads import split_head
 from .stamps import Stamps, is_stamp, may_turn, month_is_first, parse
@@ -16,13 +16,6 @@ from .units import is_unit
 BLOCK = 65536  # rows that are read together
 SAMPLE = 60  # rows that decide on the separator
 SEPARATORS = ("\t", ";", "|", ",", None)  # None: spaces
-MARKS = {
-    codecs.BOM_UTF8: "utf-8-sig",
-    codecs.BOM_UTF32_LE: "utf-32",
-    codecs.BOM_UTF32_BE: "utf-32",
-    codecs.BOM_UTF16_LE: "utf-16",
-    codecs.BOM_UTF16_BE: "utf-16",
-}
 MISSING = ("", "-", "--", "nan", "na", "n/a", "null", "none", "#n/a", "#nv", "#div/0!", "#value!", "#wert!", "?", "nat")
 GROUPS = re.compile(r"[ '’\u00a0\u202f](?=\d{3}(?!\d))")  # thousands
 PLAIN = r"[+-]?[1-9]\d{0,2}"
@@ -265,47 +258,6 @@ def with_point(text):
     if not is_number(plain) or not sign_of(plain):
         return text
     return (plain.replace(".", "") if GROUPED["."].fullmatch(plain) else plain).replace(",", ".")
-
-
-def encoding_of(path, start):
-    """UTF-8, UTF-16 or UTF-32 by the mark of the byte order or its zeros, else Latin-1 as Windows writes it."""
-    for mark, encoding in MARKS.items():
-        if start.startswith(mark):
-            return checked(path, encoding)
-    if len(start) > 3 and start[1:2] == b"\0" and start[:1] != b"\0":
-        return checked(path, "utf-16-le")
-    if len(start) > 3 and start[:1] == b"\0" and start[1:2] != b"\0":
-        return checked(path, "utf-16-be")
-    if b"\0" in start:
-        raise UserError(f"{path}: not a CSV table: it holds bytes that are no text")
-    for encoding in ("utf-8", "cp1252"):
-        try:
-            decode(path, encoding)
-            return encoding
-        except UnicodeDecodeError:
-            pass
-    return "latin-1"
-
-
-def checked(path, encoding):
-    """An encoding if all of the file has it; UserError naming the row where it ends."""
-    try:
-        decode(path, encoding)
-    except UnicodeDecodeError:
-        row = 1
-        with path.open(encoding=encoding, errors="replace") as file:
-            row = next((number for number, line in enumerate(file, 1) if "\ufffd" in line), 1)
-        raise UserError(f"{path}: row {row}: bytes that are no {encoding.upper()} text: the file is damaged") from None
-    return encoding
-
-
-def decode(path, encoding):
-    """UnicodeDecodeError unless all of a file is text of an encoding."""
-    decoder = codecs.getincrementaldecoder(encoding)()
-    with path.open("rb") as file:
-        while piece := file.read(1 << 20):
-            decoder.decode(piece)
-    decoder.decode(b"", final=True)
 
 
 class ParquetRows:
