@@ -23,7 +23,8 @@ from rivet_model.geometry import Geometry
 from riveted_bearing import Result, UserError, read_result, run, write_result
 from riveted_bearing.base.files import FORMATS, write_atomically
 from riveted_bearing.base.toml_files import to_toml
-from riveted_bearing.bearing.bearing_file import KEYS, bearing_case
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.bearing_keys import BearingFile
 from riveted_bearing.bearing.designations import find_bearing, shipped_bearings
 from riveted_bearing.bearing.file_values import flat
 from riveted_bearing.building.builder import start_document
@@ -386,7 +387,7 @@ def test_info_says_that_nothing_follows_from_a_scene(tmp_path):
     assert "read as a scene" not in said and "73.14, 59.84, 18.46" in said
 
 
-@pytest.mark.parametrize("key", sorted(set(KEYS) - set(SceneFile.model_fields)))
+@pytest.mark.parametrize("key", sorted(set(BearingFile.model_fields) - set(SceneFile.model_fields)))
 def test_any_key_of_a_bearing_file_makes_it_one(tmp_path, key):
     """Without designation, Z and sizes too: what only a bearing file has is not an unknown key of a scene."""
     path = tmp_path / "mine.toml"

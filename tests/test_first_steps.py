@@ -149,7 +149,7 @@ def test_the_libraries_of_a_run_are_the_few(fmu):
     """What pyproject.toml requires without an extra is what the test above leaves."""
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     names = [re.match(r"[\w-]+", text)[0] for text in project["dependencies"]]
-    assert names == ["fmpy", "numpy", "typer", "rich"]
+    assert names == ["fmpy", "numpy", "pydantic", "typer", "rich"]
     full = {re.match(r"[\w-]+", text)[0] for text in project["optional-dependencies"]["build"]}
     assert {{"skfem": "scikit-fem", "distributed": "dask"}.get(name, name) for name in FULL} <= full
 

@@ -142,7 +142,7 @@ def test_a_table_of_ones_own(tmp_path):
         ('[rivet]\nhead = "DIN 999"\nshank_diameter = "2 mm"\n', ['unknown rivet.head "DIN 999"']),
         ('[rivet]\nhead = "DIN 660"\n', ["rivet.head = 'DIN 660'", "rivet.shank_diameter is needed"]),
         ('[rivet]\nhead = "DIN 660"\nshank_diameter = "2.2 mm"\n', ["shanks of", "rivet.shank_diameter = 2.2 mm"]),
-        ('[rivet]\nE_flange = "200 GPa"\n', ['unknown rivet key "E_flange"']),
+        ('[rivet]\nE_flange = "200 GPa"\n', ['unknown key "rivet.E_flange"']),
     ],
 )
 def test_what_cannot_be_used_is_refused_by_name(tmp_path, text, words):

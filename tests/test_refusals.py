@@ -40,6 +40,34 @@ READERS = {  # of a document, which reads the file itself where the program can 
     "identify": plan_identify,
 }
 CHANGED = {  # old message: new one
+    # The name of the section made keys look alike that are not.
+    'FILE: unknown key "sample."; did you mean "sample.seed"?': (
+        'FILE: unknown key "sample."; allowed: sample.method, sample.count, sample.seed, sample.between'
+    ),
+    'FILE: unknown key "history."; did you mean "history.time"?': (
+        'FILE: unknown key "history."; allowed: history.file, history.inputs, history.parameters, history.time, '
+        "history.hours, history.longest_gap"
+    ),
+    'FILE: unknown key "preload_loss.a"; did you mean "preload_loss.factor"?': (
+        'FILE: unknown key "preload_loss.a"; allowed: preload_loss.hours, preload_loss.factor'
+    ),
+    'FILE: unknown key "table.a"; did you mean "table.file"?': (
+        'FILE: unknown key "table.a"; allowed: table.file, table.inputs, table.parameters, table.hours'
+    ),
+    'FILE: unknown key "screen.points"; did you mean "screen.count"?': (
+        'FILE: unknown key "screen.points"; allowed: screen.method, screen.count, screen.trajectories, screen.levels'
+    ),
+    'FILE: unknown catalogue key ""; allowed: bore, outside_diameter, width, C, C_0, C_u, minimum_load, clearance': (
+        'FILE: unknown key "catalogue."; allowed: catalogue.bore, catalogue.outside_diameter, catalogue.width, catalogue.C, '
+        "catalogue.C_0, catalogue.C_u, catalogue.minimum_load, catalogue.clearance"
+    ),
+    'FILE: unknown rivet key "E_flange"; allowed: shank_diameter, head_diameter, head_height, fillet_radius, relief_radius, '
+    "relief_depth, edge_break, flange_thickness, patch_radius, middle_zone, T_0, seat_diameter, ... (23 in all)": (
+        'FILE: unknown key "rivet.E_flange"; allowed: rivet.shank_diameter, rivet.head_diameter, rivet.head_height, '
+        "rivet.fillet_radius, rivet.relief_radius, rivet.relief_depth, rivet.edge_break, rivet.flange_thickness, "
+        "rivet.patch_radius, rivet.middle_zone, rivet.T_0, rivet.seat_diameter, ... (23 in all)"
+    ),
+    # Keys that events and points have in common come first.
     'FILE: event 1: unknown key ""; allowed: name, count, after_settle, preload_factor, scene, simulation, parameters, inputs': (
         'FILE: event 1: unknown key ""; allowed: name, preload_factor, scene, simulation, parameters, inputs, count, after_settle'
     ),

@@ -15,6 +15,7 @@ import riveted_bearing as rb
 from riveted_bearing import UserError
 from riveted_bearing.bearing.assumed import assumed_ranges
 from riveted_bearing.design.cascade import Cascade, State, run_single
+from riveted_bearing.duty.mission_file import MissionFile
 from riveted_bearing.duty.notes import oil_in_pockets
 from riveted_bearing.duty.oil_range import FILLING, plan_ends
 from riveted_bearing.running.fmu import Model
@@ -39,7 +40,8 @@ def test_both_ends_of_the_oil_are_planned(tmp_path):
     """--oil-range and the note of a life: a ribbon's pockets have a film as those of a machined cage."""
     (tmp_path / "m.toml").write_text(COMMON + POINTS, encoding="utf-8")
     document = tomllib.loads((tmp_path / "m.toml").read_text(encoding="utf-8"))
-    mission = SimpleNamespace(path=tmp_path / "m.toml", document=document, name="m", cases=())
+    file = MissionFile(**document)
+    mission = SimpleNamespace(path=tmp_path / "m.toml", document=document, file=file, name="m", cases=())
     ends = plan_ends(mission, Ribbon({}))
     assert [ends[end].cases[0].scene.parameters[FILLING] for end in ("dry", "flooded")] == [0.0, 1.0]
     assert "--oil-range" in oil_in_pockets(mission, Ribbon({}))

@@ -129,7 +129,7 @@ WRONG = {
     "summary none.toml": ["none.toml"],
     "compare-designs none.fmu --mission none.toml": ["none"],
     "cookbook nothing": ["nothing"],
-    "rivet nothing.toml": ['unknown rivet key "shank"', "shank_diameter"],
+    "rivet nothing.toml": ['unknown key "shank"', "shank_diameter"],
     "rivet count.toml": ["count.toml: Z = 9.5", "an integer from 5 to 32"],
     "rivet narrow.toml": ["cage_outer_diameter = '2.1 inch'", "at least 2.226 in is allowed"],
     "rivet none.json": ["none.json", "No such file"],

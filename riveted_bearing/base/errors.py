@@ -18,13 +18,16 @@ class UserError(ValueError):
     """
 
 
-def unknown(where: Any, kind: Any, name: str, allowed: Any) -> UserError:
-    """The error for a name that is not among those allowed, with the nearest one if there is any."""
+def unknown(where: Any, kind: Any, name: str, allowed: Any, prefix: str = "") -> UserError:
+    """The error for a name that is not among those allowed, with the nearest one if there is any; prefix: of all these
+    names, which does not make them alike.
+    """
     bracketed = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", str(name))  # rivet.3.intact is rivet[3].intact
     near = [bracketed] if bracketed in allowed else get_close_matches(bracketed, list(allowed), n=1, cutoff=0.6)
-    hint = f'did you mean "{near[0]}"?' if near else f"allowed: {shortlist(allowed)}"
+    listed = shortlist([f"{prefix}{one}" for one in allowed]) if prefix else shortlist(allowed)
+    hint = f'did you mean "{prefix}{near[0]}"?' if near else f"allowed: {listed}"
     hint = INSTEAD.get(bracketed, hint)
-    return UserError(f'{where}: unknown {kind} "{name}"; {hint}')
+    return UserError(f'{where}: unknown {kind} "{prefix}{name}"; {hint}')
 
 
 def is_file(path: str | Path) -> bool:

@@ -165,7 +165,7 @@ def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault:
             prefix = f"{prefix}.{step}".lstrip(".")
     full = prefix if isinstance(key, int) else f"{prefix}.{key}".lstrip(".")  # an entry of a list is the list's
     if fault["type"] == "extra_forbidden":
-        return unknown(place, "key", full, [f"{prefix}.{name}".lstrip(".") for name in keys_at(kind, above)])
+        return unknown(place, "key", key, keys_at(kind, above), f"{prefix}." if prefix else "")
     if fault["type"] == "missing":
         about = field_at(kind, [*above, key]).description
         return UserError(f"{place}: {full} is needed{f': {about}' if about else ''}")

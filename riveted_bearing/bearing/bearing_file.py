@@ -29,17 +29,16 @@ from bearing_model.load_ratings import dynamic_rating, static_rating
 
 from ..base.errors import UserError, refusal, unknown
 from ..base.file_kinds import check_keys
+from ..base.schema import checked
 from ..base.toml_files import read_toml, section_of
 from . import catalogue, materials, oil, ribbon, rivet_heads, scaling, seats
+from .bearing_keys import RIVET_MATERIAL, RIVET_SIZES, BearingFile, RivetFile
 from .case import Case
 from .designations import find_bearing, shipped_bearings, unknown_designation
-from .file_values import BOUNDARY, CATALOGUE, catalogue_values, defaults, flat, rivet_values, shown, start_values
+from .file_values import BOUNDARY, CATALOGUE, defaults, flat, shown, start_values
 from .origin import EXAMPLE, SOURCE
-from .rules import CAGES, RIVET, SHAPE, check_guidance, check_limits, in_cage, rules
+from .rules import CAGES, SHAPE, check_guidance, check_limits, in_cage, rules
 
-KEYS = ("designation", "description", "Z", "oil", "catalogue", "parameters", *materials.PARTS, "inputs")
-RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
-RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
 CAGE_MEANT = (
     "Meant with a machined two-piece riveted cage, guided by the outer ring; for the pressed ribbon cage that many bearings "
     "of this designation carry add --cage ribbon"
@@ -148,15 +147,13 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages; usual:
     parts whose material follows from the cage's shape.
     """
-    check_keys(path, document, KEYS, "bearing file")
+    check_keys(path, document, BearingFile.model_fields, "bearing file")
+    file = checked(BearingFile, document | {"rivet": {}}, path)
+    rivet = checked(RivetFile, section_of(path, document, "rivet"), path, prefix.removesuffix("."))
     designation = str(document["designation"])
     entry = catalogue.entries().get(designation) if own != "shipped" else None
-    Z = document.get("Z")
-    if Z is not None and (isinstance(Z, bool) or not isinstance(Z, int) or not 5 <= Z <= 32):
-        raise refusal(path, "Z", Z, "allowed: an integer from 5 to 32")
-    numbers = dict(section_of(path, document, "catalogue"))
-    play = numbers.pop("clearance", None)
-    data = dict(catalogue_values(path, numbers))
+    Z, play = file.Z, file.catalogue.clearance
+    data = {key: value for key, value in file.catalogue if key != "clearance" and value is not None}
     check_boundary(path, document, data, entry)
     tree = with_seats(path, plain_names(section_of(path, document, "parameters")), data, entry)
     given = dict(start_values(path, "parameters", tree, variables.PARAMETERS))
@@ -177,7 +174,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     }
     for part, material in found.items():
         given |= materials.parameters_of(part, material)
-    sizes = rivet_sizes(path, section_of(path, document, "rivet"), prefix)
+    sizes = rivet_sizes(path, rivet)
     steel = materials.geometry_of("rivet", found["rivet"])
     origin = dict.fromkeys([*(["Z"] if Z else []), *data, *given, *(f"rivet.{name}" for name in sizes), *inputs], own)
 
@@ -221,7 +218,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     return Case(
         designation,
-        str(document.get("description", "")),
+        file.description,
         all_Z,
         values,
         data,
@@ -274,19 +271,14 @@ def material_section(path, document, part):
     }
 
 
-def rivet_sizes(path, section, prefix):
-    """Dimensions of the rivet that a section [rivet] gives, itself or by a standard's name."""
-    for key in section:
-        if key not in (*RIVET_SIZES, *RIVET_MATERIAL, "head"):
-            raise unknown(path, "rivet key", key, (*RIVET_SIZES, *RIVET_MATERIAL, "head"))
-    sizes = dict(rivet_values(path, {key: value for key, value in section.items() if key in RIVET_SIZES}, prefix))
-    return rivet_heads.head_of(path, section["head"], sizes) | sizes if "head" in section else sizes
+def rivet_sizes(path, rivet):
+    """Dimensions of a RivetFile, given or by a standard's name."""
+    sizes = {name: getattr(rivet, name) for name in RIVET_SIZES if getattr(rivet, name) is not None}
+    return sizes if rivet.head is None else rivet_heads.head_of(path, rivet.head, sizes) | sizes
 
 
 def clearance_class(path, name, given, data, entry):
     """bearing.P_d by the name of a class, which needs a bore and no clearance in [parameters] beside it."""
-    if not isinstance(name, str) or name not in catalogue.CLEARANCE:
-        raise refusal(path, "catalogue.clearance", name, f"allowed: {', '.join(catalogue.CLEARANCE)}")
     if "bearing.P_d" in given:
         raise refusal(path, "catalogue.clearance", name, "allowed without bearing.P_d, which is given too")
     bore = data.get("bore", entry.bore if entry else None)

@@ -6,13 +6,10 @@ from typing import Any
 from bearing_model.generated import variables
 
 from ..base.errors import UserError, refusal, unknown
-from ..base.toml_files import positive
 from ..base.units import scales_of, suffix, symbol_of, to_si
 
-LARGEST_RIVET = 1.0  # m
 BOUNDARY = ("bore", "outside_diameter", "width")
 CATALOGUE = (*BOUNDARY, "C", "C_0")
-OF_MAKERS = ("C_u", "minimum_load")  # further forces of a catalogue, by rule where they are missing
 
 
 def defaults():
@@ -58,29 +55,6 @@ def rivet_unit(key):
         return "Pa"
     # alpha: 1/K, without a symbol of its own
     return {"nu": "1", "alpha": "1", "T": "K"}.get(key.partition("_")[0], "m")
-
-
-def rivet_values(path, section, where):
-    """Dimensions of a rivet in SI, each checked; where: in front of the key in messages."""
-    for key, value in section.items():
-        try:
-            number, unit = positive(value, unit_scales(rivet_unit(key))), rivet_unit(key)
-            if unit == "m" and number > LARGEST_RIVET:
-                raise UserError(f"at most {LARGEST_RIVET:g} m is allowed")
-            yield key, number
-        except UserError as problem:
-            raise refusal(path, f"{where}{key}", value, problem) from None
-
-
-def catalogue_values(path, section):
-    """Keys and SI values of the catalogue's data, each checked."""
-    for key, value in section.items():
-        if key not in (*CATALOGUE, *OF_MAKERS):
-            raise unknown(path, "catalogue key", key, (*CATALOGUE, *OF_MAKERS, "clearance"))
-        try:
-            yield key, positive(value, unit_scales("m" if key in BOUNDARY else "N"))
-        except UserError as problem:
-            raise refusal(path, f"catalogue.{key}", value, problem) from None
 
 
 def unit_scales(unit: str) -> Any:

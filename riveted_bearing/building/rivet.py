@@ -26,7 +26,8 @@ from rivet_model.load_cases import Joint
 from ..base.errors import UserError, refusal
 from ..base.files import cache_folder, cache_path, write_atomically
 from ..base.toml_files import positive, read_toml
-from ..bearing.bearing_file import RIVET_SIZES, bearing_case
+from ..bearing.bearing_file import bearing_case
+from ..bearing.bearing_keys import RIVET_SIZES
 from ..bearing.file_values import is_number, unit_scales
 from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
 

@@ -11,6 +11,8 @@ from ..base.errors import unknown
 from .terminal import command
 
 FILES = {  # kind of file: module and model
+    "bearing": "bearing.bearing_keys:BearingFile",
+    "rivet": "bearing.bearing_keys:RivetFile",
     "scene": "running.scene_file:SceneFile",
     "sweep": "studies.sweep_file:SweepFile",
     "dataset": "studies.dataset:DatasetFile",

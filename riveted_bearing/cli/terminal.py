@@ -179,7 +179,7 @@ def is_of_rivet(name):
     """Whether a name is that of a dimension of the rivet in a bearing file."""
     if not name.startswith("rivet."):
         return False
-    from ..bearing.bearing_file import RIVET_SIZES
+    from ..bearing.bearing_keys import RIVET_SIZES
 
     return name.removeprefix("rivet.") in RIVET_SIZES
 

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.stats import t as student
 
-from .miner import NO_DAMAGE, lives, part_rates
+from .miner import NO_DAMAGE, lives
 
 FEWEST = 3  # runs of a case that show scatter
 GROWTH = 2.0  # a round has at most so many times the runs of a case before it
@@ -136,11 +136,6 @@ def further_runs(found, counts, target, most):
         if open_cases.max() > 0.01 * error:
             wanted[open_cases.argmax()] += 1
     return wanted
-
-
-def part_means(duty, found):
-    """Damage per hour or event of each part at the place that fails first, at the start of the mission [I]."""
-    return part_rates(duty, found.rates)[0][:, found.place]
 
 
 def until_sure(duty, run, settings, most, progress=lambda found: None):

@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from ..base.files import write_atomically
 from ..base.toml_files import to_toml
 from ..base.version import __version__
-from ..running.responses import display_of, displayed, shown, titled
+from ..running.responses import display_of, displayed, titled
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
@@ -227,9 +227,3 @@ def profile(fig, found, parameter):
     ax.axvline(value, color=HEAD, lw=1.0)
     ax.set(xlabel=titled(parameter.name), ylabel="rise of J", ylim=(-0.5, 16.0 * found.widened))
     ax.xaxis.set_major_locator(MaxNLocator(5))
-
-
-def value_text(found, name):
-    """A value with its interval as one text."""
-    one = found.intervals[name]
-    return f"{shown(name, one.value)} [{shown(name, one.low)}, {shown(name, one.high)}]"

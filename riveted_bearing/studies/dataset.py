@@ -1,6 +1,6 @@
 """Labelled signals: the runs of a design with their vibration, as a Parquet dataset to train on.
 
-    scene = "spall"                      # a sweep file (sweep.py): scene, [parameters], [[vary]], [sample], repeats ...
+    scene = "spall"                      # a sweep file (sweep_file.py): scene, [parameters], [[vary]], [sample], repeats ...
     [dataset]
     channels = ["housing.a_y"]           # signals to keep; default: housing.a_y
     [[vary]]

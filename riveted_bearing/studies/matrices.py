@@ -67,7 +67,7 @@ def quasi_static_matrices(case: Case, speeds: Any, loads: Any = (1.0,)) -> Any:
     """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is
     no equilibrium.
 
-    case: bearings.scene_case of a scene.
+    case: scene_case of a scene.
     """
     return [Matrices(omega, load, abs(omega), *equilibrium(case, load, omega)) for load in loads for omega in speeds]
 

@@ -33,7 +33,6 @@ RESPONSES = (  # (title, unit, factor, column)
     ("pocket force RMS", "N", 1.0, "stat.Q_c_rms"),
     ("largest dislocation", "µm", 1e6, "max(cage.dislocation)"),
 )
-DAMAGE = "damage"
 
 
 @dataclass(frozen=True)

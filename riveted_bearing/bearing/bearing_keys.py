@@ -1,0 +1,81 @@
+"""The keys of a bearing's file and of its rivet."""
+
+from typing import Annotated, Any
+
+from pydantic import AfterValidator, BeforeValidator, Field, create_model
+
+from ..base.errors import UserError
+from ..base.schema import Choice, Named, Number, Section, Text
+from . import catalogue, materials
+from .file_values import rivet_unit, unit_scales
+from .rules import RIVET
+
+LARGEST_RIVET = 1.0  # m
+RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
+RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
+Metres = Annotated[float | None, Number(unit_scales("m"), above=0.0)]
+Newtons = Annotated[float | None, Number(unit_scales("N"), above=0.0)]
+
+
+def balls(value: Any) -> int:
+    """A number of balls; ValueError for another one than the FMU can have."""
+    if isinstance(value, bool) or not isinstance(value, int) or not 5 <= value <= 32:
+        raise UserError("allowed: an integer from 5 to 32")
+    return value
+
+
+def small(size: float) -> float:
+    """A dimension of a rivet [m]; ValueError for one beyond all rivets."""
+    if size > LARGEST_RIVET:
+        raise UserError(f"at most {LARGEST_RIVET:g} m is allowed")
+    return size
+
+
+def dimension(name: str) -> Any:
+    """The type of a rivet's dimension or constant."""
+    number = Number(unit_scales(rivet_unit(name)), above=0.0)
+    if rivet_unit(name) != "m":
+        return Annotated[float | None, number]
+    return Annotated[float | None, number, AfterValidator(small)]
+
+
+class Catalogue(Section):
+    """What a maker's catalogue gives, [catalogue]."""
+
+    bore: Metres = None
+    outside_diameter: Metres = None
+    width: Metres = None
+    C: Newtons = None
+    C_0: Newtons = None
+    C_u: Newtons = None
+    minimum_load: Newtons = None
+    clearance: Annotated[str | None, Choice(tuple(catalogue.CLEARANCE))] = Field(
+        None, description="class, in the place of bearing.P_d"
+    )
+
+
+RIVET_FIELDS: dict[str, Any] = {
+    **{name: (dimension(name), Field(None)) for name in RIVET_SIZES},
+    "head": (Any, Field(None, description="head diameter and height by a standard, such as DIN 660")),
+    **{name: (Any, Field(None)) for name in RIVET_MATERIAL},
+}
+RivetFile: Any = create_model("RivetFile", __base__=Section, **RIVET_FIELDS)
+RivetFile.__doc__ = (
+    "A rivet, [rivet] of a bearing's file: dimensions by the names of rivet_model.geometry, and its steel."
+)
+
+
+class BearingFile(Section):
+    """A bearing: what is left out comes from the catalogue if it knows the designation, else by rule."""
+
+    designation: Any = Field(None, description="one of the catalogue's fills in what is not given")
+    description: Text = ""
+    Z: Annotated[int | None, BeforeValidator(balls)] = Field(None, description="balls, 5 to 32")
+    oil: Any = Field(None, description='kind of oil, such as "mineral ISO VG 32"')
+    catalogue: Catalogue = Catalogue()
+    parameters: Named = Field({}, description="start values of the FMU made from this file; inputs too")
+    inputs: Named = {}
+    cage: Named = Field({}, description="material by name or as a table, single properties; so are rings and balls")
+    rings: Named = {}
+    balls: Named = {}
+    rivet: Named = Field({}, description="its keys as schema rivet")
