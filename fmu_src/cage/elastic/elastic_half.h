@@ -186,8 +186,8 @@ void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const Ribb
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)
 void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
                        int lane, const scalar n[3], mode_array shape);
-#define ribbon_wall_along FOR_ISA(ribbon_wall_along)
-void ribbon_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
+#define elastic_wall_along FOR_ISA(elastic_wall_along)
+void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                        mode_array shape);
 
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.

@@ -389,7 +389,7 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, cons
     memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }
 
-void ribbon_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
+void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                        mode_array shape)
 {
     const Turn turn = turn_of(half, j);
