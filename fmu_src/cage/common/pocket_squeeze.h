@@ -84,6 +84,7 @@ INLINE void squeeze_wall(const Model *model, int h, int k, const WallShape *shap
 {
 #ifndef DUAL
     const ElasticWork *e = &w->elastic;
+    if (!(e->film_D[h][k] > model->modes->weak_film)) return;
     const double m[3] = {e->film_m[0][h][k], e->film_m[1][h][k], e->film_m[2][h][k]};
     elastic_wall_along(model->modes, k, shape, m, w->elastic.film_shape[h][k]);
 #else

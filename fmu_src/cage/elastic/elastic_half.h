@@ -70,7 +70,8 @@ struct ElasticHalf {
     // how far a wall can move: largest |u|/|q| of each mode, of a pair's a over the amplitude of both
     double widest[MODES];         // of modes that move all pockets alike, else 0
     double widest_others[MODES];  // of the others, else 0
-    double wall_mobility;  // of a wall by the modes, mean of two directions, at the widest places [m/s/(N.s)]
+    double wall_mobility;  // of a wall by modes and half, at the widest place, at most [m/s/(N.s)]
+    double weak_film;      // damping of a pocket's film that need not follow in the substeps [N.s/m]
     double compliance;     // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     // what the modes leave between the pads of a joint, out of the plane: compliance and its inverse
     double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];

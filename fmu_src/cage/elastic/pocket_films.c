@@ -19,9 +19,7 @@
 
 #include "cage/elastic/elastic_half.h"
 #include "cage/elastic/wall_loads.h"
-
-// Films with less than this for h Y D are left as they are: slow forces.
-static const double WEAK = 0.05;
+#include "physics/rotor.h"
 
 static const double ROOT_HALF = 0.70710678118654752;
 
@@ -32,8 +30,9 @@ void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < Z; k++) {
             const double D = w->elastic.film_D[h][k], u = w->elastic.film_u[h][k];
-            if (!(D > 0.0)) continue;
-            films->D[h][k] = D, films->u[h][k] = u, films->F[h][k] = D * fmax(u, 0.0);
+            films->F[h][k] = D * fmax(u, 0.0);
+            if (!(D > model->modes->weak_film)) continue;
+            films->D[h][k] = D, films->u[h][k] = u;
             films->m_x[h][k] = w->elastic.film_m[0][h][k];
             films->m_r[h][k] = w->elastic.film_m[1][h][k];
             films->m_t[h][k] = w->elastic.film_m[2][h][k];
@@ -74,10 +73,9 @@ void pocket_films_find(const Model *model, double h, const PocketFilms *films, c
                 const int k = j + lane, i = step->count;
                 if (!(mask >> lane & 1)) continue;
                 take_lane(&approach, lane, step->along[i]);
-                const double mobility = mobility_of(model, half, films->shape[half][k], step->along[i]);
-                if (h * mobility * films->D[half][k] < WEAK) continue;
-                step->half[i] = half, step->ball[i] = k, step->mobility[i] = mobility;
-                step->D[i] = films->D[half][k], step->F_0[i] = step->F[i] = films->F[half][k];
+                step->half[i] = half, step->ball[i] = k;
+                step->mobility[i] = mobility_of(model, half, films->shape[half][k], step->along[i]);
+                step->D[i] = films->D[half][k], step->F_0[i] = step->F[i] = films->F[half][k], step->impulse[i] = 0.0;
                 step->rate[i] = approach.rate[lane], step->acceleration[i] = approach.acceleration[lane];
                 memset(step->shape[i], 0, sizeof step->shape[i]);
                 memcpy(step->shape[i], films->shape[half][k], sizeof films->shape[half][k]);
@@ -121,10 +119,10 @@ static void push_wall(const Model *model, int h, double impulse, const double *s
     for (int i = 0; i < RELATIVE_MOTIONS; i++) rows[2 * i] += impulse * along[i] / inertia[2 * i];
 }
 
-// Force of a film whose gap closes with u under the force F_0, over the time d.
-static double implicit_force(double D, double u, double mobility, double d, double F_0)
+// Force of a film whose gap closes with u less `give` times the force.
+static double implicit_force(double D, double u, double give)
 {
-    return D * fmax(u + mobility * d * F_0, 0.0) / (1.0 + d * mobility * D);
+    return D * fmax(u, 0.0) / (1.0 + give * D);
 }
 
 void pocket_films_follow(const Model *model, double t, double d, double *v, double halves[2 * RELATIVE_MOTIONS],
@@ -140,11 +138,18 @@ void pocket_films_follow(const Model *model, double t, double d, double *v, doub
         double u = step->rate[i] + step->acceleration[i] * (t - step->middle);
         u -= wall_speed(step->shape[i], modes[h], step->along[i], &halves[h]);
         u -= wall_speed(step->shape[i], change[h], step->along[i], &rows[h]);
-        step->F[i] = implicit_force(step->D[i], u, step->mobility[i], d, step->F_0[i]);
+        step->F[i] = implicit_force(step->D[i], u + step->mobility[i] * d * step->F_0[i], d * step->mobility[i]);
+        step->impulse[i] += d * step->F[i];
         push_wall(model, h, d * (step->F[i] - step->F_0[i]), step->shape[i], step->along[i], change[h], &rows[h]);
     }
     add_half_modes(change, v);
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) pushed[i] += rows[i];
+}
+
+// Force at the step's end that, with that at its start, makes the impulses of the substeps.
+static double foreseen_force(const PocketFilmsStep *step, int i)
+{
+    return step->impulse[i] / step->middle - step->F_0[i];
 }
 
 void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
@@ -155,26 +160,38 @@ void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, doub
     memset(change, 0, sizeof change);
     for (int i = 0; i < step->count; i++) {
         const int h = step->half[i];
-        push_wall(model, h, step->F[i] - step->F_0[i], step->shape[i], step->along[i], change[h], &halves[h]);
+        push_wall(model, h, foreseen_force(step, i) - step->F_0[i], step->shape[i], step->along[i], change[h],
+                  &halves[h]);
     }
     add_half_modes(change, modes);
+}
+
+// Velocities that the solution adds to what the evaluation had, or rates: of the modes, of the halves, of the balls.
+typedef struct {
+    mode_array modes[2];
+    double halves[2 * RELATIVE_MOTIONS], balls[Z][3];
+} FilmChange;
+
+// Adds an impulse on a wall, and another one against it on the ball.
+static void push_both(const Model *model, int h, int k, double on_wall, double on_ball, const double *shape,
+                      const double along[RELATIVE_MOTIONS], const double direction[3], FilmChange *to)
+{
+    push_wall(model, h, on_wall, shape, along, to->modes[h], &to->halves[h]);
+    for (int i = 0; i < 3; i++) to->balls[k][i] -= on_ball / model->d->m * direction[i];
 }
 
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
                            const PocketFilms *before, const double *y, const Work *w, double *f,
                            PocketFilms *films)
 {
-    double foreseen[2][LANES] = {{0.0}}, rows[2 * RELATIVE_MOTIONS] = {0.0}, saved = 0.0;
-    double more_rows[2 * RELATIVE_MOTIONS] = {0.0};
-    mode_array change[2], more[2];
+    FilmChange solved, rates;
+    double foreseen[2][LANES], saved = 0.0;
     if (!model->d->squeeze.filled) return 0.0;
-    memset(change, 0, sizeof change);
-    memset(more, 0, sizeof more);
-    bool follows[2][LANES] = {{false}};
-    for (int i = 0; i < step->count; i++) {
-        foreseen[step->half[i]][step->ball[i]] = step->F[i];
-        follows[step->half[i]][step->ball[i]] = true;
-    }
+    memset(&solved, 0, sizeof solved);
+    memset(&rates, 0, sizeof rates);
+    memcpy(foreseen, before->F, sizeof foreseen);
+    for (int i = 0; i < step->count; i++)
+        foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             const int mask = wide_mask(wide_above(wide_load(&films->D[h][j]), 0.0));
@@ -184,26 +201,34 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
             rigid_approach(model, 0.0, m, f, y, y, w, h, j, &approach);
             for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
                 const int k = j + lane;
-                const double D = films->D[h][k], *shape = films->shape[h][k];
-                double along[RELATIVE_MOTIONS];
+                double along[RELATIVE_MOTIONS], direction[3];
+                mode_array shape;
                 if (!(mask >> lane & 1)) continue;
                 take_lane(&approach, lane, along);
-                const double mobility = mobility_of(model, h, shape, along);
-                films->rate = fmax(films->rate, mobility * D);
-                if (!follows[h][k] && 2.0 * gamma * mobility * D < WEAK) continue;
-                mode_array wall;
-                memset(wall, 0, sizeof wall);
-                memcpy(wall, shape, sizeof films->shape[h][k]);
-                const double u = films->u[h][k] - wall_speed(wall, change[h], along, &rows[h]);
-                const double F_0 = follows[h][k] ? foreseen[h][k] : before->F[h][k];
-                const double F = implicit_force(D, u, mobility, gamma, F_0), impulse = gamma * (F - F_0);
-                push_wall(model, h, impulse, shape, along, change[h], &rows[h]);
-                push_wall(model, h, F - films->F[h][k], shape, along, more[h], &more_rows[h]);
-                saved += films->F[h][k] * films->u[h][k] - F * (u - mobility * impulse);
-                films->F[h][k] = F;
+                for (int i = 0; i < 3; i++) direction[i] = approach.direction[i][lane];
+                memset(shape, 0, sizeof shape);
+                memcpy(shape, films->shape[h][k], sizeof films->shape[h][k]);
+
+                const double D = films->D[h][k], F = films->F[h][k], F_0 = before->F[h][k], F_f = foreseen[h][k];
+                const double of_wall = mobility_of(model, h, shape, along), of_ball = dot3(direction, direction) / model->d->m;
+                double u = films->u[h][k] - wall_speed(shape, solved.modes[h], along, &solved.halves[h]);
+                u += dot3(direction, solved.balls[k]);
+                const double give = gamma * (of_wall + of_ball);
+                const double F_new = implicit_force(D, u + gamma * (of_wall * F_f + of_ball * F_0), give);
+                push_both(model, h, k, gamma * (F_new - F_f), gamma * (F_new - F_0), shape, along, direction, &solved);
+                push_both(model, h, k, F_new - F, F_new - F, shape, along, direction, &rates);
+                u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
+                saved += F * films->u[h][k] - F_new * u;
+                films->F[h][k] = F_new;
+                films->rate = fmax(films->rate, of_wall * D);
             }
         }
-    add_half_modes(more, &f[Y_MODE_S_DOT]);
-    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) f[Y_CAGE_V_X + i] += more_rows[i];
+    add_half_modes(rates.modes, &f[Y_MODE_S_DOT]);
+    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) f[Y_CAGE_V_X + i] += rates.halves[i];
+    for (int k = 0; k < Z; k++) {
+        f[Y_BALL_V_X + k] += rates.balls[k][0];
+        f[Y_BALL_V_R + k] += rates.balls[k][1];
+        f[Y_BALL_OMEGA_M + k] += rates.balls[k][2] / y[Y_BALL_R + k];
+    }
     return saved;
 }

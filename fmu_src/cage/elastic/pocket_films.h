@@ -19,6 +19,7 @@ typedef struct {
     int count, half[2 * Z], ball[2 * Z];
     double middle;                                  // of the step [s]
     double D[2 * Z], F_0[2 * Z], F[2 * Z];          // damping; force at the step's start and now
+    double impulse[2 * Z];                          // so far [N.s]
     double rate[2 * Z], acceleration[2 * Z];        // of the rigid approach, in the middle of the step and at its start
     double mobility[2 * Z];                         // of wall and half [m/s/(N.s)]
     double along[2 * Z][RELATIVE_MOTIONS];          // motion along m by those of the half

@@ -83,6 +83,7 @@ void rigid_approach(const Model *model, double gamma, const double *const direct
     const vec ball = {wide_load(&f[Y_BALL_V_X + j]), wide_load(&f[Y_BALL_V_R + j]) - r * omega * omega,
                       r * wide_load(&f[Y_BALL_OMEGA_M + j]) + 2.0 * v_r * omega};
     wide_store(to->acceleration, vec_dot(n, vec_sub(ball, vec_add(vec_local(moved, cosine, sine), by_turn))));
+    wide_store(to->direction[0], n.x), wide_store(to->direction[1], n.r), wide_store(to->direction[2], n.t);
     vec_to_global(n, cosine, sine, to->along[0], to->along[1], to->along[2]);
     vec_to_global(vec_cross(from_mass, n), cosine, sine, to->along[5], to->along[3], to->along[4]);
 }
