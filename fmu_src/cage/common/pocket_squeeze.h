@@ -64,8 +64,7 @@ INLINE void squeeze_rate(const SqueezeFilm *film, Work *w, int j)
     const wide m[3] = {film->m.x, film->m.r, film->m.t};
     for (int i = 0, place = 0; i < 3; i++)
         for (int k = 0; k <= i; k++, place++)
-            wide_store(&w->squeeze[place][j],
-                       wide_fma(D * m[i], m[k], wide_load(&w->squeeze[place][j])));
+            wide_store(&w->squeeze[place][j], wide_fma(D * m[i], m[k], wide_load(&w->squeeze[place][j])));
 }
 
 // Leaves a film to the substeps of elastic halves (pocket_films.c).

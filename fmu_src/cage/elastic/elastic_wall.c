@@ -390,7 +390,7 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, cons
 }
 
 void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
-                       mode_array shape)
+                        mode_array shape)
 {
     const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];

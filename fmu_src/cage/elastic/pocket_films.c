@@ -47,7 +47,8 @@ static void take_lane(const RigidApproach *approach, int lane, double along[RELA
 }
 
 // Velocity of the wall along m by an impulse of 1 N.s on it.
-static double mobility_of(const Model *model, int h, const double *shape, const double along[RELATIVE_MOTIONS])
+static double mobility_of(const Model *model, int h, const double *shape,
+                          const double along[RELATIVE_MOTIONS])
 {
     const double *inertia = &model->d->inertia[Y_CAGE_V_X + h];
     double by_modes = 0.0, by_half = 0.0;
@@ -75,7 +76,8 @@ void pocket_films_find(const Model *model, double h, const PocketFilms *films, c
                 take_lane(&approach, lane, step->along[i]);
                 step->half[i] = half, step->ball[i] = k;
                 step->mobility[i] = mobility_of(model, half, films->shape[half][k], step->along[i]);
-                step->D[i] = films->D[half][k], step->F_0[i] = step->F[i] = films->F[half][k], step->impulse[i] = 0.0;
+                step->D[i] = films->D[half][k], step->F_0[i] = step->F[i] = films->F[half][k],
+                step->impulse[i] = 0.0;
                 step->rate[i] = approach.rate[lane], step->acceleration[i] = approach.acceleration[lane];
                 memset(step->shape[i], 0, sizeof step->shape[i]);
                 memcpy(step->shape[i], films->shape[half][k], sizeof films->shape[half][k]);
@@ -125,8 +127,9 @@ static double implicit_force(double D, double u, double give)
     return D * fmax(u, 0.0) / (1.0 + give * D);
 }
 
-void pocket_films_follow(const Model *model, double t, double d, double *v, double halves[2 * RELATIVE_MOTIONS],
-                         double pushed[2 * RELATIVE_MOTIONS], PocketFilmsStep *step)
+void pocket_films_follow(const Model *model, double t, double d, double *v,
+                         double halves[2 * RELATIVE_MOTIONS], double pushed[2 * RELATIVE_MOTIONS],
+                         PocketFilmsStep *step)
 {
     mode_array modes[2], change[2];
     double rows[2 * RELATIVE_MOTIONS] = {0.0};
@@ -138,9 +141,11 @@ void pocket_films_follow(const Model *model, double t, double d, double *v, doub
         double u = step->rate[i] + step->acceleration[i] * (t - step->middle);
         u -= wall_speed(step->shape[i], modes[h], step->along[i], &halves[h]);
         u -= wall_speed(step->shape[i], change[h], step->along[i], &rows[h]);
-        step->F[i] = implicit_force(step->D[i], u + step->mobility[i] * d * step->F_0[i], d * step->mobility[i]);
+        step->F[i] =
+            implicit_force(step->D[i], u + step->mobility[i] * d * step->F_0[i], d * step->mobility[i]);
         step->impulse[i] += d * step->F[i];
-        push_wall(model, h, d * (step->F[i] - step->F_0[i]), step->shape[i], step->along[i], change[h], &rows[h]);
+        push_wall(model, h, d * (step->F[i] - step->F_0[i]), step->shape[i], step->along[i], change[h],
+                  &rows[h]);
     }
     add_half_modes(change, v);
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) pushed[i] += rows[i];
@@ -190,8 +195,7 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
     memset(&solved, 0, sizeof solved);
     memset(&rates, 0, sizeof rates);
     memcpy(foreseen, before->F, sizeof foreseen);
-    for (int i = 0; i < step->count; i++)
-        foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
+    for (int i = 0; i < step->count; i++) foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             const int mask = wide_mask(wide_above(wide_load(&films->D[h][j]), 0.0));
@@ -209,13 +213,16 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
                 memset(shape, 0, sizeof shape);
                 memcpy(shape, films->shape[h][k], sizeof films->shape[h][k]);
 
-                const double D = films->D[h][k], F = films->F[h][k], F_0 = before->F[h][k], F_f = foreseen[h][k];
-                const double of_wall = mobility_of(model, h, shape, along), of_ball = dot3(direction, direction) / model->d->m;
+                const double D = films->D[h][k], F = films->F[h][k], F_0 = before->F[h][k],
+                             F_f = foreseen[h][k];
+                const double of_wall = mobility_of(model, h, shape, along),
+                             of_ball = dot3(direction, direction) / model->d->m;
                 double u = films->u[h][k] - wall_speed(shape, solved.modes[h], along, &solved.halves[h]);
                 u += dot3(direction, solved.balls[k]);
                 const double give = gamma * (of_wall + of_ball);
                 const double F_new = implicit_force(D, u + gamma * (of_wall * F_f + of_ball * F_0), give);
-                push_both(model, h, k, gamma * (F_new - F_f), gamma * (F_new - F_0), shape, along, direction, &solved);
+                push_both(model, h, k, gamma * (F_new - F_f), gamma * (F_new - F_0), shape, along, direction,
+                          &solved);
                 push_both(model, h, k, F_new - F, F_new - F, shape, along, direction, &rates);
                 u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
                 saved += F * films->u[h][k] - F_new * u;

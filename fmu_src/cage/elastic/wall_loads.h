@@ -28,8 +28,10 @@ typedef struct {
 // Rates and accelerations of the balls of a packet against half h along given directions, both as rigid bodies.
 typedef struct {
     scalar rate[LANE_WIDTH], acceleration[LANE_WIDTH];
-    scalar direction[3][LANE_WIDTH];               // along x, r, t of the ball
-    scalar along[RELATIVE_MOTIONS][LANE_WIDTH];  // motion along the direction by velocities of the half: x, y, z, beta, gamma, s
+    scalar direction[3][LANE_WIDTH];  // along x, r, t of the ball
+    scalar
+        along[RELATIVE_MOTIONS]
+             [LANE_WIDTH];  // motion along the direction by velocities of the half: x, y, z, beta, gamma, s
 } RigidApproach;
 
 // Of the balls from j on, at the time gamma before the positions y; direction: (x, r, t) along the pockets' axes; f: slow rates;
