@@ -8,7 +8,7 @@ set(kernel_files
     cage/cage.c cage/common/halves.c cage/common/pocket.c cage/common/pocket_spheres.c cage/common/cage_joint.c cage/common/joint_slip.c
     cage/two_half/two_half.c cage/two_half/half_path.c cage/two_half/joint_open.c
     cage/elastic/cage_elastic.c cage/elastic/cage_substeps.c cage/elastic/wall_loads.c cage/elastic/elastic_wall.c cage/elastic/elastic_lands.c
-    cage/elastic/rim_films.c
+    cage/elastic/rim_films.c cage/elastic/pocket_films.c
     rivet/rivet_rom.c
     solver/vector_ops.c solver/implicit.c solver/verlet.c)
 

@@ -41,6 +41,7 @@ from bearing_model.cage.elastic.cage_substeps import (
     cage_substeps_split,
 )
 from bearing_model.cage.elastic.elastic_half import elastic_half_derive, elastic_half_rest
+from bearing_model.cage.elastic.pocket_films import PocketFilms, PocketFilmsStep, pocket_films_split
 from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
 from bearing_model.cage.two_half.two_half import (
     two_half_correct,
@@ -83,7 +84,7 @@ class CageMemory:
     films: RimFilms = field(default_factory=RimFilms)
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
-    pocket: float = 0.0  # damping of the stiffest film in a pocket [N.s/m]
+    pockets: PocketFilms = field(default_factory=PocketFilms)
     omega_2: float = 0.0  # square of the halves' speed in space
 
 
@@ -98,6 +99,7 @@ class CageStep:
     modes: np.ndarray = 0.0
     halves: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
     joints: JointStep = None
+    pockets: PocketFilmsStep = None
     rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
     impulse: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
@@ -205,7 +207,7 @@ def cage_split(model, y, w, f):
     memory = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))))
     if not model.modes:
         return memory
-    memory.fast, memory.pocket = cage_substeps_split(model, y, w, f), float(np.max(np.einsum("iij->j", w.squeeze)))
+    memory.fast, memory.pockets = cage_substeps_split(model, y, w, f), pocket_films_split(model, w)
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
         add_rates(model, -rim_modes(model, memory.films.force), f)
@@ -224,9 +226,10 @@ def cage_advance(model, h, y_0, f, memory, middle, y, w):
         return CageStep(joints=JointStep(cage_joint_follow(h, across, y), h * across))
     films = RimFilmsStep(model, h, memory.films)
     add_rates(model, 0.5 * h * rim_modes(model, films.held), y)
-    modes, halves, joints = cage_substeps_advance(model, h, memory, f, middle, y, films, w)
+    pockets = PocketFilmsStep(model, h, memory.pockets, f, middle, y, w)
+    modes, halves, joints = cage_substeps_advance(model, h, memory, f, middle, y, films, pockets, w)
     before = films.before(0.5 * h)
-    return CageStep(modes, halves.ravel(), joints, rim_held=films.held, rim_before=before)
+    return CageStep(modes, halves.ravel(), joints, pockets, rim_held=films.held, rim_before=before)
 
 
 def cage_predict(model, gamma, step, y):
@@ -245,6 +248,7 @@ def cage_arrive(model, w, step, before, y, f):
         for row, change in zip(PLATES, more, strict=True):
             y[row] += change
         step.joints.way = step.joints.way + more
+        f[WORK] += step.pockets.arrive(model, before.pockets, y, w, f, memory.pockets)
     if model.modes and w.pressure:
         n = model.modes.n
         lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
@@ -379,7 +383,7 @@ def cage_part(memory):
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, but two substeps at least, of a pocket one, of a ribbon's half a one.  Slow halves have a part of it.
+    not follow in the substeps, or one in a pocket, but two substeps at least.  Slow halves have a part of it.
     """
     part = cage_part(memory)
     if not model.modes:
@@ -387,9 +391,8 @@ def cage_longest_step(model, film, memory):
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
     most = part * model.modes.longest_step
-    lands, pockets = rate / model.p.cage.m, memory.pocket * model.modes.wall_mobility
-    least = 0.5 if model.d.spheres else 1.0
-    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in ((2.0, lands), (least, pockets))))
+    A = max(rate / model.p.cage.m, memory.pockets.rate)
+    return min(most, max(2.0 * d, 1.0 / A if A > 0.0 else np.inf))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation

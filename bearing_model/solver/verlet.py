@@ -194,7 +194,8 @@ def ball_blocks(model, w, gamma):
             K[ball] += 1.5 * Q / max(delta, APPROACH_FLOOR) * (delta > 0.0) * normal
         A[ball] += friction
         to_v = np.diag([1.0, 1.0, w.r[j]])  # v_t = r omega_m
-        A[np.ix_(rows[:3], rows[:3])] += to_v @ w.squeeze[:, :, j] @ to_v
+        if not model.modes:  # those of elastic halves: pocket_films.py
+            A[np.ix_(rows[:3], rows[:3])] += to_v @ w.squeeze[:, :, j] @ to_v
         A_stiff[ball] += friction * (gamma * rate[j] > STIFF_LIMIT)
         if coupled:
             n, g = w.n_i[:, j], TRACTION_MARGIN * w.g_i[j]

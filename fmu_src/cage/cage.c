@@ -58,10 +58,7 @@ void cage_split(const Model *model, const double *y, const Work *w, double *f, C
     memory->fast.omega_2 = cage_elastic_speed_2(w);
     if (!model->modes) return;
     cage_substeps_split(model, y, w, f, &memory->fast);
-    memory->pocket = 0.0;
-    if (model->d->squeeze.filled)
-        for (int j = 0; j < Z; j++)
-            memory->pocket = fmax(memory->pocket, w->squeeze[0][j] + w->squeeze[2][j] + w->squeeze[5][j]);
+    pocket_films_split(model, w, &memory->pockets);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];
@@ -97,8 +94,9 @@ void cage_advance(const Model *model, double h, const double *y_0, const double 
     RimFilmsStep films;
     const bool follow = rim_films_begin(model, h, &memory->films, &films);
     rim_push(model, step->gamma, films.held, &y[Y_MODE_S_DOT]);
+    pocket_films_find(model, h, &memory->pockets, f, middle, y, w, &step->pockets);
     cage_substeps_advance(model, h, &memory->fast, f, middle, y, &step->foreseen, &step->joints,
-                          follow ? &films : NULL, w);
+                          follow ? &films : NULL, &step->pockets, w);
     memcpy(step->rim_held, films.held, sizeof step->rim_held);
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < RIM; k++) {
@@ -128,7 +126,11 @@ void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMe
                  double *f, CageMemory *memory)
 {
     cage_split(model, y, w, f, memory);
-    if (model->modes) follow_places(&before->fast, &memory->fast, &step->joints, y);
+    if (model->modes) {
+        follow_places(&before->fast, &memory->fast, &step->joints, y);
+        f[Y_WORK] += pocket_films_arrive(model, step->gamma, &step->pockets, &before->pockets, y, w, f,
+                                         &memory->pockets);
+    }
     if (!lands_bend(model)) return;
     double lack[2 * N_MODES];
     for (int i = 0; i < 2 * N_MODES; i++) lack[i] = f[Y_MODE_S_DOT + i] - step->foreseen.modes[i];

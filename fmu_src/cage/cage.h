@@ -25,7 +25,7 @@ typedef struct {
     FastState fast;
     RimFilms films;
     double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
-    double pocket;               // damping of the stiffest film in a pocket [N.s/m]
+    PocketFilms pockets;
 } CageMemory;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------
@@ -88,6 +88,7 @@ typedef struct {
     // forces on them: held at both ends of the step, and those at its start that their impulses so far amount to
     double rim_held[2][RIM], rim_before[2][RIM];
     BentSolution bent[2];
+    PocketFilmsStep pockets;
 } CageStep;
 
 // Separates what the cage advances by itself from the rates f at the state y, where w was evaluated.

@@ -78,8 +78,7 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
 // that it has three substeps at most.  A slow cage has many steps in a turn, and what is left shakes it; and its own speed is
 // of the order of the tolerance's scale.  So below SLOW steps and tolerance are smaller in proportion to its speed.  Films of the rate A that
-// the substeps leave out allow 1/A, or two substeps, which are always stable; one of a pocket 1/A, A by the wall's mobility, or
-// one substep: in longer steps the halves shake on thick oil.  A ribbon's light halves do so in steps of one substep, and have half a one.
+// the substeps leave out allow 1/A, or two substeps, which are always stable.
 static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the longest step
 
 double cage_part(const CageMemory *memory)
@@ -98,10 +97,7 @@ double cage_longest_step(const Model *model, double film[2][3], const CageMemory
         if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
     }
     const double most = part * elastic_longest_step(model->modes);
-    const double lands = fmax(2.0 * d, model->p->cage.m / rate);
-    const double least = model->d->spheres.on ? 0.5 * d : d;
-    const double pockets = fmax(least, 1.0 / (memory->pocket * model->modes->wall_mobility));
-    return fmin(most, fmin(lands, pockets));
+    return fmin(most, fmax(2.0 * d, 1.0 / fmax(rate / model->p->cage.m, memory->pockets.rate)));
 }
 
 // Elastic halves have two substeps: equal steps of three are near half a period of the fastest vibrations, which slow
@@ -135,6 +131,11 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
            values_are_within(memory->films.force[0], 2 * RIM, load) &&
            values_are_within(memory->films.rates[0][0], 2 * SQUEEZE * SQUEEZE, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) && memory->pocket >= 0.0 &&
-           values_are_within(&memory->pocket, 1, elastic ? 1e15 : 0.0);
+           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
+           values_are_within(memory->pockets.D[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+           values_are_within(&memory->pockets.rate, 1, elastic ? 1e30 : 0.0) &&
+           values_are_within(memory->pockets.u[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
+           values_are_within(memory->pockets.F[0], 2 * LANES, load) &&
+           values_are_within(memory->pockets.m_x[0], 6 * LANES, 2.0 * motion) &&
+           values_are_within(memory->pockets.shape[0][0], 2 * Z * N_MODES, elastic ? 1e3 : 0.0);
 }

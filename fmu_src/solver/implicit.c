@@ -166,7 +166,7 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
     }
 
     // Films in the pockets.
-    if (d->squeeze.filled && normal_forces)
+    if (d->squeeze.filled && normal_forces && !model->modes)
         for (int i = 0; i < 3; i++)
             for (int k = 0; k <= i; k++) W[AT(i, k)] += gamma * wide_load(&w->squeeze[AT(i, k)][j]);
 

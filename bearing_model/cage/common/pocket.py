@@ -28,8 +28,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.cage.common.pocket_squeeze import pocket_squeeze
+from bearing_model.cage.common.pocket_squeeze import pocket_squeeze, squeeze_rate
 from bearing_model.cage.elastic.elastic_wall import elastic_wall
+from bearing_model.cage.elastic.pocket_films import film_before_wall
 from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -118,7 +119,7 @@ def pocket_contacts(model, w, h, gap, wall=None):
     if film:
         F_n = F_n - film.F * film.m
         by_film = film.F * vec_dot(film.m, a), film.F * vec_dot(film.m, e_t)
-        w.squeeze = w.squeeze + film.D * film.m[:, None] * film.m[None, :]
+        w.squeeze = w.squeeze + squeeze_rate(film)
 
     # friction at the contact point (F_s), film force through the ball's centre (F_c)
     arm = d.R * n
@@ -153,7 +154,7 @@ def pocket_contacts(model, w, h, gap, wall=None):
         w.pocket_dissipated = w.pocket_dissipated + film.F * vec_dot(film.m, v)
     drawn = F_s + F_c
     on_wall = Q * n_x - vec_dot(drawn, a) + by_film[0], -vec_dot(drawn, b), Q * n_t - vec_dot(drawn, e_t) + by_film[1]
-    return on_wall, delta_dot, Q
+    return on_wall, delta_dot, Q, (film, v)
 
 
 def pocket_clear(w):
@@ -168,6 +169,7 @@ def elastic_clear(e):
     touch = ("x", "r", "t", "K", "delta", "Q", "chi", "radius")
     for name in ("wall_force", *(f"touch_{part}" for part in touch)):
         setattr(e, name, [None, None])
+    e.films = [None, None]
 
 
 def pocket_rigid(model, w):
@@ -199,7 +201,11 @@ def pocket_elastic(model, w):
         u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
         gap.delta = pocket_approach(model, h, gap.n_x, gap.delta - gap.n_x * u[0] - gap.n_t * u[2])
         w.delta_c[h] = gap.delta
-        on_wall, delta_dot, e.touch_Q[h] = pocket_contacts(model, w, h, gap, SimpleNamespace(u_dot=u_dot, tilt=tilt))
+        wall = SimpleNamespace(u_dot=u_dot, tilt=tilt)
+        on_wall, delta_dot, e.touch_Q[h], (film, v) = pocket_contacts(model, w, h, gap, wall)
+        if film:
+            near = np.real(gap.delta) > -model.d.squeeze.reach
+            e.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), shape, near)
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )

@@ -117,6 +117,11 @@ def pocket_squeeze_derive(p, d):
     )
 
 
+def squeeze_rate(film):
+    """D m m^T [3, 3, ...] of a film that acts, for the matrix that the integrator solves."""
+    return np.where(np.real(film.F) > 0.0, film.D, 0.0) * film.m[:, None] * film.m[None, :]
+
+
 def squeeze_shape(film, h):
     """Damping of a whole film / (c/h_eff), by the gap."""
     z = np.sqrt(minimum(h * film.inv_reach, 1.0) + 1e-30)
@@ -142,5 +147,4 @@ def pocket_squeeze(d, half, gap, v):
     m = (n_x + across * n_t) * gap.a + (n_t - across * n_x) * gap.e_t
     D = w * film.c * squeeze_shape(film, maximum(-gap.delta, 0.0)) / h
     speed = (n_x + across * n_t) * v_x + (n_t - across * n_x) * v_t
-    acts = np.where(np.real(speed) > 0.0, 1.0, 0.0)
-    return SimpleNamespace(D=D * acts, F=D * acts * speed, m=m)
+    return SimpleNamespace(D=D, F=D * maximum(speed, 0.0), m=m)

@@ -201,5 +201,4 @@ def spheres_squeeze(d, q, taken, v):
         G = squeeze_layer(G, h, cap.filling * C, C)
     D = G * cap.c / h_eff
     speed = m[0] * v[0] + m[1] * v[1] + m[2] * v[2]
-    acts = np.where(np.real(speed) > 0.0, 1.0, 0.0)
-    return SimpleNamespace(D=D * acts, F=D * acts * speed, m=m)
+    return SimpleNamespace(D=D, F=D * maximum(speed, 0.0), m=m)

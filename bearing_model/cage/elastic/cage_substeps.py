@@ -171,9 +171,9 @@ def add_spin(spin, t, middle, slow, moved, relative):
     return turned
 
 
-def cage_substeps_advance(model, h, memory, f, state, y, films, w):
+def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     """Substeps of a step of length h from `memory` (CageMemory) under the slow rates f; state, w: state and kinematics in the middle of the
-    step; films: RimFilmsStep; changes y as cage_substeps.c does.
+    step; films: RimFilmsStep; pockets: PocketFilmsStep; changes y as cage_substeps.c does.
 
     Returns the slow accelerations at the step's end as they foresee them (of the modes [2, n], changes of those of the halves
     [6, 2]), and the JointStep.
@@ -238,6 +238,10 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, w):
         pushed = pushed + 0.5 * sub * push
         if films.follows.any():
             v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed, last=step == steps)
+        by_films = pockets.follow(step * sub, sub, v, to_halves(model, h0, speed) + pushed)
+        v, pushed = v + by_films[0], pushed + by_films[1]
+    more, by_films = pockets.accelerations(half.n)
+    held, push = held + more, push + by_films
     slip.before = np.array([y[row] for row in STATES])
     for blocks, change, more in ((CAGE_PLACES, moved, way), (CAGE_RATES, speed, pushed)):
         for block, rows in zip(blocks, to_halves(model, h0, change) + more, strict=True):

@@ -23,6 +23,8 @@ from bearing_model.generated.variables import CageShape, Z
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
+LONGEST = 3.0  # substeps of a step
+WEAK_FILM = 0.05  # part of a wall's velocity that a film takes in the longest step, below which it need not follow
 SUBSTEP_TURN = 1.55  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
 
@@ -54,7 +56,7 @@ class ElasticHalf:
     # largest |u|/|q| of a wall, of a pair's a over the amplitude of both: by modes that move all pockets alike, else 0; by the others [n]
     widest: np.ndarray
     widest_others: np.ndarray
-    wall_mobility: float  # of a wall by the modes, mean of two directions, at the widest places [m/s/(N.s)]
+    weak_film: float  # damping of a pocket's film that need not follow in the substeps [N.s/m]
     compliance: float  # that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     mirrored: np.ndarray
@@ -64,7 +66,7 @@ class ElasticHalf:
     @property
     def longest_step(self):
         """[s]: forces that are constant over it feed vibrations that turn by much more than pi."""
-        return 3.0 * self.substep
+        return LONGEST * self.substep
 
 
 def mode_order(modes):
@@ -123,6 +125,10 @@ def elastic_half_derive(p, d, table):
         p.cage.m, omega, joints_in(d, pad), np.eye(2 * Z) * held, (0.5 * p.cage.m, 0.5 * p.cage.m, 0.5 * d.J_p)
     )
     rim = unit * rim_shapes(modes, p.cage.land_x)[order]
+    substep = SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1]))
+    wall_mobility = (1.0 + np.sum(most[one_of_pair] ** 2)) / p.cage.m + (
+        0.5 * p.bearing.d_m
+    ) ** 2 / d.J_t  # at most [m/s/(N.s)]
     return ElasticHalf(
         n=len(omega),
         rim=rim,
@@ -141,13 +147,13 @@ def elastic_half_derive(p, d, table):
         b=int(np.sum(part == 0.0)),
         widest=np.where(uniform, farther * most, 0.0),
         widest_others=np.where(one_of_pair & ~uniform, farther * most, 0.0),
-        wall_mobility=0.5 * np.sum(most[one_of_pair] ** 2) / p.cage.m,
         R=np.linalg.inv(law.stiffness),
         series=series,
         k_hole=k_hole,
         compliance=max(float(np.ravel(wall)[len(np.ravel(wall)) // 2]), 0.0) if ribbon else wall,
         mirrored=mirrored,
-        substep=SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1])),
+        substep=substep,
+        weak_film=WEAK_FILM / (LONGEST * substep * wall_mobility),
         law=law,
     )
 

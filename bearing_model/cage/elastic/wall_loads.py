@@ -50,9 +50,9 @@ class WallLoad:
     along: np.ndarray  # motion along the normal by those of the half: x, y, z, beta, gamma, spin [6]
 
 
-def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
-    """Rate [m/s] in the middle of a step and acceleration [m/s2] of ball k against half h along the contact's normal, both as
-    rigid bodies; motion along it by those of the half [6].
+def rigid_approach(model, gamma, direction, f, state, y, half, h, k):
+    """Rate [m/s] in the middle of a step and acceleration [m/s2] of ball k against half h along a direction (x, r, t) of the pocket's axes,
+    both as rigid bodies; motion along it by those of the half [6]; the direction along x, r, t of the ball [3].
 
     f: rates at the step's start; state: velocities in its middle; y: positions at its end; half: in the middle.
     """
@@ -64,7 +64,7 @@ def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
     e_t = np.cross(e_x, e_r)
     a, b_y, b_z, x, v, c, Omega = (getattr(half, name)[:, 0] for name in ("a", "b_y", "b_z", "x", "v", "c", "Omega"))
     cosine, sine = model.d.pocket_cos[k], model.d.pocket_sin[k]
-    n = touch["x"][k] * a + touch["r"][k] * (cosine * b_y + sine * b_z) + touch["t"][k] * (cosine * b_z - sine * b_y)
+    n = direction[0] * a + direction[1] * (cosine * b_y + sine * b_z) + direction[2] * (cosine * b_z - sine * b_y)
     p = (y[BALL_X][k] - gamma * v_x) * e_x + r * e_r - x
     turn = np.array([f[block][h] for block in (CAGE_S, CAGE_BETA_DOT, CAGE_GAMMA_DOT)])
     by_half = np.array([f[block][h] for block in (CAGE_V_X, CAGE_V_Y, CAGE_V_Z)])
@@ -72,7 +72,12 @@ def rigid_approach(model, gamma, touch, f, state, y, half, h, k):
     by_ball = a_x * e_x + (f_r - r * omega**2) * e_r + (r * f_t + 2.0 * v_r * omega) * e_t
     rate = n @ (v_x * e_x + v_r * e_r + r * omega * e_t - v - np.cross(Omega, p))
     lever = np.cross(p - c, n)
-    return rate, n @ (by_ball - by_half), np.concatenate([n, lever[1:], lever[:1]])
+    return (
+        rate,
+        n @ (by_ball - by_half),
+        np.concatenate([n, lever[1:], lever[:1]]),
+        np.array([n @ e_x, n @ e_r, n @ e_t]),
+    )
 
 
 class WallLoads:
@@ -92,7 +97,8 @@ class WallLoads:
                 shape = elastic_wall_shape(model.modes, 2 * i - 1, touch["x"], touch["t"])[0]  # [3, Z, n]
             along = [touch[name][:, None] * motion for name, motion in zip("xrt", shape, strict=True)]
             for k in np.flatnonzero(touch["K"] > 0.0):
-                rate, acceleration, along_half = rigid_approach(model, self.middle, touch, f, state, y, w.half[i], i, k)
+                n = [touch[name][k] for name in "xrt"]
+                rate, acceleration, along_half, _ = rigid_approach(model, self.middle, n, f, state, y, w.half[i], i, k)
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
                 Q_0 = K * max(delta, 0.0) ** 1.5
                 if Q_0 > 0.0:

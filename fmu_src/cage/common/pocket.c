@@ -117,6 +117,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         if (d->squeeze.filled) {
             wide_store(&on_wall[0][j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&on_wall[0][j])));
             wide_store(&on_wall[2][j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&on_wall[2][j])));
+            squeeze_leave(&film, v, a, gap->b, e_t, h, j, w);
         }
 
         wide_store(&w->elastic.touch_Q[h][j], Q);
@@ -250,7 +251,11 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
                          &shape[i]);
     pocket_contacts(model, w, h, j, &at->gap, at->pressed, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
-        if (!(at->touched >> i & 1)) continue;
+        if (!(at->touched >> i & 1)) {
+            w->elastic.film_D[h][j + i] = 0.0;
+            continue;
+        }
+        if (model->d->squeeze.filled) squeeze_wall(model, h, j + i, &shape[i], w);
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
         elastic_wall_force(elastic, j + i, &shape[i], F, w->elastic.wall_force[h]);
     }

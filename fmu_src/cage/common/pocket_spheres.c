@@ -132,6 +132,7 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
             for (int i = 0; i < 3; i++)
                 wide_store(&on_wall[i][j],
                            wide_fma(film.F, vec_dot(film.m, axis[i]), wide_load(&on_wall[i][j])));
+            squeeze_leave(&film, v, gap->a, gap->b, gap->e_t, h, j, w);
         }
         *load = Q;
     }
@@ -377,8 +378,12 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     wide_store(&e->touch_chi[h][j], zero);
     wide_store(&e->touch_radius[h][j], zero);
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
-        if (!(mask >> lane & 1)) continue;
         const int b = j + lane;
+        if (!(mask >> lane & 1)) {
+            e->film_D[h][b] = 0.0;
+            continue;
+        }
+        if (model->d->squeeze.filled) squeeze_wall(model, h, b, &shape[lane], w);
         e->touch_chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
         e->touch_radius[h][b] = at->radius[lane];
         const scalar F[3] = {on_wall[0][b], on_wall[1][b], on_wall[2][b]};
@@ -389,7 +394,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
         memcpy(wall->place, along, sizeof along);
         wall->place[3] = e->touch_chi[h][b], wall->place[4] = e->touch_radius[h][b];
         wall->place[5] = model->p->cage.m;
-        ribbon_wall_along(model->modes, b, &shape[lane], along, wall->shape);
+        elastic_wall_along(model->modes, b, &shape[lane], along, wall->shape);
 #endif
     }
 }

@@ -34,6 +34,7 @@
 #pragma once
 
 #include "cage/common/pocket.h"
+#include "cage/elastic/elastic_half.h"
 
 // Constants of the films; called where those of the pockets are known.
 void pocket_squeeze_derive(const Parameters *p, Derived *d);
@@ -51,17 +52,43 @@ typedef struct {
 // No films yet.
 INLINE void squeeze_clear(const Model *model, Work *w)
 {
-    if (model->d->squeeze.filled) memset(w->squeeze, 0, sizeof w->squeeze);
+    if (!model->d->squeeze.filled) return;
+    memset(w->squeeze, 0, sizeof w->squeeze);
+    if (model->modes) memset(w->elastic.film_D, 0, sizeof w->elastic.film_D);
 }
 
-// Adds a film's D m m^T to the matrix that the integrator solves (implicit.c).
+// Adds a film's D m m^T to the matrix that the integrator solves (implicit.c), where it acts.
 INLINE void squeeze_rate(const SqueezeFilm *film, Work *w, int j)
 {
+    const wide D = wide_select(wide_above(film->F, 0.0), film->D, wide_set(0.0));
     const wide m[3] = {film->m.x, film->m.r, film->m.t};
     for (int i = 0, place = 0; i < 3; i++)
         for (int k = 0; k <= i; k++, place++)
-            wide_store(&w->squeeze[place][j],
-                       wide_fma(film->D * m[i], m[k], wide_load(&w->squeeze[place][j])));
+            wide_store(&w->squeeze[place][j], wide_fma(D * m[i], m[k], wide_load(&w->squeeze[place][j])));
+}
+
+// Leaves a film to the substeps of elastic halves (pocket_films.c).
+INLINE void squeeze_leave(const SqueezeFilm *film, vec v, vec a, vec b, vec e_t, int h, int j, Work *w)
+{
+    ElasticWork *e = &w->elastic;
+    wide_store(&e->film_D[h][j], film->D);
+    wide_store(&e->film_u[h][j], vec_dot(film->m, v));
+    wide_store(&e->film_m[0][h][j], vec_dot(film->m, a));
+    wide_store(&e->film_m[1][h][j], vec_dot(film->m, b));
+    wide_store(&e->film_m[2][h][j], vec_dot(film->m, e_t));
+}
+
+// The motion of wall k by each mode along its film; a wall that is not near has none.
+INLINE void squeeze_wall(const Model *model, int h, int k, const WallShape *shape, Work *w)
+{
+#ifndef DUAL
+    const ElasticWork *e = &w->elastic;
+    if (!(e->film_D[h][k] > model->modes->weak_film)) return;
+    const double m[3] = {e->film_m[0][h][k], e->film_m[1][h][k], e->film_m[2][h][k]};
+    elastic_wall_along(model->modes, k, shape, m, w->elastic.film_shape[h][k]);
+#else
+    (void)model, (void)h, (void)k, (void)shape, (void)w;
+#endif
 }
 
 INLINE wide squeeze_polynomial(const double node[SQUEEZE_NODES], const double newton[SQUEEZE_NODES], wide z)
@@ -82,7 +109,7 @@ INLINE wide squeeze_shape(const PocketSqueeze *film, wide h, int j)
 INLINE SqueezeFilm pocket_squeeze(const Derived *d, int half, int j, const PocketGap *gap, vec v)
 {
     const PocketSqueeze *film = &d->squeeze;
-    const wide zero = wide_set(0.0), one = wide_set(1.0), c = wide_load(&film->c[j]);
+    const wide zero = wide_set(0.0), c = wide_load(&film->c[j]);
     const wide v_x = vec_dot(v, gap->a), v_t = vec_dot(v, gap->e_t), n_x = gap->n_x, n_t = gap->n_t;
 
     // gap with its floor; below 1 nm/s the film is linear in the speed
@@ -99,6 +126,5 @@ INLINE SqueezeFilm pocket_squeeze(const Derived *d, int half, int j, const Pocke
 
     const wide D = w * c * squeeze_shape(film, wide_max(-gap->delta, zero), j) / h;
     const wide speed = (n_x + across * n_t) * v_x + (n_t - across * n_x) * v_t;
-    const wide acts = wide_select(wide_above(speed, 0.0), one, zero);
-    return (SqueezeFilm){D * acts, D * acts * speed, m};
+    return (SqueezeFilm){D, D * wide_max(speed, zero), m};
 }

@@ -115,9 +115,7 @@ INLINE SphereSqueeze spheres_squeeze(const Derived *d, int j, const wide q[3], w
     if (cap->filling < 1.0) G = squeeze_layer(G, h, cap->filling * C, C);
 
     SphereSqueeze at = {.m_x = m_x * inv_m, .m_r = m_r * inv_m, .m_t = m_t * inv_m};
-    const wide D = G * wide_load(&film->c[j]) / h_eff;
-    const wide speed = at.m_x * v[0] + at.m_r * v[1] + at.m_t * v[2];
-    at.D = wide_select(wide_above(speed, 0.0), D, zero);
-    at.F = at.D * speed;
+    at.D = G * wide_load(&film->c[j]) / h_eff;
+    at.F = at.D * wide_max(at.m_x * v[0] + at.m_r * v[1] + at.m_t * v[2], zero);
     return at;
 }

@@ -300,7 +300,7 @@ static void films_follow(const Model *model, double t, const double speed[RELATI
 
 void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
                            const double *state, double *y, Foreseen *foreseen, JointStep *slip,
-                           RimFilmsStep *films, const Work *w)
+                           RimFilmsStep *films, PocketFilmsStep *pockets, const Work *w)
 {
     const ElasticHalf *half = model->modes;
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
@@ -348,7 +348,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
             halfway[i] = moved[i] + 0.5 * sub * speed[i];
             moved[i] += sub * speed[i];
         }
-        if (loads.count > 0) {
+        if (loads.count + pockets->count > 0) {
             for (int i = 0; i < CAGE_MOTIONS; i++) {
                 pushed[i] += 0.5 * sub * push[i];
                 way[i] += sub * pushed[i];
@@ -383,7 +383,14 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         for (int i = 0; i < CAGE_MOTIONS; i++) pushed[i] += 0.5 * sub * push[i];
         if (films) films_follow(model, step * sub, speed, pushed, step == steps, films, v, w);
+        if (pockets->count > 0) {
+            double halves[CAGE_MOTIONS];
+            memcpy(halves, pushed, sizeof pushed);
+            to_halves(model, &w->half[0], 1.0, speed, 0, halves);
+            pocket_films_follow(model, step * sub, sub, v, halves, pushed, pockets);
+        }
     }
+    pocket_films_foreseen(model, pockets, foreseen->modes, push);
     memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);
     for (int k = 0; k < LANES; k++) {
         slip->way_y[k] = joints.u_y[k] - fast->u_y[k];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
+#include "cage/elastic/pocket_films.h"
 #include "cage/elastic/rim_films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
@@ -33,8 +34,8 @@ typedef struct {
 // Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the
 // step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
-// the middle; films: those that follow in the substeps, NULL if none does.
+// the middle; films: those of rims that follow in the substeps, NULL if none does; pockets: those of pockets.
 #define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
                            const double *state, double *y, Foreseen *foreseen, JointStep *slip,
-                           RimFilmsStep *films, const Work *w);
+                           RimFilmsStep *films, PocketFilmsStep *pockets, const Work *w);

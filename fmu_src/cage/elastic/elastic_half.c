@@ -12,6 +12,9 @@
 // from 5.6 on films that are held over a step feed it: their work is sin x + (x/2)(1 - cos x).
 static const double SUBSTEP_TURN = 1.55;
 
+// Part of a wall's velocity that a film takes in the longest step, below which the film need not follow in the substeps.
+static const double WEAK_FILM = 0.05;
+
 enum { COORDINATES = N_MODES + 3 };  // modes and relative rigid motions
 
 enum { WALL_NODE = 1 };  // of the walls' angle: impacts meet the wall at 7 degrees in the median
@@ -240,10 +243,11 @@ static void take_alike(ElasticHalf *half)
 }
 
 // How far a wall can move, between the nodes a quarter farther at most, and how easily: modes of unit mass m.
-static void find_reach(const Parameters *p, bool ribbon, ElasticHalf *half)
+static void find_reach(const Parameters *p, const Derived *d, bool ribbon, ElasticHalf *half)
 {
-    const double unit_2 = rivet_table.half.m, farther = 1.25;
+    const double unit_2 = rivet_table.half.m, farther = 1.25, R = 0.5 * p->bearing.d_m;
     half->pairs = 0;
+    half->wall_mobility = 1.0 / p->cage.m + R * R / d->J_t;
     for (int i = 0; i < half->n; i++) {
         double most = 0.0;
         for (int node = 0; node < half->radii * half->nodes; node++) {
@@ -258,7 +262,7 @@ static void find_reach(const Parameters *p, bool ribbon, ElasticHalf *half)
             half->widest[i] = farther * most;
         else if (!half->pair[i] || is_a)
             half->widest_others[i] = farther * most;
-        if (!half->pair[i] || is_a) half->wall_mobility += 0.5 * most * most / p->cage.m;
+        if (!half->pair[i] || is_a) half->wall_mobility += most * most / p->cage.m;
     }
 }
 
@@ -343,7 +347,7 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     take_modes(p, half);
     take_residual(&table->law, half);
     if (ribbon) take_alike(half);
-    find_reach(p, ribbon, half);
+    find_reach(p, d, ribbon, half);
     half->of.m = p->cage.m, half->of.J_p = d->J_p, half->of.J_t = d->J_t;
     half->of.friction = d->k_plate_t;
     half->of.k_hole = -1.0;
@@ -365,5 +369,6 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);
     if (half->of.k_hole == k_hole) return;
     half->substep = longest_substep(p, d, half);
+    half->weak_film = WEAK_FILM / (elastic_longest_step(half) * half->wall_mobility);
     half->of.k_hole = k_hole;
 }

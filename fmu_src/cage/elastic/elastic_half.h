@@ -70,8 +70,9 @@ struct ElasticHalf {
     // how far a wall can move: largest |u|/|q| of each mode, of a pair's a over the amplitude of both
     double widest[MODES];         // of modes that move all pockets alike, else 0
     double widest_others[MODES];  // of the others, else 0
-    double wall_mobility;  // of a wall by the modes, mean of two directions, at the widest places [m/s/(N.s)]
-    double compliance;     // of a wall along its normal, by the residual, less that in Hertz's [m/N]
+    double wall_mobility;         // of a wall by modes and half, at the widest place, at most [m/s/(N.s)]
+    double weak_film;             // damping of a pocket's film that need not follow in the substeps [N.s/m]
+    double compliance;            // of a wall along its normal, by the residual, less that in Hertz's [m/N]
     // what the modes leave between the pads of a joint, out of the plane: compliance and its inverse
     double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];
     double series;     // part of the friction states' stiffness that is left in series with the residual
@@ -186,9 +187,9 @@ void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const Ribb
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)
 void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
                        int lane, const scalar n[3], mode_array shape);
-#define ribbon_wall_along FOR_ISA(ribbon_wall_along)
-void ribbon_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
-                       mode_array shape);
+#define elastic_wall_along FOR_ISA(elastic_wall_along)
+void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
+                        mode_array shape);
 
 // Motion of the pad of joint k by coordinate i, of PAD_OUT out of the plane or of PAD_IN in it.
 double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, int k);

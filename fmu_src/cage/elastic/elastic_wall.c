@@ -389,8 +389,8 @@ void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, cons
     memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }
 
-void ribbon_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
-                       mode_array shape)
+void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
+                        mode_array shape)
 {
     const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];

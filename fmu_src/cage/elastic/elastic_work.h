@@ -57,6 +57,11 @@ typedef struct {
     ball_array touch_r[2], touch_chi[2], touch_radius[2], wall_energy[2];
     PressedWall pressed[2][Z];
 
+    // films of oil before the walls (pocket_squeeze.h): damping, 0 where there is none [N.s/m], speed at which the gap closes [m/s], direction
+    // (x, r, t), motion of the wall along it by each mode; not written in dry pockets
+    ball_array film_D[2], film_u[2], film_m[3][2];
+    mode_array film_shape[2][Z];
+
     ElasticJoints joints;
     scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
 } ElasticWork;

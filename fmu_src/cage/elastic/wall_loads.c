@@ -50,15 +50,8 @@ static void add_forces(const WallLoads *loads, const wall_load_array force, doub
     }
 }
 
-// Rates and accelerations of the balls of a packet against half h along the contacts' normals, both as rigid bodies.
-typedef struct {
-    scalar rate[LANE_WIDTH], acceleration[LANE_WIDTH];
-    scalar along[RELATIVE_MOTIONS][LANE_WIDTH];  // motion along the normal by velocities of the half
-} RigidApproach;
-
-static void rigid_approach(const Model *model, double gamma, const FastState *fast, const double *f,
-                           const double *state, const double *y, const Work *w, int h, int j,
-                           RigidApproach *to)
+void rigid_approach(const Model *model, double gamma, const double *const direction[3], const double *f,
+                    const double *state, const double *y, const Work *w, int h, int j, RigidApproach *to)
 {
     const Rotor *half = &w->half[h];
     const wide v_x = wide_load(&state[Y_BALL_V_X + j]), v_r = wide_load(&state[Y_BALL_V_R + j]);
@@ -67,14 +60,13 @@ static void rigid_approach(const Model *model, double gamma, const FastState *fa
     wide cosine, sine;
     wide_sincos(wide_load(&y[Y_BALL_THETA + j]) - gamma * omega, &sine, &cosine);
 
-    // normal
+    // direction
     const vec a = vec_local(half->a, cosine, sine), b_y = vec_local(half->b_y, cosine, sine);
     const vec b_z = vec_local(half->b_z, cosine, sine);
     const wide cos_phi = wide_load(&model->d->pocket_cos[j]), sin_phi = wide_load(&model->d->pocket_sin[j]);
     const vec b = vec_axpy(sin_phi, b_z, vec_scale(cos_phi, b_y)), e_t = vec_cross(a, b);
-    const vec along =
-        vec_axpy(wide_load(&fast->touch_r[h][j]), b, vec_scale(wide_load(&fast->touch_x[h][j]), a));
-    const vec n = vec_axpy(wide_load(&fast->touch_t[h][j]), e_t, along);
+    const vec along = vec_axpy(wide_load(&direction[1][j]), b, vec_scale(wide_load(&direction[0][j]), a));
+    const vec n = vec_axpy(wide_load(&direction[2][j]), e_t, along);
 
     // the ball's centre from the half's geometric centre, and from its centre of mass
     const vec p = vec_sub((vec){x, r, zero}, vec_local(half->x, cosine, sine));
@@ -91,6 +83,7 @@ static void rigid_approach(const Model *model, double gamma, const FastState *fa
     const vec ball = {wide_load(&f[Y_BALL_V_X + j]), wide_load(&f[Y_BALL_V_R + j]) - r * omega * omega,
                       r * wide_load(&f[Y_BALL_OMEGA_M + j]) + 2.0 * v_r * omega};
     wide_store(to->acceleration, vec_dot(n, vec_sub(ball, vec_add(vec_local(moved, cosine, sine), by_turn))));
+    wide_store(to->direction[0], n.x), wide_store(to->direction[1], n.r), wide_store(to->direction[2], n.t);
     vec_to_global(n, cosine, sine, to->along[0], to->along[1], to->along[2]);
     vec_to_global(vec_cross(from_mass, n), cosine, sine, to->along[5], to->along[3], to->along[4]);
 }
@@ -157,7 +150,8 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
             int ball[LANE_WIDTH];
             RigidApproach approach;
             if (mask == 0) continue;
-            rigid_approach(model, loads->middle, fast, f, state, y, w, half, j, &approach);
+            const double *const n[3] = {fast->touch_x[half], fast->touch_r[half], fast->touch_t[half]};
+            rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
                 if (mask >> i & 1 && add_load(model, h, fast, half, j, i, &approach, loads))
                     ball[loads->count - 1 - first] = j + i;

@@ -1,0 +1,241 @@
+// Films of oil between balls and the walls of elastic halves within a step: forces F = D u, u > 0 the speed at which a gap closes.
+//
+// D is up to 1000 N.s/m, and a wall weighs some grams for what happens in a step, so that D over that mass is up to 30 times 1/h.
+// Held over a step, such forces feed the walls' vibrations.  So they follow in the substeps, implicit, one by one:
+//
+//     u = r + b (t - h/2) - U.v - g.V       r, b: rate in the middle of the step and acceleration of the rigid approach by slow
+//                                           forces; v, V: velocities of the wall's modes and of the half by all others
+//     F = D (u + Y d F_0)/(1 + d Y D)       at the end of a substep of length d, not below 0: the film cavitates; F_0: at the
+//                                           step's start, which the slow forces have
+//     v += (U/m) d (F - F_0),   V += g d (F - F_0)/inertia,   Y = U.U/m + g.g/inertia
+//
+// At the end of the step the evaluation has F = D u of the predicted velocities.  What the trapezoidal rule makes of it is implicit too:
+//
+//     F_{n+1} = D (u + Y gamma F_f)/(1 + gamma Y D),   F_f: force at the end as the substeps foresaw it
+//
+// The evaluation's rates lose the difference.  D and direction are those of the step's start in the substeps.  The ball's own rate by D is in
+// the matrix of implicit.c.
+#include "cage/elastic/pocket_films.h"
+
+#include "cage/elastic/elastic_half.h"
+#include "cage/elastic/wall_loads.h"
+#include "physics/rotor.h"
+
+static const double ROOT_HALF = 0.70710678118654752;
+
+void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
+{
+    memset(films, 0, sizeof *films);
+    if (!model->d->squeeze.filled) return;
+    for (int h = 0; h < 2; h++)
+        for (int k = 0; k < Z; k++) {
+            const double D = w->elastic.film_D[h][k], u = w->elastic.film_u[h][k];
+            films->F[h][k] = D * fmax(u, 0.0);
+            if (!(D > model->modes->weak_film)) continue;
+            films->D[h][k] = D, films->u[h][k] = u;
+            films->m_x[h][k] = w->elastic.film_m[0][h][k];
+            films->m_r[h][k] = w->elastic.film_m[1][h][k];
+            films->m_t[h][k] = w->elastic.film_m[2][h][k];
+            memcpy(films->shape[h][k], w->elastic.film_shape[h][k], sizeof films->shape[h][k]);
+        }
+}
+
+// Rate and acceleration of one lane's approach, motion along m by velocities of the half.
+static void take_lane(const RigidApproach *approach, int lane, double along[RELATIVE_MOTIONS])
+{
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) along[i] = approach->along[i][lane];
+}
+
+// Velocity of the wall along m by an impulse of 1 N.s on it.
+static double mobility_of(const Model *model, int h, const double *shape,
+                          const double along[RELATIVE_MOTIONS])
+{
+    const double *inertia = &model->d->inertia[Y_CAGE_V_X + h];
+    double by_modes = 0.0, by_half = 0.0;
+    for (int i = 0; i < N_MODES; i++) by_modes += shape[i] * shape[i];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) by_half += along[i] * along[i] / inertia[2 * i];
+    return by_modes / model->p->cage.m + by_half;
+}
+
+void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,
+                       const double *state, const double *y, const Work *w, PocketFilmsStep *step)
+{
+    step->count = 0;
+    step->middle = 0.5 * h;
+    if (!model->d->squeeze.filled) return;
+    for (int half = 0; half < 2; half++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            const int mask = wide_mask(wide_above(wide_load(&films->D[half][j]), 0.0));
+            RigidApproach approach;
+            if (mask == 0) continue;
+            const double *const m[3] = {films->m_x[half], films->m_r[half], films->m_t[half]};
+            rigid_approach(model, step->middle, m, f, state, y, w, half, j, &approach);
+            for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+                const int k = j + lane, i = step->count;
+                if (!(mask >> lane & 1)) continue;
+                take_lane(&approach, lane, step->along[i]);
+                step->half[i] = half, step->ball[i] = k;
+                step->mobility[i] = mobility_of(model, half, films->shape[half][k], step->along[i]);
+                step->D[i] = films->D[half][k], step->F_0[i] = step->F[i] = films->F[half][k],
+                step->impulse[i] = 0.0;
+                step->rate[i] = approach.rate[lane], step->acceleration[i] = approach.acceleration[lane];
+                memset(step->shape[i], 0, sizeof step->shape[i]);
+                memcpy(step->shape[i], films->shape[half][k], sizeof films->shape[half][k]);
+                step->count++;
+            }
+        }
+}
+
+// Velocities of both halves' modes by those of S and D, and back.
+static void to_half_modes(const double *v, mode_array half[2])
+{
+    for (int i = 0; i < N_MODES; i++) {
+        half[0][i] = ROOT_HALF * (v[i] - v[N_MODES + i]);
+        half[1][i] = ROOT_HALF * (v[i] + v[N_MODES + i]);
+    }
+}
+
+static void add_half_modes(mode_array half[2], double *v)
+{
+    for (int i = 0; i < N_MODES; i++) {
+        v[i] += ROOT_HALF * (half[1][i] + half[0][i]);
+        v[N_MODES + i] += ROOT_HALF * (half[1][i] - half[0][i]);
+    }
+}
+
+// Velocity of a wall by velocities of its half's modes and of the half.
+static double wall_speed(const double *shape, const double *modes, const double along[RELATIVE_MOTIONS],
+                         const double *rows)
+{
+    double sum = elastic_sum(shape, modes);
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) sum += along[i] * rows[2 * i];
+    return sum;
+}
+
+// Adds an impulse [N.s] on a wall to these velocities.
+static void push_wall(const Model *model, int h, double impulse, const double *shape,
+                      const double along[RELATIVE_MOTIONS], double *modes, double *rows)
+{
+    const double *inertia = &model->d->inertia[Y_CAGE_V_X + h], part = impulse / model->p->cage.m;
+    for (int i = 0; i < N_MODES; i++) modes[i] += part * shape[i];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rows[2 * i] += impulse * along[i] / inertia[2 * i];
+}
+
+// Force of a film whose gap closes with u less `give` times the force.
+static double implicit_force(double D, double u, double give)
+{
+    return D * fmax(u, 0.0) / (1.0 + give * D);
+}
+
+void pocket_films_follow(const Model *model, double t, double d, double *v,
+                         double halves[2 * RELATIVE_MOTIONS], double pushed[2 * RELATIVE_MOTIONS],
+                         PocketFilmsStep *step)
+{
+    mode_array modes[2], change[2];
+    double rows[2 * RELATIVE_MOTIONS] = {0.0};
+    if (step->count == 0) return;
+    to_half_modes(v, modes);
+    memset(change, 0, sizeof change);
+    for (int i = 0; i < step->count; i++) {
+        const int h = step->half[i];
+        double u = step->rate[i] + step->acceleration[i] * (t - step->middle);
+        u -= wall_speed(step->shape[i], modes[h], step->along[i], &halves[h]);
+        u -= wall_speed(step->shape[i], change[h], step->along[i], &rows[h]);
+        step->F[i] =
+            implicit_force(step->D[i], u + step->mobility[i] * d * step->F_0[i], d * step->mobility[i]);
+        step->impulse[i] += d * step->F[i];
+        push_wall(model, h, d * (step->F[i] - step->F_0[i]), step->shape[i], step->along[i], change[h],
+                  &rows[h]);
+    }
+    add_half_modes(change, v);
+    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) pushed[i] += rows[i];
+}
+
+// Force at the step's end that, with that at its start, makes the impulses of the substeps.
+static double foreseen_force(const PocketFilmsStep *step, int i)
+{
+    return step->impulse[i] / step->middle - step->F_0[i];
+}
+
+void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
+                           double halves[2 * RELATIVE_MOTIONS])
+{
+    mode_array change[2];
+    if (step->count == 0) return;
+    memset(change, 0, sizeof change);
+    for (int i = 0; i < step->count; i++) {
+        const int h = step->half[i];
+        push_wall(model, h, foreseen_force(step, i) - step->F_0[i], step->shape[i], step->along[i], change[h],
+                  &halves[h]);
+    }
+    add_half_modes(change, modes);
+}
+
+// Velocities that the solution adds to what the evaluation had, or rates: of the modes, of the halves, of the balls.
+typedef struct {
+    mode_array modes[2];
+    double halves[2 * RELATIVE_MOTIONS], balls[Z][3];
+} FilmChange;
+
+// Adds an impulse on a wall, and another one against it on the ball.
+static void push_both(const Model *model, int h, int k, double on_wall, double on_ball, const double *shape,
+                      const double along[RELATIVE_MOTIONS], const double direction[3], FilmChange *to)
+{
+    push_wall(model, h, on_wall, shape, along, to->modes[h], &to->halves[h]);
+    for (int i = 0; i < 3; i++) to->balls[k][i] -= on_ball / model->d->m * direction[i];
+}
+
+double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
+                           const PocketFilms *before, const double *y, const Work *w, double *f,
+                           PocketFilms *films)
+{
+    FilmChange solved, rates;
+    double foreseen[2][LANES], saved = 0.0;
+    if (!model->d->squeeze.filled) return 0.0;
+    memset(&solved, 0, sizeof solved);
+    memset(&rates, 0, sizeof rates);
+    memcpy(foreseen, before->F, sizeof foreseen);
+    for (int i = 0; i < step->count; i++) foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
+    for (int h = 0; h < 2; h++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            const int mask = wide_mask(wide_above(wide_load(&films->D[h][j]), 0.0));
+            RigidApproach approach;
+            if (mask == 0) continue;
+            const double *const m[3] = {films->m_x[h], films->m_r[h], films->m_t[h]};
+            rigid_approach(model, 0.0, m, f, y, y, w, h, j, &approach);
+            for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+                const int k = j + lane;
+                double along[RELATIVE_MOTIONS], direction[3];
+                mode_array shape;
+                if (!(mask >> lane & 1)) continue;
+                take_lane(&approach, lane, along);
+                for (int i = 0; i < 3; i++) direction[i] = approach.direction[i][lane];
+                memset(shape, 0, sizeof shape);
+                memcpy(shape, films->shape[h][k], sizeof films->shape[h][k]);
+
+                const double D = films->D[h][k], F = films->F[h][k], F_0 = before->F[h][k],
+                             F_f = foreseen[h][k];
+                const double of_wall = mobility_of(model, h, shape, along),
+                             of_ball = dot3(direction, direction) / model->d->m;
+                double u = films->u[h][k] - wall_speed(shape, solved.modes[h], along, &solved.halves[h]);
+                u += dot3(direction, solved.balls[k]);
+                const double give = gamma * (of_wall + of_ball);
+                const double F_new = implicit_force(D, u + gamma * (of_wall * F_f + of_ball * F_0), give);
+                push_both(model, h, k, gamma * (F_new - F_f), gamma * (F_new - F_0), shape, along, direction,
+                          &solved);
+                push_both(model, h, k, F_new - F, F_new - F, shape, along, direction, &rates);
+                u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
+                saved += F * films->u[h][k] - F_new * u;
+                films->F[h][k] = F_new;
+                films->rate = fmax(films->rate, of_wall * D);
+            }
+        }
+    add_half_modes(rates.modes, &f[Y_MODE_S_DOT]);
+    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) f[Y_CAGE_V_X + i] += rates.halves[i];
+    for (int k = 0; k < Z; k++) {
+        f[Y_BALL_V_X + k] += rates.balls[k][0];
+        f[Y_BALL_V_R + k] += rates.balls[k][1];
+        f[Y_BALL_OMEGA_M + k] += rates.balls[k][2] / y[Y_BALL_R + k];
+    }
+    return saved;
+}

@@ -1,0 +1,57 @@
+// Films of oil between balls and the walls of elastic halves within a step.  Equations in pocket_films.c; twin:
+// bearing_model/cage/elastic/pocket_films.py.
+#pragma once
+
+#include "numbers/isa.h"
+#include "physics/model.h"
+
+// The films of both halves at an evaluation, D = 0 where there is none.  Part of the saved state: no member is aligned beyond a
+// double.
+typedef struct {
+    double D[2][LANES], u[2][LANES], F[2][LANES];        // damping [N.s/m], speed of closing [m/s], force [N]
+    double m_x[2][LANES], m_r[2][LANES], m_t[2][LANES];  // direction along the pocket's axes
+    double shape[2][Z][N_MODES];                         // motion of the wall along it by each mode
+    double rate;  // largest D over the mass of its wall, at the end of a step [1/s]
+} PocketFilms;
+
+// Those of a step that follow in the substeps.
+typedef struct {
+    int count, half[2 * Z], ball[2 * Z];
+    double middle;                          // of the step [s]
+    double D[2 * Z], F_0[2 * Z], F[2 * Z];  // damping; force at the step's start and now
+    double impulse[2 * Z];                  // so far [N.s]
+    double rate[2 * Z],
+        acceleration[2 * Z];  // of the rigid approach, in the middle of the step and at its start
+    double mobility[2 * Z];   // of wall and half [m/s/(N.s)]
+    double along[2 * Z][RELATIVE_MOTIONS];  // motion along m by those of the half
+    mode_array shape[2 * Z];
+} PocketFilmsStep;
+
+// Takes the films of an evaluation.
+#define pocket_films_split FOR_ISA(pocket_films_split)
+void pocket_films_split(const Model *model, const Work *w, PocketFilms *films);
+
+// Those of a step of length h under the rates f.  state: velocities in the middle of the step; y: positions at its end; w:
+// kinematics of the halves in the middle.
+#define pocket_films_find FOR_ISA(pocket_films_find)
+void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,
+                       const double *state, const double *y, const Work *w, PocketFilmsStep *step);
+
+// The impulses of a substep of length d at its end, the time t of the step, on velocities v of S and D and on those of the
+// halves by all but slow forces, `halves`; `pushed` gets the same as halves.
+#define pocket_films_follow FOR_ISA(pocket_films_follow)
+void pocket_films_follow(const Model *model, double t, double d, double *v,
+                         double halves[2 * RELATIVE_MOTIONS], double pushed[2 * RELATIVE_MOTIONS],
+                         PocketFilmsStep *step);
+
+// Adds to accelerations of the modes and of the halves what the films have changed by since the step's start.
+#define pocket_films_foreseen FOR_ISA(pocket_films_foreseen)
+void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
+                           double halves[2 * RELATIVE_MOTIONS]);
+
+// At the step's end y, w, behind the evaluation: takes from the rates f what the films there have too much at the predicted velocities, and returns the power
+// that this saves [W].
+#define pocket_films_arrive FOR_ISA(pocket_films_arrive)
+double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
+                           const PocketFilms *before, const double *y, const Work *w, double *f,
+                           PocketFilms *films);
