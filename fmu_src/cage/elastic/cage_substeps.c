@@ -22,7 +22,7 @@
 // geometric centres, to which the relative motions belong: v_com = v + Omega x c, and the moment about them is M - c x F.  Whatever these motions leave out, gyroscopic
 // terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
 //
-// Stiff films on bent rims follow in the substeps (rim_films.c).
+// Stiff films follow in the substeps, those on bent rims (rim_films.c) and those in pockets (pocket_films.c).
 //
 // The loads of balls on walls follow in the substeps, those of balls that arrive within the step too (wall_loads.c); the end
 // corrects them.

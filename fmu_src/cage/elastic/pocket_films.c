@@ -9,12 +9,13 @@
 //                                           step's start, which the slow forces have
 //     v += (U/m) d (F - F_0),   V += g d (F - F_0)/inertia,   Y = U.U/m + g.g/inertia
 //
-// At the end of the step the evaluation has F = D u of the predicted velocities.  What the trapezoidal rule makes of it is implicit too:
+// At the end of the step the evaluation has F = D u of the predicted velocities.  Wall, half and ball get the same impulse there,
+// gamma (F_n + F_{n+1}) by the trapezoidal rule, with F_{n+1} implicit in the velocities of all three:
 //
-//     F_{n+1} = D (u + Y gamma F_f)/(1 + gamma Y D),   F_f: force at the end as the substeps foresaw it
+//     F_{n+1} = D (u + gamma (Y F_f + Y_b F_n))/(1 + gamma (Y + Y_b) D),   Y_b = 1/m of the ball
 //
-// The evaluation's rates lose the difference.  D and direction are those of the step's start in the substeps.  The ball's own rate by D is in
-// the matrix of implicit.c.
+// F_f: force at the end that with F_n makes the impulses of the substeps.  The evaluation's rates lose what F = D u has too much.  D and
+// direction are those of the step's start in the substeps.  Films whose D is small for the longest step stay slow forces.
 #include "cage/elastic/pocket_films.h"
 
 #include "cage/elastic/elastic_half.h"
@@ -25,7 +26,9 @@ static const double ROOT_HALF = 0.70710678118654752;
 
 void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
 {
-    memset(films, 0, sizeof *films);
+    memset(films->D, 0, sizeof films->D);
+    memset(films->F, 0, sizeof films->F);
+    films->rate = 0.0;
     if (!model->d->squeeze.filled) return;
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < Z; k++) {
