@@ -9,7 +9,7 @@
 //   race, spin (sliced)     omega.n                                      g_spin = 1.4 moment/spin
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
-//   pocket, oil             v.m of the ball by itself, rigid halves   D
+//   pocket, oil             v.m of the ball by itself; rigid halves      D
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
 //   land and bent rim       and its shapes                               Newton's method (land_bent.c)
 //   land, Couette and dry   spin s                                       film_spin
