@@ -383,7 +383,8 @@ def cage_part(memory):
 def cage_longest_step(model, film, memory):
     """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, or one in a pocket, but two substeps at least.  Slow halves have a part of it.
+    not follow in the substeps, or one in a pocket, but two substeps at least, one for pockets where lands guide the cage.  Slow halves
+    have a part of it.
     """
     part = cage_part(memory)
     if not model.modes:
@@ -391,8 +392,8 @@ def cage_longest_step(model, film, memory):
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
     most = part * model.modes.longest_step
-    A = max(rate / model.p.cage.m, memory.pockets.rate)
-    return min(most, max(2.0 * d, 1.0 / A if A > 0.0 else np.inf))
+    films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate)
+    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation
