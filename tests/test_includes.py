@@ -12,14 +12,14 @@ import pytest
 SOURCES = Path(__file__).resolve().parents[1] / "fmu_src"
 GROUPS = {  # from the bottom up
     "numbers": "aligned build_info cpu_clock dual elementary elimination fatigue float_environment isa lanes octet part "
-    "reserved_memory saved_numbers scalar statistics variable_table variables vec vector_ops viscosity",
+    "reserved_memory saved_numbers scalar statistics trapezoid variable_table variables vec vector_ops viscosity",
     "data of the cage": "elastic_work half_modes half_path joint_law two_half_work",
     "laws and tables": "ball_spall ball_turn elastic_half elastic_wall frame hertz land_bent model outer_ring ring_fit rivet_joint rivet_rom "
     "race_surface rivet_splines rotor temperature traction centrifugal spin_preload",
     "elements": "ball drag land_film race_contact ring ring_load",
-    "both cages": "cage_joint films halves joint_slip pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze "
+    "both cages": "cage_joint films halves halves_step joint_slip pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze "
     "spheres_squeeze",
-    "one cage": "cage_elastic cage_substeps elastic_lands joint_open rim_films two_half wall_loads",
+    "one cage": "cage_elastic cage_substeps elastic_lands elastic_step joint_open pocket_films rim_films two_half wall_loads",
     "door of the cage": "cage cage_read cage_setup",
     "constants, powers": "derived powers housing",
     "right-hand side": "rhs",

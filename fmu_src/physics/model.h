@@ -100,8 +100,9 @@ typedef struct {
         loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
 } RingFit;
 
-// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
-enum { RELATIVE_MOTIONS = 6 };
+// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.  Rigid motions of both
+// halves, in the order of their velocities in the state.
+enum { RELATIVE_MOTIONS = 6, CAGE_MOTIONS = 2 * RELATIVE_MOTIONS };
 
 // Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of
 // mass take; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
@@ -349,7 +350,7 @@ typedef struct {
     ball_array S_y, S_z, H_y, H_z, B_y, B_z, joint_F_y, joint_F_z;
     ball_array plate_held, head_held, k_bearing;
     ball_array joint_dissipated;
-    ball_array joint_rubbed;  // normal force times slip in the step that ends here [J] (cage_correct)
+    ball_array joint_rubbed;  // normal force times slip in the step that ends here [J] (halves_slide)
 
     // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
     // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)

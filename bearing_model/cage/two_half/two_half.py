@@ -31,6 +31,7 @@ import numpy as np
 
 from bearing_model.cage.common.cage_joint import (
     JointMotion,
+    JointStep,
     JointStiffness,
     cage_joint_carried,
     cage_joint_follow,
@@ -38,6 +39,15 @@ from bearing_model.cage.common.cage_joint import (
     cage_joint_loads,
 )
 from bearing_model.cage.common.films import HALF, N_HALVES
+from bearing_model.cage.common.halves_step import (
+    halves_correct,
+    halves_films,
+    halves_move,
+    halves_predict,
+    halves_remember,
+    halves_residual,
+    halves_slide,
+)
 from bearing_model.cage.common.joint_slip import joint_slip_add
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.two_half.half_path import half_path_rows, land_rows
@@ -183,7 +193,7 @@ def two_half_matrices(model, w, gamma):
     return weight * A, weight * K, weight_shear * K_shear, axial, shear
 
 
-def two_half_correct(model, w, gamma, axial, shear, delta, y, joints):
+def correct_halves(model, w, gamma, axial, shear, delta, y, joints):
     """Positions and trial deflections in y follow the corrections delta [12] of the velocities: half 1 against half 0 with
     weights; z_{n+1} += c gamma u, u the change of the joint's velocity.
     """
@@ -197,3 +207,32 @@ def two_half_correct(model, w, gamma, axial, shear, delta, y, joints):
     u = np.array([u_y - ds * d.rivet_z, u_z + ds * d.rivet_y])
     cage_joint_follow(shear * gamma, u, y)
     joints.way = joints.way + shear * gamma * u
+
+
+def two_half_begin(model, h, start, middle, y, w):
+    """Motion and predicted velocities; returns the HalvesStep."""
+    step, across = halves_move(model, h, start, middle, y, w), w.v_j[1:]
+    step.joints = JointStep(cage_joint_follow(h, across, y), h * across)
+    halves_predict(model, start, y, step)
+    return step
+
+
+def two_half_end(model, step, start, end, error, w):
+    """Solution, corrections and history; returns residual and delta [12].
+
+    S (1 + gamma A + gamma^2 K) delta = residual; S = 1 + gamma^2 K_shear, across the axis, is a factor of its own.
+    """
+    gamma, one, films = step.gamma, np.eye(N_HALVES), halves_films(model, w)
+    A, K, K_shear, axial, shear = two_half_matrices(model, w, gamma)
+    residual = np.linalg.solve(one + gamma**2 * K_shear, halves_residual(step, start, end))
+    delta = np.linalg.solve(one + gamma * (films + A) + gamma**2 * K, residual)
+    change = halves_correct(step, delta, end.y)
+    correct_halves(model, w, gamma, axial, shear, change, end.y, step.joints)
+    two_half_slide(model, w, end.y, step.joints)
+    halves_remember(model, w, step, start, change, end, error)
+    return residual, delta
+
+
+def two_half_slide(model, w, y, joints):
+    """Maps the friction states in y back under the loads in w."""
+    return halves_slide(model, two_half_stiffness(model.d), w.two_half, y, joints)

@@ -36,7 +36,7 @@
 // little, by 120/s at 12,000 r/min.
 //
 // The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
-// end of each substep (cage_joint_slide), and under those of the evaluation by cage_correct.  What they and the modes' damping dissipate is
+// end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  What they and the modes' damping dissipate is
 // summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
