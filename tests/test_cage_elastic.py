@@ -496,8 +496,8 @@ def test_a_step_does_not_need_the_work_before_it(core):
         state, _ = scene.verlet(0.0, 3e-6, scene.verlet_evaluate(0.0, running_state(scene, rng)), weight)
         fast, known = state.cage.elastic.fast, scene.work.elastic.pressed
         for h in range(2):
-            for k in np.flatnonzero(list(fast.touch_K[h])):
-                assert list(known[h][k].place)[3:5] == [fast.touch_chi[h][k], fast.touch_radius[h][k]]
+            for k in np.flatnonzero(list(fast.touch.K[h])):
+                assert list(known[h][k].place)[3:5] == [fast.touch.chi[h][k], fast.touch.radius[h][k]]
                 pressed += 1
         for wall in (wall for half in other.work.elastic.pressed for wall in half):
             wall.place[5] = 0.0
@@ -629,7 +629,7 @@ def test_joints_turn_with_the_cage(monkeypatch):
         return np.abs(by_substeps.elastic.joints.e - by_places.elastic.joints.e).max()
 
     turning = missed()
-    monkeypatch.setattr(cage_substeps, "add_spin", lambda spin, t, middle, slow, moved, relative: relative)
+    monkeypatch.setattr(cage_substeps, "to_joint_frame", lambda spin, t, middle, slow, moved, relative: relative)
     monkeypatch.setattr(cage_substeps, "turn_out", lambda phi, relative: relative)
     assert turning < 0.01 * missed()
 

@@ -115,14 +115,14 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
     return values_are_within(memory->film[0], 6, LARGEST_FILM) &&
            values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
            values_are_within(fast->u_z, LANES, motion) &&
-           values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_K[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-           values_are_within(fast->touch_delta[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
-           values_are_within(fast->touch_r[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_chi[0], 2 * LANES, 2.0 * motion) &&
-           values_are_within(fast->touch_radius[0], 2 * LANES, 10.0 * motion) &&
+           values_are_within(fast->touch.x[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.t[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.K[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+           values_are_within(fast->touch.delta[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.Q[0], 2 * LANES, load) &&
+           values_are_within(fast->touch.r[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.chi[0], 2 * LANES, 2.0 * motion) &&
+           values_are_within(fast->touch.radius[0], 2 * LANES, 10.0 * motion) &&
            values_are_within(&fast->omega_2, 1, 1e18) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&

@@ -160,7 +160,7 @@ def turn_out(phi, relative):
     return turned
 
 
-def add_spin(spin, t, middle, slow, moved, relative):
+def to_joint_frame(spin, t, middle, slow, moved, relative):
     """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way
     since the middle turn back.
     """
@@ -217,7 +217,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         pushed = pushed + 0.5 * sub * push
         way = way + sub * pushed
         relative = between_halves(model, h0, pushed) + speed + time * slow
-        relative = add_spin(spin, time, middle, slow, halfway, relative)
+        relative = to_joint_frame(spin, time, middle, slow, halfway, relative)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
         joints.e = joints.e + 0.5 * sub * (middle_out + by_out)

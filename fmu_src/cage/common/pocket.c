@@ -120,7 +120,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
             squeeze_leave(&film, v, a, gap->b, e_t, h, j, w);
         }
 
-        wide_store(&w->elastic.touch_Q[h][j], Q);
+        wide_store(&w->elastic.touch.Q[h][j], Q);
     }
 
     wide_store(&pocket->Q[j], d->squeeze.filled ? Q + film.F : Q);
@@ -185,10 +185,10 @@ INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const P
     const wide reached = wide_select(wide_above(delta, 0.0), delta, delta + ahead);
     const wide share = pocket_share(model->d, h, gap->n_x, reached).load;
     const bits acts = wide_above(wide_min(share, reached), 0.0);
-    wide_store(&w->elastic.touch_x[h][j], gap->n_x);
-    wide_store(&w->elastic.touch_t[h][j], gap->n_t);
-    wide_store(&w->elastic.touch_K[h][j], wide_select(acts, model->d->pocket.K * share, zero));
-    wide_store(&w->elastic.touch_delta[h][j], delta);
+    wide_store(&w->elastic.touch.x[h][j], gap->n_x);
+    wide_store(&w->elastic.touch.t[h][j], gap->n_t);
+    wide_store(&w->elastic.touch.K[h][j], wide_select(acts, model->d->pocket.K * share, zero));
+    wide_store(&w->elastic.touch.delta[h][j], delta);
 }
 
 // Motion of a wall along the normal of a ball; the motion by each mode is left to the substeps.
@@ -226,11 +226,11 @@ static void clear_touches(Work *w, int h, int j)
 {
     const wide zero = wide_set(0.0);
     pocket_clear(&w->pocket[h], j);
-    wide_store(&w->elastic.touch_x[h][j], zero);
-    wide_store(&w->elastic.touch_t[h][j], zero);
-    wide_store(&w->elastic.touch_K[h][j], zero);
-    wide_store(&w->elastic.touch_delta[h][j], zero);
-    wide_store(&w->elastic.touch_Q[h][j], zero);
+    wide_store(&w->elastic.touch.x[h][j], zero);
+    wide_store(&w->elastic.touch.t[h][j], zero);
+    wide_store(&w->elastic.touch.K[h][j], zero);
+    wide_store(&w->elastic.touch.delta[h][j], zero);
+    wide_store(&w->elastic.touch.Q[h][j], zero);
 }
 
 // Motion of the walls, forces and modal forces of a packet.

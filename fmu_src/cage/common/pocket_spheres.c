@@ -339,14 +339,14 @@ static void clear_walls(Work *w, int h, int j)
     const wide zero = wide_set(0.0);
     ElasticWork *e = &w->elastic;
     pocket_clear(&w->pocket[h], j);
-    wide_store(&e->touch_x[h][j], zero);
-    wide_store(&e->touch_r[h][j], zero);
-    wide_store(&e->touch_t[h][j], zero);
-    wide_store(&e->touch_K[h][j], zero);
-    wide_store(&e->touch_delta[h][j], zero);
-    wide_store(&e->touch_Q[h][j], zero);
-    wide_store(&e->touch_chi[h][j], zero);
-    wide_store(&e->touch_radius[h][j], zero);
+    wide_store(&e->touch.x[h][j], zero);
+    wide_store(&e->touch.r[h][j], zero);
+    wide_store(&e->touch.t[h][j], zero);
+    wide_store(&e->touch.K[h][j], zero);
+    wide_store(&e->touch.delta[h][j], zero);
+    wide_store(&e->touch.Q[h][j], zero);
+    wide_store(&e->touch.chi[h][j], zero);
+    wide_store(&e->touch.radius[h][j], zero);
     wide_store(&e->wall_energy[h][j], zero);
 }
 
@@ -368,15 +368,15 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     const wide by_sphere = wide_max(contact->Q, wide_set(LEAST)) / model->d->spheres.K;
     const wide least = wide_exp((2.0 / 3.0) * wide_log(by_sphere)) / CORNER;
     const wide own = wide_min(wide_max(contact->delta, least), (CORNER * CORNER) * least);
-    wide_store(&e->touch_x[h][j], wide_select(pressed, n[0], zero));
-    wide_store(&e->touch_r[h][j], wide_select(pressed, n[1], zero));
-    wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
-    wide_store(&e->touch_K[h][j], wide_select(pressed, contact->Q / (own * wide_sqrt(own)), zero));
-    wide_store(&e->touch_delta[h][j], wide_select(pressed, own, zero));
-    wide_store(&e->touch_Q[h][j], load);
+    wide_store(&e->touch.x[h][j], wide_select(pressed, n[0], zero));
+    wide_store(&e->touch.r[h][j], wide_select(pressed, n[1], zero));
+    wide_store(&e->touch.t[h][j], wide_select(pressed, n[2], zero));
+    wide_store(&e->touch.K[h][j], wide_select(pressed, contact->Q / (own * wide_sqrt(own)), zero));
+    wide_store(&e->touch.delta[h][j], wide_select(pressed, own, zero));
+    wide_store(&e->touch.Q[h][j], load);
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
-    wide_store(&e->touch_chi[h][j], zero);
-    wide_store(&e->touch_radius[h][j], zero);
+    wide_store(&e->touch.chi[h][j], zero);
+    wide_store(&e->touch.radius[h][j], zero);
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         const int b = j + lane;
         if (!(mask >> lane & 1)) {
@@ -384,15 +384,15 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
             continue;
         }
         if (model->d->squeeze.filled) squeeze_wall(model, h, b, &shape[lane], w);
-        e->touch_chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
-        e->touch_radius[h][b] = at->radius[lane];
+        e->touch.chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
+        e->touch.radius[h][b] = at->radius[lane];
         const scalar F[3] = {on_wall[0][b], on_wall[1][b], on_wall[2][b]};
         elastic_wall_force(model->modes, b, &shape[lane], F, e->wall_force[h]);
 #ifndef DUAL
-        const double along[3] = {e->touch_x[h][b], e->touch_r[h][b], e->touch_t[h][b]};
+        const double along[3] = {e->touch.x[h][b], e->touch.r[h][b], e->touch.t[h][b]};
         PressedWall *wall = &e->pressed[h][b];
         memcpy(wall->place, along, sizeof along);
-        wall->place[3] = e->touch_chi[h][b], wall->place[4] = e->touch_radius[h][b];
+        wall->place[3] = e->touch.chi[h][b], wall->place[4] = e->touch.radius[h][b];
         wall->place[5] = model->p->cage.m;
         elastic_wall_along(model->modes, b, &shape[lane], along, wall->shape);
 #endif

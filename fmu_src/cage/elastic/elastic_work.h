@@ -19,6 +19,15 @@ typedef struct {
     mode_array shape;
 } PressedWall;
 
+// Contacts of balls with the walls of each half, and those that may come in the next step: direction (x, t) from the pocket's
+// axis to the ball; Hertz's constant by the half's share [N/m1.5], 0 without contact; approach beside the part that the wall's
+// residual contributes, negative before the contact [m]; load [N].  Of a ribbon's walls also direction r, the place's angle chi,
+// negative on the side t < 0, and radius [m].  Carried to the next step: no member is aligned beyond a scalar.
+typedef struct {
+    scalar x[2][LANES], t[2][LANES], K[2][LANES], delta[2][LANES], Q[2][LANES];
+    scalar r[2][LANES], chi[2][LANES], radius[2][LANES];
+} WallTouch;
+
 // The joints between both halves, in the frame of half 0.  At an evaluation they are written by cage_elastic.c; in the
 // substeps, which have their own, by cage_substeps.c.
 typedef struct {
@@ -47,14 +56,10 @@ typedef struct {
     // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c and pocket_spheres.c) and on the rims
     mode_array wall_force[2];
 
-    // contacts with the walls (pocket.c, pocket_spheres.c), and those that may come in the next step: direction (x, t) from the pocket's
-    // axis to the ball; Hertz's constant by the half's share [N/m1.5], 0 without contact; approach beside what the wall's residual takes,
-    // negative before the contact [m]; load [N]
-    ball_array touch_x[2], touch_t[2], touch_K[2], touch_delta[2], touch_Q[2];
-
-    // of a ribbon's walls (pocket_spheres.c) also: direction r, the place's angle chi, negative on the side t < 0, and radius
-    // [m]; elastic energy of contact and wall beside the modes [J]
-    ball_array touch_r[2], touch_chi[2], touch_radius[2], wall_energy[2];
+    // contacts with the walls, and elastic energy of contact and wall beside the modes, of a ribbon [J] (pocket.c,
+    // pocket_spheres.c)
+    WallTouch touch __attribute__((aligned(8 * sizeof(scalar))));
+    ball_array wall_energy[2];
     PressedWall pressed[2][Z];
 
     // films of oil before the walls (pocket_squeeze.h): damping, 0 where there is none [N.s/m], speed at which the gap closes [m/s], direction
