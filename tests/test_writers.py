@@ -19,8 +19,14 @@ ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "fmu_src"
 OWNERS = {"Work", "ElasticWork", "ElasticJoints", "WallTouch", "TwoHalfWork"}
 FIRST_VALUES = {"start.c", "derived.c", "instance.c"}
-# Files of which a scene chooses one; the second has the members of the first in loops of its own.
-ONE_TASK = {"pocket_spheres.c": "pocket.c", "cage_substeps.c": "cage_elastic.c", "land_bent.c": "land_film.c"}
+# Files of which a scene chooses one; the second has the members of the first in loops of its own.  A header shares the task of
+# the file that includes it.
+ONE_TASK = {
+    "pocket_squeeze.h": "pocket.c",
+    "pocket_spheres.c": "pocket.c",
+    "cage_substeps.c": "cage_elastic.c",
+    "land_bent.c": "land_film.c",
+}
 # Sums to which several elements add, and bodies to which they add forces.
 SUMS = set(
     "wall_force F_x F_r F_t M_x M_r M_t dissipated D_x D_r D_t D_omega_x D_omega_r D_omega_t pocket_dissipated squeeze "

@@ -104,8 +104,8 @@ typedef struct {
 // halves, in the order of their velocities in the state.
 enum { RELATIVE_MOTIONS = 6, CAGE_MOTIONS = 2 * RELATIVE_MOTIONS };
 
-// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of
-// mass take; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
+// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; share of a relative y/z displacement that moves
+// the centres of mass; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
 typedef struct {
     double inverse[RELATIVE_MOTIONS], part, tilt;
 } RelativeInertia;
@@ -267,10 +267,11 @@ typedef struct {
     scalar yy, yz, zz, spin;
 } LandFilm;
 
-// ---- what decides the pressure on the rim of an elastic half, along the half's axes; written by land_film.c, velocities and forces again
-// by land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], load of the dry contact [N], part of the film's waves that
-// load the rivets, clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its velocity and squeeze velocity
-// [m/s], what they gain by the spin against the outer ring [m], forces on the rim's shapes and, by the film alone, on land and rim [N]; waves of the film's rates [N.s/m], squeeze velocities to
+// ---- pressure on the rim of an elastic half, along the half's axes; written by land_film.c, velocities and forces again by
+// land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], load of the dry contact [N], part of the film's
+// waves that load the rivets, clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its
+// velocity and squeeze velocity [m/s], forces on the rim's shapes and, by the film alone, on land and rim [N]; change of
+// the squeeze velocities by the spin against the outer ring [m], waves of the film's rates [N.s/m], squeeze velocities to
 // which film and rates belong ----
 typedef struct {
     scalar e[2], V[2], dry, still, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM],

@@ -1,4 +1,5 @@
-"""The films of the lands on the rivets of elastic halves: static loads, which neither modes nor friction feel.
+"""The films of the lands on the rivets of elastic halves: static loads.  They change the reported rivet loads only,
+not the motion.
 
 The films press on the rims and so pry at the joints: the load path (half_path.py) gives the loads Delta L, Delta V of
 bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the modes
