@@ -17,7 +17,7 @@ SUNDIALS = ("sundials-include", *(f"sundials-7.1.1/{name}" for name in ("include
 KIND = cindex.CursorKind
 ROOT = Path(__file__).resolve().parents[1]
 SOURCES = ROOT / "fmu_src"
-OWNERS = {"Work", "ElasticWork", "ElasticJoints", "WallTouch", "TwoHalfWork"}
+OWNERS = {"Work", "ElasticWork", "ElasticJoints", "WallTouch", "TwoHalfWork", "CageWork"}
 FIRST_VALUES = {"start.c", "derived.c", "instance.c"}
 # Files of which a scene chooses one; the second has the members of the first in loops of its own.  A header shares the task of
 # the file that includes it.
@@ -138,7 +138,7 @@ def test_each_member_has_one_writer(writers):
     [
         ("w->Q_i[0] = w->Q_e[0];", {"Work.Q_i"}),
         ("w->land[1].re[0] += 1.0;", {"Work.land"}),
-        ("ElasticWork *e = &w->elastic; e->reach[0] = w->n_ix[0];", {"ElasticWork.reach"}),
+        ("ElasticWork *e = &w->cage.elastic; e->reach[0] = w->n_ix[0];", {"ElasticWork.reach"}),
         ("double *list[] = {w->F_x, w->F_r}; list[0][0] = 0.0;", {"Work.F_x", "Work.F_r"}),
         ("const double *list[] = {w->F_x}; (void)list;", set()),
         ("memcpy(w->u_x, w->u_y, sizeof w->u_z);", {"Work.u_x"}),

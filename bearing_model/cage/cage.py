@@ -166,7 +166,7 @@ def cage_joints(model, y, w):
 def cage_acceleration(model, y, w, y_dot):
     """Rates of all states of the cage under the forces on the halves."""
     halves_acceleration(model, y, w, y_dot)
-    v = w.elastic.joints.v if model.modes else w.v_j[1:]
+    v = w.cage.elastic.joints.v if model.modes else w.v_j[1:]
     for row, along in zip(STATES, (*v, 0.0, 0.0), strict=True):
         y_dot[..., row] = along
     if model.modes:
@@ -258,7 +258,7 @@ def cage_loads(model, w):
 def joints_in_plane(model, w):
     """Offsets (y, z) [2, ..., Z] of the joints in the plane [m], and their stiffnesses."""
     if model.modes:
-        return w.elastic.joints.u, cage_elastic_stiffness(model)
+        return w.cage.elastic.joints.u, cage_elastic_stiffness(model)
     return w.u[1:], two_half_stiffness(model.d)
 
 
@@ -285,10 +285,10 @@ def joint_energy(model, y, w):
     """Elastic energy of the joints [J], [..., Z]: out of the plane, friction states and holes."""
     d, (u, k) = model.d, joints_in_plane(model, w)
     if model.modes:  # of the joints, and of the halves around them beside their modes
-        j = w.elastic.joints
+        j = w.cage.elastic.joints
         axial = 2.0 * (0.5 * np.sum(j.e * j.trial, axis=0) - j.U)
     else:
-        axial = 0.5 * (w.two_half.pull**2 / d.k_rivet + w.two_half.push**2 / d.k_plate)
+        axial = 0.5 * (w.cage.two_half.pull**2 / d.k_rivet + w.cage.two_half.push**2 / d.k_plate)
     y_2 = [y[..., row] ** 2 for row in STATES]
     bearing = maximum(np.sqrt(u[0] * u[0] + u[1] * u[1] + 1e-30) - d.hole_gap, 0.0)
     in_plane = k.stick * (y_2[0] + y_2[1]) + k.head * (y_2[2] + y_2[3]) + k.hole * bearing**2
@@ -306,25 +306,25 @@ def cage_energy(model, y, w):
         "pockets, elastic": ball_array_sum(pocket_energy(model, w)),
         "joints, elastic": ball_array_sum(joint_energy(model, y, w)),
     }
-    return terms | {"modes of the cage": w.elastic.energy} if model.modes else terms
+    return terms | {"modes of the cage": w.cage.elastic.energy} if model.modes else terms
 
 
 def cage_widened(w):
     """What the centrifugal load of a turning frame has done as it widened the halves [J].  Of the modes' powers this one
     counts as a potential, because modes turn by much more than pi in a step.
     """
-    return 0.5 * sum(w.elastic.more_J) * w.frame_omega**2
+    return 0.5 * sum(w.cage.elastic.more_J) * w.frame_omega**2
 
 
 def cage_widening(w, frame_omega_dot):
     """Its rate [W]."""
-    J, J_dot = sum(w.elastic.more_J), sum(w.elastic.more_J_dot)
+    J, J_dot = sum(w.cage.elastic.more_J), sum(w.cage.elastic.more_J_dot)
     return w.frame_omega * (0.5 * J_dot * w.frame_omega + J * frame_omega_dot)
 
 
 def cage_drawn(w, frame_omega_dot):
     """Power that the frame's rate draws from what the widened halves have gained of inertia [W]."""
-    gained = zip(w.elastic.more_J, w.half, strict=True)
+    gained = zip(w.cage.elastic.more_J, w.half, strict=True)
     return sum(more_J * frame_omega_dot * (half.s + w.frame_omega) for more_J, half in gained)
 
 
@@ -332,7 +332,7 @@ def cage_losses(model, w):
     """Powers that the damping of joints and modes dissipates [W] by name, each [..., 1].  What friction loses is no function
     of a state: it is the work of a step's slip (cage_slide).
     """
-    return {"modes": w.elastic.dissipated} if model.modes else {"joints": w.two_half.dissipated}
+    return {"modes": w.cage.elastic.dissipated} if model.modes else {"joints": w.cage.two_half.dissipated}
 
 
 def cage_flex(model, w, h):
@@ -340,4 +340,4 @@ def cage_flex(model, w, h):
     if not model.modes:
         return np.zeros((3, *w.x.shape))
     side = 1.0 if h == 1 else -1.0
-    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], w.elastic.q[h][..., 0, :], model.modes.pad[:, :3])
+    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], w.cage.elastic.q[h][..., 0, :], model.modes.pad[:, :3])

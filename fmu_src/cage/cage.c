@@ -40,7 +40,7 @@ void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_d
 {
     halves_acceleration(model, y, w, y_dot);
     if (model->modes) {
-        friction_rates(w->elastic.joints.v_y, w->elastic.joints.v_z, y_dot);
+        friction_rates(w->cage.elastic.joints.v_y, w->cage.elastic.joints.v_z, y_dot);
         cage_elastic_acceleration(model, y, w, y_dot);
     } else
         friction_rates(w->v_jy, w->v_jz, y_dot);

@@ -130,15 +130,15 @@ scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 // powers this one counts as a potential, because modes turn by much more than pi in a step.
 INLINE scalar cage_widened(const Work *w)
 {
-    return 0.5 * (w->elastic.more_J[0] + w->elastic.more_J[1]) * (w->frame_omega * w->frame_omega);
+    return 0.5 * (w->cage.elastic.more_J[0] + w->cage.elastic.more_J[1]) * (w->frame_omega * w->frame_omega);
 }
 
 INLINE scalar cage_widening(const Work *w, scalar frame_omega_dot)
 {
     scalar power = 0.0;
     for (int h = 0; h < 2; h++)
-        power += w->frame_omega *
-                 (0.5 * w->elastic.more_J_dot[h] * w->frame_omega + w->elastic.more_J[h] * frame_omega_dot);
+        power += w->frame_omega * (0.5 * w->cage.elastic.more_J_dot[h] * w->frame_omega +
+                                   w->cage.elastic.more_J[h] * frame_omega_dot);
     return power;
 }
 
@@ -147,7 +147,7 @@ INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
 {
     scalar power = 0.0;
     for (int h = 0; h < 2; h++)
-        power += w->elastic.more_J[h] * frame_omega_dot * (w->half[h].s + w->frame_omega);
+        power += w->cage.elastic.more_J[h] * frame_omega_dot * (w->half[h].s + w->frame_omega);
     return power;
 }
 
@@ -155,12 +155,12 @@ INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
 // a state: it is the work of a step's slip (cage_end).
 INLINE scalar cage_vibrations_lose(const Work *w)
 {
-    return w->elastic.dissipated;
+    return w->cage.elastic.dissipated;
 }
 
 INLINE scalar cage_joints_damp(const Work *w)
 {
-    return w->two_half.dissipated;
+    return w->cage.two_half.dissipated;
 }
 
 INLINE scalar cage_losses(const Work *w)

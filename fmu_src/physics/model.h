@@ -8,13 +8,10 @@
 // n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
 #pragma once
 
-#include "cage/elastic/elastic_work.h"
-#include "cage/two_half/half_path.h"
-#include "cage/two_half/two_half_work.h"
 #include "numbers/lanes.h"
 #include "numbers/variable_table.h"
-
-typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
+#include "physics/cage_work.h"
+#include "physics/land_path.h"
 
 enum { LAND_POINTS = 24, BENT_POINTS = 48 };  // of the sums over a land's film, over that of a bent rim
 
@@ -374,9 +371,7 @@ typedef struct {
     scalar squeeze_by[2][SQUEEZE];
     LandLoad land[2];  // of rigid halves
 
-    // what one kind of cage has
-    TwoHalfWork two_half;
-    ElasticWork elastic;
+    CageWork cage;  // of the kind of cage that runs
 } Work;
 
 enum { HOUSING_DOF = 5 };  // x, y, z, beta, gamma

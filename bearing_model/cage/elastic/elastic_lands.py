@@ -78,7 +78,7 @@ def elastic_lands(model, w, P, shear):
     """Loads of the joints and of their rivets [3, ..., Z] with the films; adds the shear loads that they put on plates, heads and
     shanks.  P: preloads with the centrifugal load.
     """
-    j, d = w.elastic.joints, model.d
+    j, d = w.cage.elastic.joints, model.d
     rows = land_rows(
         replace(d.table.half, land=beside_modes(d.table.half.land)), model.p.cage.land_x, land_film_loads(model, w)
     )

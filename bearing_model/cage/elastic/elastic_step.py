@@ -154,4 +154,4 @@ def elastic_end(model, halves, step, start, end, error, w):
 
 def elastic_slide(model, w, y, joints):
     """Maps the friction states in y back under the loads in w."""
-    return halves_slide(model, cage_elastic_stiffness(model), w.elastic.joints, y, joints)
+    return halves_slide(model, cage_elastic_stiffness(model), w.cage.elastic.joints, y, joints)

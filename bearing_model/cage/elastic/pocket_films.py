@@ -60,7 +60,7 @@ def pocket_films_split(model, w):
     """Takes the films of an evaluation; weak ones have a force alone."""
     if not model.d.squeeze:
         return PocketFilms()
-    D, u, m, shape = (np.array([film[name] for film in w.elastic.films]) for name in ("D", "u", "m", "shape"))
+    D, u, m, shape = (np.array([film[name] for film in w.cage.elastic.films]) for name in ("D", "u", "m", "shape"))
     F = D * np.maximum(u, 0.0)
     strong = model.modes.weak_film < D
     return PocketFilms(np.where(strong, D, 0.0), np.where(strong, u, 0.0), F, m, shape)

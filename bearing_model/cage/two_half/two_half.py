@@ -92,7 +92,7 @@ def bonded_rows(model, w, omega_2):
 
 def open_joints(model, w):
     """Loads of the joints by their springs' forces and the load path: sets load, rivet [3, ..., Z], N_plate, bonded_V."""
-    d, t = model.d, w.two_half
+    d, t = model.d, w.cage.two_half
     omega_2 = 0.5 * ((w.half[0].s + w.frame_omega) ** 2 + (w.half[1].s + w.frame_omega) ** 2)
     N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(bonded_rows(model, w, omega_2), -1, 0)
     t.bonded_V = np.array([V_r, V_t])
@@ -114,7 +114,7 @@ def open_joints(model, w):
 
 def two_half_joints(model, y, w):
     """Forces of the joints (cage_joint_kinematics before), tension of the rivets."""
-    t = w.two_half = SimpleNamespace()
+    t = w.cage.two_half = SimpleNamespace()
     t.pull, t.push = springs(model.d, w.u[0])
     open_joints(model, w)
     damping = model.d.c_joint * t.push / (t.push + model.p.joint.F_floor)
@@ -129,7 +129,7 @@ def two_half_joints(model, y, w):
 
 def two_half_loads(model, w):
     """JointLoads of all joints and their rivets."""
-    t, shear = w.two_half, cage_joint_carried(model, w)
+    t, shear = w.cage.two_half, cage_joint_carried(model, w)
     joint_slip_add(model, w, w.u[1:], t.rivet[0], t.N_plate, t.bonded_V, shear)
     return cage_joint_loads(model, t.load, t.rivet, shear)
 
@@ -155,7 +155,7 @@ def joint_matrix(model, w):
     """Force per axial velocity and per axial offset of half 1 against half 0 [12, 12], of all joints; b = (1, z, -y) of v_x,
     beta_dot, gamma_dot.  The rivet is stiff while it is tense, the plates while they are pressed together.
     """
-    d, t, (y, z) = model.d, w.two_half, turned_rivets(model, w)
+    d, t, (y, z) = model.d, w.cage.two_half, turned_rivets(model, w)
     B = np.zeros((Z, N_HALVES))
     B[:, HALF[[0, 3, 4], 1]] = np.array([np.ones(Z), z, -y]).T
     B[:, HALF[[0, 3, 4], 0]] = -B[:, HALF[[0, 3, 4], 1]]
@@ -235,4 +235,4 @@ def two_half_end(model, step, start, end, error, w):
 
 def two_half_slide(model, w, y, joints):
     """Maps the friction states in y back under the loads in w."""
-    return halves_slide(model, two_half_stiffness(model.d), w.two_half, y, joints)
+    return halves_slide(model, two_half_stiffness(model.d), w.cage.two_half, y, joints)

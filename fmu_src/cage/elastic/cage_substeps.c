@@ -133,9 +133,9 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
 {
     const ElasticHalf *half = model->modes;
-    const ElasticJoints *joints = &w->elastic.joints;
+    const ElasticJoints *joints = &w->cage.elastic.joints;
     fast_accelerations(model, y, joints, fast->modes, fast->rigid);
-    fast->touch = w->elastic.touch;
+    fast->touch = w->cage.elastic.touch;
     memcpy(fast->e, joints->e, sizeof fast->e);
     memcpy(fast->u_y, joints->u_y, sizeof fast->u_y);
     memcpy(fast->u_z, joints->u_z, sizeof fast->u_z);
@@ -144,7 +144,7 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
         f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
         f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
     }
-    f[Y_WORK] += w->elastic.dissipated;
+    f[Y_WORK] += w->cage.elastic.dissipated;
 }
 
 // Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across

@@ -198,5 +198,5 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
 void elastic_slide(const Model *model, double *y, JointStep *joints, Work *w)
 {
     const JointStiffness k = cage_elastic_stiffness(model);
-    halves_slide(model, &k, w->elastic.joints.rivet[0], w->elastic.joints.N_plate, y, joints, w);
+    halves_slide(model, &k, w->cage.elastic.joints.rivet[0], w->cage.elastic.joints.N_plate, y, joints, w);
 }

@@ -32,14 +32,14 @@ void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
     if (!model->d->squeeze.filled) return;
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < Z; k++) {
-            const double D = w->elastic.film_D[h][k], u = w->elastic.film_u[h][k];
+            const double D = w->cage.elastic.film_D[h][k], u = w->cage.elastic.film_u[h][k];
             films->F[h][k] = D * fmax(u, 0.0);
             if (!(D > model->modes->weak_film)) continue;
             films->D[h][k] = D, films->u[h][k] = u;
-            films->m_x[h][k] = w->elastic.film_m[0][h][k];
-            films->m_r[h][k] = w->elastic.film_m[1][h][k];
-            films->m_t[h][k] = w->elastic.film_m[2][h][k];
-            memcpy(films->shape[h][k], w->elastic.film_shape[h][k], sizeof films->shape[h][k]);
+            films->m_x[h][k] = w->cage.elastic.film_m[0][h][k];
+            films->m_r[h][k] = w->cage.elastic.film_m[1][h][k];
+            films->m_t[h][k] = w->cage.elastic.film_m[2][h][k];
+            memcpy(films->shape[h][k], w->cage.elastic.film_shape[h][k], sizeof films->shape[h][k]);
         }
 }
 

@@ -95,7 +95,7 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
     const int side = 2 * h - 1, j = k / LANE_WIDTH * LANE_WIDTH;
     const double place[6] = {fast->touch.x[h][k],   fast->touch.r[h][k],      fast->touch.t[h][k],
                              fast->touch.chi[h][k], fast->touch.radius[h][k], model->p->cage.m};
-    const PressedWall *known = &w->elastic.pressed[h][k];
+    const PressedWall *known = &w->cage.elastic.pressed[h][k];
     if (memcmp(place, known->place, sizeof place) == 0) {
         memcpy(shape, known->shape, sizeof known->shape);
         return;

@@ -76,7 +76,7 @@ static scalar bend_lands(const Derived *d, scalar omega_2, PathRows *rows)
 static void open_joints(const Model *model, Work *w)
 {
     const Derived *d = model->d;
-    TwoHalfWork *t = &w->two_half;
+    TwoHalfWork *t = &w->cage.two_half;
     PathRows rows;
     ball_array bonded[3], P;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
@@ -114,7 +114,7 @@ static void open_joints(const Model *model, Work *w)
 void two_half_joints(const Model *model, const scalar *y, Work *w)
 {
     const Derived *d = model->d;
-    TwoHalfWork *t = &w->two_half;
+    TwoHalfWork *t = &w->cage.two_half;
     const wide floor = wide_set(model->p->joint.F_floor);
     ball_array F_x, damped;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
@@ -137,7 +137,7 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
 // Adds what the load path puts on plates, heads and shanks.
 ONCE void add_slip(const Model *model, const Work *w, JointShear *shear)
 {
-    const TwoHalfWork *t = &w->two_half;
+    const TwoHalfWork *t = &w->cage.two_half;
     const SlipState at = {w->u_y, w->u_z, t->rivet[0], t->N_plate};
     joint_slip_add(model, w, &at, t->bonded_V[0], t->bonded_V[1], shear);
 }
@@ -147,7 +147,7 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
     JointShear shear;
     cage_joint_carried(model, w, &shear);
     add_slip(model, w, &shear);
-    cage_joint_loads(model, w->two_half.load, w->two_half.rivet, &shear, load);
+    cage_joint_loads(model, w->cage.two_half.load, w->cage.two_half.rivet, &shear, load);
 }
 
 // ---- a step -------------------------------------------------------------------------------------------------
@@ -186,8 +186,8 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
         const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
 
         // The rivet is stiff while it is tense, the plates while they are pressed together.
-        const wide push = wide_load(&w->two_half.push[k]);
-        const wide tense = wide_select(wide_above(wide_load(&w->two_half.pull[k]), 0.0), k_rivet, zero);
+        const wide push = wide_load(&w->cage.two_half.push[k]);
+        const wide tense = wide_select(wide_above(wide_load(&w->cage.two_half.pull[k]), 0.0), k_rivet, zero);
         const wide pressed = wide_select(wide_above(push, 0.0), k_plate, zero);
         const wide damping = d->c_joint * push / (push + model->p->joint.F_floor);
         const wide rate_k = gamma * (damping + gamma * (tense + pressed));
@@ -383,6 +383,6 @@ void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, co
 void two_half_slide(const Model *model, double *y, JointStep *joints, Work *w)
 {
     const JointStiffness k = two_half_stiffness(model->d);
-    halves_slide(model, &k, w->two_half.rivet[0], w->two_half.N_plate, y, joints, w);
+    halves_slide(model, &k, w->cage.two_half.rivet[0], w->cage.two_half.N_plate, y, joints, w);
 }
 #endif

@@ -1,8 +1,10 @@
-// Results of one evaluation that elastic halves alone have.
+// Results of one evaluation that the cage has: rigid halves (written by two_half.c), elastic halves.
 #pragma once
 
 #include "numbers/lanes.h"
 #include "variables.h"
+
+typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
 enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
 
@@ -43,6 +45,7 @@ typedef struct {
     mode_array pull_S, pull_D;
 } ElasticJoints;
 
+// Of elastic halves.
 typedef struct {
     // coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have moved [m], and without the modes that
     // move all pockets alike; moment of inertia that the modes add [kg.m2] and its rate (cage_elastic.c)
@@ -70,3 +73,22 @@ typedef struct {
     ElasticJoints joints;
     scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
 } ElasticWork;
+
+// Of rigid halves.
+typedef struct {
+    // of the springs between the halves: pull of the rivet's, push of the plates' [N]
+    ball_array pull, push;
+    scalar dissipated;  // by their damping [W]
+
+    // what bonded joints of halves that bend would carry in the plane (r, t) [N]
+    ball_array bonded_V[2];
+
+    // joints that open: (N, M_r, M_t) of the joint and (T, m_r, m_t) of its rivet, force between the plates
+    ball_array load[3], rivet[3], N_plate;
+} TwoHalfWork;
+
+// Those of the kind of cage that runs; the others are not written.
+typedef struct {
+    TwoHalfWork two_half;
+    ElasticWork elastic;
+} CageWork;
