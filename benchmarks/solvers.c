@@ -143,9 +143,9 @@ static void diagonal_rates(Integrator *in)
         const double speed = sqrt(w->v_jy[k] * w->v_jy[k] + w->v_jz[k] * w->v_jz[k]), mu = p->joint.mu;
         const double floor = p->joint.F_floor;
         in->rates[Y_JOINT_PLATE_Y + k] = in->rates[Y_JOINT_PLATE_Z + k] =
-            speed * d->k_plate_t / (mu * w->two_half.N_plate[k] + floor);
+            speed * d->k_plate_t / (mu * w->cage.two_half.N_plate[k] + floor);
         in->rates[Y_JOINT_HEAD_Y + k] = in->rates[Y_JOINT_HEAD_Z + k] =
-            speed * d->k_head / (mu * w->two_half.rivet[0][k] + floor);
+            speed * d->k_head / (mu * w->cage.two_half.rivet[0][k] + floor);
     }
 }
 

@@ -133,13 +133,14 @@ class Model:
         return y_dot
 
     def implicit(self, function, gamma, v):
-        """implicit_solve, cage_shear or implicit_stiff_part of velocities v (rows of the state vector) at the state of the
-        last evaluation.
+        """implicit_solve or implicit_stiff_part of velocities v (rows of the state vector) at the state of the last evaluation:
+        those of balls and ring, and those of rigid halves by their own equations.
         """
         v = np.array(v, dtype=float)
-        step = [] if function == "implicit_stiff_part" else [self.core.ffi.new("CageStep *")]
-        call = getattr(self.core.lib, function, None) or self.kernel(function)
-        call(self.pointer, self.work, gamma, *step, self.core.array(v))
+        names = {"implicit_solve": "two_half_solve", "implicit_stiff_part": "halves_stiff_part"}
+        halves = self.kernel(names[function])
+        self.kernel(function)(self.pointer, self.work, gamma, self.core.array(v))
+        halves(self.pointer, self.work, gamma, self.core.array(v))
         return v
 
     def rates(self):

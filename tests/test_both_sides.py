@@ -146,7 +146,7 @@ def test_a_frame_that_gains_speed_finds_the_inertia_of_the_widened_cage(core):
         model = core.model({"scene.cage": CageModel.ELASTIC}, inputs)
         power, change = power_and_rate(model, y, inputs)
         off.append(change - power)
-    assert 1e9 * sum(np.ravel(J)[0] for J in list(model.work.elastic.more_J)) > 1.0  # [W]
+    assert 1e9 * sum(np.ravel(J)[0] for J in list(model.work.cage.elastic.more_J)) > 1.0  # [W]
     assert off[1] == pytest.approx(off[0], abs=1e-3)
 
 

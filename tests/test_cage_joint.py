@@ -321,8 +321,8 @@ def test_axial_law(core):
         force = joints.move((u, 0.0, 0.0))
         pull, push = max(PRELOAD + K_RIVET * u, 0.0), max(PRELOAD - K_PLATE * u, 0.0)
         assert (pull == 0.0) == (u < slack) and (push == 0.0) == (u > opening)
-        assert numbers(joints.w.two_half.pull) == pytest.approx(np.full(Z, pull), abs=1e-9)
-        assert numbers(joints.w.two_half.push) == pytest.approx(np.full(Z, push), abs=1e-9)
+        assert numbers(joints.w.cage.two_half.pull) == pytest.approx(np.full(Z, pull), abs=1e-9)
+        assert numbers(joints.w.cage.two_half.push) == pytest.approx(np.full(Z, push), abs=1e-9)
         assert force[0] == pytest.approx(Z * (push - pull), abs=1e-8)
 
 
@@ -343,10 +343,10 @@ def test_clamp_force_sets_the_friction(core, load):
     for _ in range(60):  # the offset at which the springs have N
         u_x = 0.5 * (low + high)
         joints.move((u_x, 0.0, 0.0))
-        low, high = (u_x, high) if joints.w.two_half.pull[0] - joints.w.two_half.push[0] < N else (low, u_x)
+        low, high = (u_x, high) if joints.w.cage.two_half.pull[0] - joints.w.cage.two_half.push[0] < N else (low, u_x)
     joints.pull([0.0, 2e-6, 4e-6], u_x)  # within the play, 4 times the full deflection of the heads
     joints.move((u_x, 4e-6, 0.0))
-    T, pressed = joints.w.two_half.rivet[0][0], joints.w.two_half.N_plate[0]
+    T, pressed = joints.w.cage.two_half.rivet[0][0], joints.w.cage.two_half.N_plate[0]
     assert T - pressed == pytest.approx(N, rel=0.01)
     assert pytest.approx(N if load > 1.0 else PRELOAD, abs=0.02 * PRELOAD) == T
     assert -(joints.w.S_y[0] + joints.w.H_y[0]) == pytest.approx(MU * (T + pressed) + 2 * 0.5, rel=1e-9)

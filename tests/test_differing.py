@@ -98,7 +98,7 @@ def at_rest(parameters, omega):
         state[rows] += x * unit
         modes = rhs(model, 0.0, state, w)[variables.MODE_S_DOT][: half.n] / half.omega**2
         return np.append(
-            1e9 * modes, rigid.T @ np.moveaxis(w.elastic.joints.load, 0, -1).ravel() * [1.0, 40.0, 40.0]
+            1e9 * modes, rigid.T @ np.moveaxis(w.cage.elastic.joints.load, 0, -1).ravel() * [1.0, 40.0, 40.0]
         ), w
 
     x = np.zeros(half.n + 3)
@@ -139,13 +139,14 @@ def test_elastic_halves_at_rest_are_those_of_the_static_path(parameters, omega, 
     )
     worst = [
         float(np.abs(a - b).max() / np.abs(b).max())
-        for a, b in ((w.elastic.joints.rivet[0], rivet[:, 0]), (w.elastic.joints.load[2], load[:, 2]))
+        for a, b in ((w.cage.elastic.joints.rivet[0], rivet[:, 0]), (w.cage.elastic.joints.load[2], load[:, 2]))
     ]
     record_property("T, M_t", worst)
     assert worst[0] < 0.03 and worst[1] < 0.015
     gone = d.intact == 0.0
     assert (
-        not np.any(w.elastic.joints.rivet[:, gone]) and np.abs(w.elastic.joints.load[:, gone]).max(initial=0.0) < 1e-9
+        not np.any(w.cage.elastic.joints.rivet[:, gone])
+        and np.abs(w.cage.elastic.joints.load[:, gone]).max(initial=0.0) < 1e-9
     )
 
 

@@ -175,7 +175,7 @@ def test_open_joints_of_elastic_halves_by_direct_contact(whole_contact, shape, s
     wrench = [0.0, 0.0, 0.0, 0.0, -lever * G[1].imag, lever * G[1].real]
     bonded = rows[:, [0, 3, 4]]
     bonded[:, 0] += half_loads.bolt_group(2.0 / model.d.inv_R, wrench, np.cos(angle), np.sin(angle))[0]
-    j, spin = w.elastic.joints, cage_elastic_preload(model, cage_elastic_speed_2(w))
+    j, spin = w.cage.elastic.joints, cage_elastic_preload(model, cage_elastic_speed_2(w))
     trial, load = (part[:, :Z].T for part in (j.trial, j.load))
     changes = static_changes(model, trial, load, bonded, spin + 0.0 * rows[:, 0], rows[:, 5])[1]
     changes[:, 1:] += rows[:, 6:]

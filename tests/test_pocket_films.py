@@ -33,7 +33,7 @@ def test_steps_of_the_twin(core, shape):
                 np.testing.assert_allclose(
                     list(found)[: len(right)], right, rtol=1e-9, atol=1e-9 * np.max(np.abs(right))
                 )
-            forces = np.array([list(row)[: films.F.shape[1]] for row in ours.cage.pockets.F])
+            forces = np.array([list(row)[: films.F.shape[1]] for row in ours.cage.elastic.pockets.F])
             np.testing.assert_allclose(forces, films.F, rtol=1e-6, atol=1e-6)
 
 

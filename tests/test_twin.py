@@ -217,9 +217,9 @@ def random_states(model, y, rng, count):
 
 def tensions(w):
     """Tension of the rivets and force between the plates [states, Z], of either kind of cage."""
-    if "two_half" in vars(w):
-        return w.two_half.rivet[0], w.two_half.N_plate
-    return w.elastic.joints.rivet[0], w.elastic.joints.N_plate
+    if "two_half" in vars(w.cage):
+        return w.cage.two_half.rivet[0], w.cage.two_half.N_plate
+    return w.cage.elastic.joints.rivet[0], w.cage.elastic.joints.N_plate
 
 
 def situations(model, w):

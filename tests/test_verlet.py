@@ -11,9 +11,11 @@ from library import TWO_HALF
 from mechanics import Instance
 from states_of_all_kinds import KINDS, SCENES, make_model, make_state
 
-from bearing_model.cage.cage import CageMemory, cage_film_matrices
+from bearing_model.cage.cage import CageMemory
 from bearing_model.cage.common.cage_joint import cage_joint_kinematics
 from bearing_model.cage.common.halves import halves_kinematics
+from bearing_model.cage.common.halves_step import film_matrices, halves_films, limit_prediction
+from bearing_model.cage.two_half.two_half import two_half_matrices
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     N_STATES,
@@ -48,12 +50,11 @@ def started(core, c, y):
 
 def copied(state):
     """The same as the twin's."""
-    film = [[[yy, yz], [yz, zz]] for yy, yz, zz in state.film]
+    film = [[[yy, yz], [yz, zz]] for yy, yz, zz in state.cage.film]
     return VerletState(
         *(np.array(list(rows))[:N_STATES] for rows in (state.y, state.f, state.jerk)),
-        np.array(film),
         state.h,
-        CageMemory(),
+        CageMemory(np.array(film)),
     )
 
 
@@ -75,7 +76,7 @@ def differences(c, start, end, h, scale):
         found[f"work: {name}"] = abs(getattr(c, name)[WORK.start] - value) / max(abs(value), 1.0)
     for name, value, scale_of in zip(("torque", "power"), end.exchange, (1.0, 100.0), strict=True):
         found[name] = abs(getattr(c.exchange, name) - value) / max(abs(value), scale_of)
-    found["film"] = np.max(np.abs(copied(c).film - end.film)) / np.max(np.abs(end.film))
+    found["film"] = np.max(np.abs(copied(c).cage.film - end.cage.film)) / np.max(np.abs(end.cage.film))
     return found
 
 
@@ -110,7 +111,7 @@ def test_step(core, scene, record_property):
                 "error": abs(error - error_twin) / max(error_twin, 1e-3)
             }
             worst = {name: max(worst.get(name, 0.0), value) for name, value in found.items()}
-            seen.update({"limited"} if np.any(verlet.predictor_limiter(model, h, start)) else ())
+            seen.update({"limited"} if np.any(limit_prediction(model, h, start)) else ())
     record_property("worst", {name: float(value) for name, value in worst.items()})
     print({name: f"{value:.1e}" for name, value in worst.items()}, sorted(seen))
     assert max(worst.values()) < 1e-9  # observed 6e-11
@@ -138,9 +139,17 @@ def set_ball(work, name, j, value):
         getattr(work, vector)["xrt".index(axis), j] = value
 
 
+def whole_blocks(model, y, w, gamma):
+    """The Blocks of balls and ring with those of rigid halves, but for the joints across the axis."""
+    b, films = verlet.jacobian_blocks(model, 0.0, y, w, gamma), halves_films(model, w)
+    A, b.K[verlet.CAGE, verlet.CAGE], *_ = two_half_matrices(model, w, gamma)
+    b.A[verlet.CAGE, verlet.CAGE], b.A_stiff[verlet.CAGE, verlet.CAGE] = films + A, films
+    return b
+
+
 def solved(c, model, y, w, gamma):
     """Random velocities taken through both linear solves by the C core and by the twin: [2, N_V] each."""
-    b, v = verlet.jacobian_blocks(model, 0.0, y, w, gamma), np.zeros(N_STATES)
+    b, v = whole_blocks(model, y, w, gamma), np.zeros(N_STATES)
     v[V] = np.random.default_rng(33).standard_normal(N_V)
     by_core = np.array([c.implicit(function, gamma, v)[V] for function in ("implicit_solve", "implicit_stiff_part")])
     return by_core, np.array(
@@ -360,9 +369,9 @@ def local_error(core, t):
         np.where(np.isin(np.arange(N_STATES), np.arange(N_STATES)[rows]), 1.0 / scale, 0.0) for rows in (V, FRICTION)
     ]
     for h in (8e-7, 4e-7, 2e-7):
-        blocks = verlet.jacobian_blocks(model, 0.0, y, w, 0.5 * h)
+        blocks = whole_blocks(model, y, w, 0.5 * h)
         start, after, error, estimate = expected_error(model, y, h, blocks)
-        start.film = cage_film_matrices(w)
+        start.cage.film = film_matrices(w)
         (end, *norm), (_, *norm_friction) = (verlet.verlet_step(model, 0.0, h, weight, start) for weight in kinds)
         expected_norms = [np.sqrt(np.mean((estimate * weight) ** 2)) for weight in kinds]
         found.append(((end.y - after) / h**3, error, np.array(norm + norm_friction) / h**3, np.array(expected_norms)))
@@ -539,7 +548,7 @@ def test_the_cage_limits_equal_steps(core, cage, end):
     taken = CoreIntegrator(core, c, y, 1e3).advance(1e-3, end)[0]
     model = Model.of(TWO_HALF | parameters, inputs)
     state = verlet_evaluate(model, 0.0, y)
-    bears = verlet.cage_longest_step(model, state.film, state.cage)
+    bears = verlet.cage_longest_step(model, state.cage)
     weight = 1.0 / (1e3 * model.d.scale)
     by_twin = verlet.verlet_advance(model, 0.0, end, 1e-3, weight, verlet_evaluate(model, 0.0, y))[2]
     np.testing.assert_allclose(taken, end / np.ceil(end / bears), rtol=1e-9)

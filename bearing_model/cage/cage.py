@@ -14,15 +14,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from bearing_model.cage.common.cage_joint import (
-    PLATES,
     STATES,
     JointStep,
-    cage_joint_follow,
     cage_joint_kinematics,
-    cage_joint_slide,
 )
-from bearing_model.cage.common.films import HALF, N_HALVES, film_matrix, film_rates
 from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
+from bearing_model.cage.common.halves_step import HalvesStep
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
 from bearing_model.cage.common.pocket_spheres import spheres_elastic, spheres_energy, spheres_rigid
 from bearing_model.cage.common.spin_preload import spin_bending
@@ -36,50 +33,48 @@ from bearing_model.cage.elastic.cage_elastic import (
 )
 from bearing_model.cage.elastic.cage_substeps import (
     FastState,
-    add_rates,
-    cage_substeps_advance,
-    cage_substeps_split,
 )
 from bearing_model.cage.elastic.elastic_half import elastic_half_derive, elastic_half_rest
-from bearing_model.cage.elastic.pocket_films import PocketFilms, PocketFilmsStep, pocket_films_split
-from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
+from bearing_model.cage.elastic.elastic_step import (
+    ElasticStep,
+    elastic_begin,
+    elastic_end,
+    elastic_slide,
+    elastic_split,
+)
+from bearing_model.cage.elastic.pocket_films import PocketFilms
+from bearing_model.cage.elastic.rim_films import RimFilms
 from bearing_model.cage.two_half.two_half import (
-    two_half_correct,
+    two_half_begin,
+    two_half_end,
     two_half_joints,
     two_half_loads,
-    two_half_matrices,
+    two_half_slide,
     two_half_stiffness,
 )
 from bearing_model.generated.variables import (
     CAGE_BETA,
     CAGE_GAMMA,
-    CAGE_PSI,
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
-    MODE_D,
-    MODE_D_DOT,
     MODE_S,
-    MODE_S_DOT,
     RETIRED_ITEMS,
-    WORK,
     CageModel,
     Z,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_energy, hertz_load
-from bearing_model.physics.land_bent import bent_solve
-from bearing_model.physics.rotor import rotor_roll
 
 ROW_DP = 5
-PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes
 
 
 @dataclass
 class CageMemory:
     """Carried from an evaluation to the next step, of the kind of cage that runs."""
 
+    film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film [N.s/m]
     fast: FastState = None
     films: RimFilms = field(default_factory=RimFilms)
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
@@ -90,22 +85,10 @@ class CageMemory:
 
 @dataclass
 class CageStep:
-    """Between the stages of a step: slow accelerations at the end as the halves' own substeps foresee them, of the modes
-    [2, n] and of the halves [12]; what the accelerations foreseen of the shapes of bent rims lack at the end [2, 4]; their squeeze
-    velocities [2, 6] and impulses of the films [2, 6]; forces on them that are held at both ends, and those at the start that their
-    impulses so far amount to [2, 4]; rates of the films at the end [2, 6, 6].
-    """
+    """Carried from cage_begin to cage_end."""
 
-    modes: np.ndarray = 0.0
-    halves: np.ndarray = field(default_factory=lambda: np.zeros(N_HALVES))
-    joints: JointStep = None
-    pockets: PocketFilmsStep = None
-    rim_lack: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
-    squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
-    impulse: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
-    rim_held: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
-    rim_before: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
-    rates: np.ndarray = field(default_factory=lambda: np.zeros((2, 6, 6)))
+    halves: HalvesStep
+    elastic: ElasticStep = None
 
 
 # ------------------------------------------------------------------------------------------------------------ parameters
@@ -133,18 +116,11 @@ def cage_derive(p, d, table):
     return elastic_half_derive(p, d, table) if cage_vibrates(p) else None
 
 
-def cage_orbit_scale(p):
-    """Part of the velocity scale that a ball's velocity along its orbit gets: it decides how the ball meets its pocket, less
-    so where walls give way.
+def cage_scales(p):
+    """Error scales: of a ball's velocity along its orbit, in parts of that of velocities, because it decides how the ball meets
+    its pocket, less so where walls give way; of the friction states, in deflections at which the plates slip.
     """
-    return 1.0 / 4.5 if cage_vibrates(p) else 1.0 / 6.0
-
-
-def cage_friction_scale(p):
-    """Deflections at which the plates slip that the scale of the friction states gets: their errors hardly change the halves'
-    velocities, and less so where halves give way.
-    """
-    return 300.0 if cage_vibrates(p) else 130.0
+    return (1.0 / 4.5, 300.0) if cage_vibrates(p) else (1.0 / 6.0, 130.0)
 
 
 def cage_rest(model, omega, y):
@@ -190,7 +166,7 @@ def cage_joints(model, y, w):
 def cage_acceleration(model, y, w, y_dot):
     """Rates of all states of the cage under the forces on the halves."""
     halves_acceleration(model, y, w, y_dot)
-    v = w.elastic.joints.v if model.modes else w.v_j[1:]
+    v = w.cage.elastic.joints.v if model.modes else w.v_j[1:]
     for row, along in zip(STATES, (*v, 0.0, 0.0), strict=True):
         y_dot[..., row] = along
     if model.modes:
@@ -205,167 +181,43 @@ def cage_split(model, y, w, f):
     it as CageMemory.
     """
     memory = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))))
-    if not model.modes:
-        return memory
-    memory.fast, memory.pockets = cage_substeps_split(model, y, w, f), pocket_films_split(model, w)
-    if w.pressure:
-        memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
-        add_rates(model, -rim_modes(model, memory.films.force), f)
+    if model.modes:
+        elastic_split(model, y, w, f, memory)
     return memory
 
 
-def cage_advance(model, h, y_0, f, memory, middle, y, w):
-    """Over a step h [s] from the state y_0, its rates f and its memory: rotations, friction states and modes in y, whose
-    other rows have their values at the end; middle: the state in the middle.  Returns the CageStep.
+def cage_begin(model, h, start, middle, y, w):
+    """Before the evaluation at the end of a step of length h [s] from `start` (VerletState): sets the cage's rows of y, which has
+    all other positions of the end and friction states and work of the start, to positions of the end and predicted
+    velocities.  middle: the state in the middle.  Returns the CageStep.
     """
-    halves_kinematics(model, middle, w)
-    y[CAGE_PSI] = y_0[CAGE_PSI] + h * np.concatenate([half.s - rotor_roll(half) for half in w.half])
-    cage_joint_kinematics(model, w)
-    if not model.modes:
-        across = w.v_j[1:]
-        return CageStep(joints=JointStep(cage_joint_follow(h, across, y), h * across))
-    films = RimFilmsStep(model, h, memory.films)
-    add_rates(model, 0.5 * h * rim_modes(model, films.held), y)
-    pockets = PocketFilmsStep(model, h, memory.pockets, f, middle, y, w)
-    modes, halves, joints = cage_substeps_advance(model, h, memory, f, middle, y, films, pockets, w)
-    before = films.before(0.5 * h)
-    return CageStep(modes, halves.ravel(), joints, pockets, rim_held=films.held, rim_before=before)
-
-
-def cage_predict(model, gamma, step, y):
-    """Predicted velocities in y for the evaluation at the end."""
     if model.modes:
-        add_rates(model, gamma * rim_modes(model, step.rim_held), y)
+        return CageStep(*elastic_begin(model, h, start, middle, y, w))
+    return CageStep(two_half_begin(model, h, start, middle, y, w))
 
 
-def cage_arrive(model, w, step, before, y, f):
-    """After that evaluation of y, w: separates the cage's part of the rates f, and takes the friction states in y to the joints'
-    places.  Returns the CageMemory.
+def cage_end(model, step, start, end, error, w):
+    """After it: solves for the cage's velocities, sets the cage's rows of `end` (VerletState) and `error`, and takes from the other
+    rates of the evaluation the share of films that are implicit.  Returns residual and delta of the halves' velocities [12]
+    and the power of films beyond theirs [W].
     """
-    memory = cage_split(model, y, w, f)
+    end.cage = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))))
     if model.modes:
-        more = memory.fast.u - before.fast.u - step.joints.way
-        for row, change in zip(PLATES, more, strict=True):
-            y[row] += change
-        step.joints.way = step.joints.way + more
-        f[WORK] += step.pockets.arrive(model, before.pockets, y, w, f, memory.pockets)
-    if model.modes and w.pressure:
-        n = model.modes.n
-        lack = np.array([f[MODE_S_DOT][:n], f[MODE_D_DOT][:n]]) - step.modes
-        step.rim_lack = rim_motions(model, lack) + model.modes.mobility * (memory.films.force - step.rim_before)
-        step.squeeze = before.squeeze.copy()
-    return memory
-
-
-def cage_squeeze(model, gamma):
-    """Changes of the squeeze velocities of lands and bent rims per force over half a step, gamma [s]: [2, 6] [m/s/N]; None of rigid halves."""
-    if not model.modes:
-        return None
-    return gamma * mobilities(model)
-
-
-def cage_bent_solve(model, gamma, w, step, residual, delta):
-    """The velocities of halves with bent rims in delta [12] by the residual: land and rim together, the law at the step's end.
-
-    The films become those of the end; returns what the power that they take is less there, without the part of the second order
-    on the halves' bodies.
-    """
-    p, d, less = model.p, model.d, 0.0
-    for h in range(2) if w.pressure else ():
-        on, half, spin, x = w.pressure.of(h), w.half[h], float(w.film[h].spin[0]), land_lever(model, h)
-        B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
-        axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
-        start = np.concatenate([axes @ B @ residual[HALF[:, h]], gamma * step.rim_lack[h]])
-        solved = bent_solve(p, on, gamma, w.squeeze_by[h], start, step.squeeze[h])
-        inertia = np.array([p.cage.m] * 3 + [d.J_t] * 2 + [d.J_p])
-        change = residual[HALF[:, h]] - B.T @ axes.T @ solved.impulse[:2] / inertia
-        change[5] -= solved.impulse @ on.by_spin / d.J_p
-        change[5] /= 1.0 + gamma * spin / d.J_p
-        delta[HALF[:, h]] = change
-        step.squeeze[h], step.impulse[h], step.rates[h] = solved.V, solved.impulse, solved.rates
-        V = np.concatenate([on.V, on.rim_V])
-        less += solved.film @ (V + solved.change) - on.film @ V
-        less -= solved.change[:2] @ solved.impulse[:2] / gamma
-        rates = axes.T @ solved.rates[:2, :2] @ axes
-        w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))
-    return less
-
-
-def cage_finish(model, gamma, step, y, end):
-    """Velocities of the modes at the end, with the forces of the films on bent rims there."""
-    if model.modes:
-        n, memory = model.modes.n, end.cage
-        memory.films = RimFilms(memory.films.force - step.impulse[:, 2:] / gamma, step.rates)
-        memory.squeeze = step.squeeze
-        rates = np.array([end.f[MODE_S_DOT][:n], end.f[MODE_D_DOT][:n]])
-        add_rates(model, gamma * (rates - step.modes + rim_modes(model, memory.films.force - step.rim_before)), y)
-
-
-def cage_foreseen(step):
-    """Changes of the halves' accelerations [12] as their substeps foresee them."""
-    return step.halves
-
-
-def cage_films(model, film, gamma, v):
-    """(1 + gamma A)^-1 v of the halves' velocities v [12] by films of the given matrices [2, 2, 2] alone."""
-    return np.linalg.solve(np.eye(N_HALVES) + gamma * film_rates(model, film), v)
-
-
-def cage_film_matrices(w):
-    """-dF/dv [2, 2, 2] of the films of both lands [N.s/m]."""
-    return np.array([film_matrix(film) for film in w.film])
-
-
-def cage_matrices(model, w, gamma):
-    """Rates by the films; rates and stiffnesses of the joints along the axis, stiffness across it, a factor of the matrix of
-    its own, [12, 12] each; weights of the position corrections along the axis and across it.
-    """
-    films = film_rates(model, cage_film_matrices(w), [float(film.spin[0]) for film in w.film])
-    none = np.zeros((N_HALVES, N_HALVES))
-    return films, *((none, none, none, 0.0, 0.0) if model.modes else two_half_matrices(model, w, gamma))
-
-
-def cage_correct(model, w, gamma, axial, shear, delta, y, step):
-    """Positions in y follow the corrections delta [12] of the velocities; the friction states slip where friction does not hold
-    them, and the work loses what that dissipates.
-    """
-    if not model.modes:
-        two_half_correct(model, w, gamma, axial, shear, delta, y, step.joints)
-    y[WORK] -= slide(model, y, step.joints, w)
-
-
-def slide(model, y, step, w):
-    """Maps the friction states in y back under the loads in w, from step.before; returns what that dissipates [J]."""
-    at, k = w.elastic.joints if model.modes else w.two_half, joints_in_plane(model, w)[1]
-    return cage_joint_slide(model, k, at.rivet[0], at.N_plate, y, step)
+        return elastic_end(model, step.halves, step.elastic, start, end, error, w)
+    return *two_half_end(model, step.halves, start, end, error, w), 0.0
 
 
 def cage_slide(model, before, y, w):
-    """The same at the end y of a step of another method, whose evaluation is w and whose start is `before`; changes y.
-    Returns what the slip dissipates, and normal force times slip of each joint [Z] [J].
+    """Maps the friction states back at the end y of a step of another method, whose evaluation is w and whose start is `before`;
+    changes y.  Returns what the slip dissipates, and normal force times slip of each joint [Z] [J].
     """
-    step = JointStep(np.array([before[row] for row in STATES]))
-    lost = slide(model, y, step, w)
-    y[WORK] -= lost
-    return lost, step.rubbed
+    joints = JointStep(np.array([before[row] for row in STATES]))
+    lost = (elastic_slide if model.modes else two_half_slide)(model, w, y, joints)
+    return lost, joints.rubbed
 
 
-SMOOTHING = 0.15  # part of the second difference of the slow accelerations of D that is taken away (cage.c)
 SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of step and tolerance that it has at least
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
-
-
-def cage_remember(model, h, second, start, end, error):
-    """Rates of the modes at the end of a step from `start` to `end` (VerletState), their history and their error; second:
-    h^2 over the mean of the last two steps.
-    """
-    if not model.modes:
-        return
-    difference = second * ((end.f - start.f)[RATES] / h - start.jerk[RATES])
-    error[RATES] = h / 12.0 * difference
-    end.f[MODE_D_DOT] -= SMOOTHING * difference[MODE_D_DOT.start - RATES.start :]
-    end.jerk[RATES] = (end.f - start.f)[RATES] / h
-    end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
 def rigid_fastest(p, d):
@@ -380,8 +232,8 @@ def cage_part(memory):
     return min(max(np.sqrt(memory.omega_2) / SLOW, LEAST_PART), 1.0)
 
 
-def cage_longest_step(model, film, memory):
-    """The longest step that the cage bears from a state with these films [2, 2, 2], [s]: of rigid halves the stable one of
+def cage_longest_step(model, memory):
+    """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves three substeps, or the time 1/A that a film of the rate A allows which does
     not follow in the substeps, or one in a pocket, but two substeps at least, one for pockets where lands guide the cage.  Slow halves
     have a part of it.
@@ -390,7 +242,7 @@ def cage_longest_step(model, film, memory):
     if not model.modes:
         return part * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
-    rate, d = np.max(np.where(bent, 0.0, np.trace(film, axis1=1, axis2=2))), model.modes.substep
+    rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
     most = part * model.modes.longest_step
     films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate)
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
@@ -407,7 +259,7 @@ def cage_loads(model, w):
 def joints_in_plane(model, w):
     """Offsets (y, z) [2, ..., Z] of the joints in the plane [m], and their stiffnesses."""
     if model.modes:
-        return w.elastic.joints.u, cage_elastic_stiffness(model)
+        return w.cage.elastic.joints.u, cage_elastic_stiffness(model)
     return w.u[1:], two_half_stiffness(model.d)
 
 
@@ -434,10 +286,10 @@ def joint_energy(model, y, w):
     """Elastic energy of the joints [J], [..., Z]: out of the plane, friction states and holes."""
     d, (u, k) = model.d, joints_in_plane(model, w)
     if model.modes:  # of the joints, and of the halves around them beside their modes
-        j = w.elastic.joints
+        j = w.cage.elastic.joints
         axial = 2.0 * (0.5 * np.sum(j.e * j.trial, axis=0) - j.U)
     else:
-        axial = 0.5 * (w.two_half.pull**2 / d.k_rivet + w.two_half.push**2 / d.k_plate)
+        axial = 0.5 * (w.cage.two_half.pull**2 / d.k_rivet + w.cage.two_half.push**2 / d.k_plate)
     y_2 = [y[..., row] ** 2 for row in STATES]
     bearing = maximum(np.sqrt(u[0] * u[0] + u[1] * u[1] + 1e-30) - d.hole_gap, 0.0)
     in_plane = k.stick * (y_2[0] + y_2[1]) + k.head * (y_2[2] + y_2[3]) + k.hole * bearing**2
@@ -455,25 +307,25 @@ def cage_energy(model, y, w):
         "pockets, elastic": ball_array_sum(pocket_energy(model, w)),
         "joints, elastic": ball_array_sum(joint_energy(model, y, w)),
     }
-    return terms | {"modes of the cage": w.elastic.energy} if model.modes else terms
+    return terms | {"modes of the cage": w.cage.elastic.energy} if model.modes else terms
 
 
 def cage_widened(w):
     """What the centrifugal load of a turning frame has done as it widened the halves [J].  Of the modes' powers this one
     counts as a potential, because modes turn by much more than pi in a step.
     """
-    return 0.5 * sum(w.elastic.more_J) * w.frame_omega**2
+    return 0.5 * sum(w.cage.elastic.more_J) * w.frame_omega**2
 
 
 def cage_widening(w, frame_omega_dot):
     """Its rate [W]."""
-    J, J_dot = sum(w.elastic.more_J), sum(w.elastic.more_J_dot)
+    J, J_dot = sum(w.cage.elastic.more_J), sum(w.cage.elastic.more_J_dot)
     return w.frame_omega * (0.5 * J_dot * w.frame_omega + J * frame_omega_dot)
 
 
 def cage_drawn(w, frame_omega_dot):
     """Power that the frame's rate draws from what the widened halves have gained of inertia [W]."""
-    gained = zip(w.elastic.more_J, w.half, strict=True)
+    gained = zip(w.cage.elastic.more_J, w.half, strict=True)
     return sum(more_J * frame_omega_dot * (half.s + w.frame_omega) for more_J, half in gained)
 
 
@@ -481,7 +333,7 @@ def cage_losses(model, w):
     """Powers that the damping of joints and modes dissipates [W] by name, each [..., 1].  What friction loses is no function
     of a state: it is the work of a step's slip (cage_slide).
     """
-    return {"modes": w.elastic.dissipated} if model.modes else {"joints": w.two_half.dissipated}
+    return {"modes": w.cage.elastic.dissipated} if model.modes else {"joints": w.cage.two_half.dissipated}
 
 
 def cage_flex(model, w, h):
@@ -489,4 +341,4 @@ def cage_flex(model, w, h):
     if not model.modes:
         return np.zeros((3, *w.x.shape))
     side = 1.0 if h == 1 else -1.0
-    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], w.elastic.q[h][..., 0, :], model.modes.pad[:, :3])
+    return np.einsum("c,...i,ick->c...k", [side, 1.0, 1.0], w.cage.elastic.q[h][..., 0, :], model.modes.pad[:, :3])

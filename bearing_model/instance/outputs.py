@@ -219,8 +219,8 @@ def energy_outputs(model, y, w, energy_start, energy_change):
         "loss.land": w.land_dissipated,
     }
     friction = ball_array_sum(w.joint_dissipated)
-    values["loss.joints"] = friction if model.modes else friction + w.two_half.dissipated
-    values["loss.modes"] = w.elastic.dissipated + 0.0 * values["loss.races"]
+    values["loss.joints"] = friction if model.modes else friction + w.cage.two_half.dissipated
+    values["loss.modes"] = w.cage.elastic.dissipated + 0.0 * values["loss.races"]
     values["bearing.power_loss"] = power_loss(model, w) + friction
     values |= {
         "shaft.power": shaft_power(w),

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bearing_model.cage.cage import cage_friction_scale, cage_orbit_scale, cage_refusal, cage_vibrates
+from bearing_model.cage.cage import cage_refusal, cage_scales, cage_vibrates
 from bearing_model.cage.common.centrifugal import cage_centrifugal
 from bearing_model.cage.common.pocket_spheres_setup import spheres_derive
 from bearing_model.cage.common.pocket_squeeze import pocket_squeeze_derive
@@ -263,9 +263,10 @@ def derive_scales(p, d):
     """
     equal = p.solver.method == Method.EXPLICIT
     length, velocity, r = 1e-5, 0.1 if equal else 0.5, 0.5 * p.bearing.d_m
-    vibrates, orbit = cage_vibrates(p), velocity * cage_orbit_scale(p)
+    vibrates, (of_orbit, of_friction) = cage_vibrates(p), cage_scales(p)
+    orbit = velocity * of_orbit
     slip = max(p.joint.mu * d.P_mean, 3.0)  # force at which plates slip; of a loose joint the default's
-    friction = slip if equal else cage_friction_scale(p) * slip
+    friction = slip if equal else of_friction * slip
     by_class = {
         "length": length,
         "velocity": velocity,

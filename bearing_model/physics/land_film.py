@@ -260,7 +260,7 @@ def rim_squeeze(model, w, e, omega):
     """Motion of both rims' shapes, its velocity and their squeeze velocities [4, ..., half]; what those of land and rim gain by the spin."""
     rim, rim_v = (
         np.moveaxis(np.concatenate([q @ model.modes.rim for q in both], axis=-2), -1, 0)
-        for both in (w.elastic.q, w.elastic.q_dot)
+        for both in (w.cage.elastic.q, w.cage.elastic.q_dot)
     )
     by_spin = np.concatenate([0.5 * np.array([e[1], -e[0]]), np.empty((4, *omega.shape), dtype=rim.dtype)])
     waves = 0.5 * np.array([2.0, 3.0]).reshape(2, *[1] * omega.ndim)

@@ -3,38 +3,22 @@ verlet.c and implicit.c.
 
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
-    v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (predictor_limiter)
+    v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (cage_begin)
     (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    one linear solve, A ~ -da/dv, K ~ -da/dq of what is stiff (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
-The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls, ring and
-halves one after the other, with Schur complements; here one dense solve does the same.  Vectors v, a, delta and all
+cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.
+The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls and ring
+one after the other, with Schur complements; here one dense solve does the same.  Vectors v, a, delta and all
 matrices have the N_V velocities of the state, in their order.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_model.cage.cage import (
-    CageMemory,
-    cage_advance,
-    cage_arrive,
-    cage_bent_solve,
-    cage_correct,
-    cage_film_matrices,
-    cage_films,
-    cage_finish,
-    cage_foreseen,
-    cage_longest_step,
-    cage_matrices,
-    cage_part,
-    cage_predict,
-    cage_remember,
-    cage_split,
-    cage_squeeze,
-)
+from bearing_model.cage.cage import CageMemory, cage_begin, cage_end, cage_longest_step, cage_part, cage_split
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
@@ -53,11 +37,11 @@ from bearing_model.generated.variables import (
     Traction,
     Z,
 )
+from bearing_model.numbers.trapezoid import trapezoid_end, trapezoid_error
 from bearing_model.physics.model import Work
 from bearing_model.physics.powers import friction_torque, shaft_power
 from bearing_model.physics.rhs import jacobian, rhs
 
-SMOOTHING = 0.15  # part of the second difference of stiff accelerations that is taken away
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
 TRACTION_MARGIN = 1.4  # traction's rates in A / the secants |traction|/|slip| of the evaluation
@@ -75,6 +59,7 @@ POSITIONS, FRICTION, V = (
 )
 N_V = N_STATES - V.start
 CAGE = slice(CAGE_V_X.start - V.start, RING_V_X.start - V.start)  # velocities of the cage's halves
+OTHERS = np.delete(np.arange(N_V), CAGE)  # those of balls and ring
 
 
 def velocities(*names):
@@ -95,7 +80,6 @@ class VerletState:
     y: np.ndarray  # state [N_STATES]
     f: np.ndarray  # its dy/dt; after a step: accelerations, mean rates of the friction states over the step, power
     jerk: np.ndarray = None  # change of f over the last step / its length
-    film: np.ndarray = field(default_factory=lambda: np.zeros((2, 2, 2)))  # -dF/dv of each land's film there [N.s/m]
     h: float = 0.0  # length of that step [s], 0: none yet
     cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
@@ -109,16 +93,12 @@ class VerletState:
 @dataclass
 class Blocks:
     """The matrices of a step [N_V, N_V]: rates A [1/s], stiffnesses K [1/s2], and the parts of both that damp the
-    accelerations.
+    accelerations.  Rows of the cage are 0: it has its own (cage_end).
     """
 
     A: np.ndarray
     K: np.ndarray
     A_stiff: np.ndarray
-    # of the joints across the axis: a factor of its own
-    K_shear: np.ndarray = field(default_factory=lambda: np.zeros((N_V, N_V)))
-    axial: float = 0.0  # weights of the position correction of one half against the other: along the axis, across it
-    shear: float = 0.0
 
     def matrix(self, gamma):
         return np.eye(N_V) + gamma * self.A + gamma**2 * self.K
@@ -234,12 +214,7 @@ def jacobian_blocks(model, t, y, w, gamma):
         force / M + np.diag(support)
         for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True)
     )
-    K_shear = np.zeros((N_V, N_V))
-    films, A_joint, K_joint, K_shear[CAGE, CAGE], axial, shear = cage_matrices(model, w, gamma)
-    A[CAGE, CAGE] = films + A_joint
-    K[CAGE, CAGE] = K_joint
-    A_stiff[CAGE, CAGE] = films
-    return Blocks(A, K, A_stiff, K_shear, axial, shear)
+    return Blocks(A, K, A_stiff)
 
 
 def masked_jacobian(model, t, y, w, gamma):
@@ -253,9 +228,6 @@ def masked_jacobian(model, t, y, w, gamma):
         np.where(kept.A != 0.0, -J[V, V], 0.0),
         np.where(kept.K != 0.0, -by_position, 0.0),
         kept.A_stiff,
-        kept.K_shear,
-        kept.axial,
-        kept.shear,
     )
 
 
@@ -285,30 +257,16 @@ def exchange_at(w):
 # ----------------------------------------------------------------------------------------------------------------- step
 
 
-def advance_positions(model, h, start):
-    """The state with positions and friction states of the next step, which follow from the velocities v_m of the middle; the
-    CageStep; the Work with the joints there.
+def predict(h, start):
+    """The state in the middle of the step; that at its end with positions by the velocities v_m of the middle and predicted
+    velocities.  The cage then sets its own rows.
     """
-    middle, y, w = start.y.copy(), start.y.copy(), Work()
-    middle[V] = y[V] = start.y[V] + 0.5 * h * start.f[V]
-    middle[POSITIONS] += 0.5 * h * y[V][POSITIONS]
-    y[POSITIONS] += h * y[V][POSITIONS]
-    return y, cage_advance(model, h, start.y, start.f, start.cage, middle, y, w), w
-
-
-def predictor_limiter(model, h, start):
-    """The part of the predicted change h a_n of the cage's velocities that is removed [N_V]: that of its new share which the
-    films at the step's start hold back.
-
-    A film holds back a land that closes and hardly one that opens: a land that rests against its film would be thrown
-    off by a prediction from a_n alone. The share that a_n and a_{n-1} have in common, minmod(a_n, a_{n-1}), counts as
-    steady.
-    """
-    a, before = start.f[V][CAGE], (start.f - start.h * start.jerk)[V][CAGE]
-    minmod = np.where(a * before > 0.0, np.where(np.abs(a) < np.abs(before), a, before), 0.0)
-    removed, new = np.zeros(N_V), h * (a - minmod)
-    removed[CAGE] = new - cage_films(model, start.film, h, new)
-    return removed
+    middle, y = start.y.copy(), start.y.copy()
+    middle[V] += 0.5 * h * start.f[V]
+    middle[POSITIONS] += 0.5 * h * middle[V][POSITIONS]
+    y[POSITIONS] += h * middle[V][POSITIONS]
+    y[V] = middle[V] + 0.5 * h * start.f[V]
+    return middle, y
 
 
 def dissipation_correction(model, w, gamma, residual, delta):
@@ -331,7 +289,7 @@ def dissipation_correction(model, w, gamma, residual, delta):
 
 def correct_positions(model, gamma, delta, y):
     """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n); the
-    cage has weights of its own (cage_correct).
+    cage has weights of its own.
     """
     y[BALL_X] += gamma * delta[BALL[0]]
     y[BALL_R] += gamma * delta[BALL[1]]
@@ -346,46 +304,29 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     weight: 1/(tolerance scale) of each state.  blocks: function of (model, t, y, w, gamma) that gives the Blocks; any A
     and K keep the second order.
     """
-    gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work(cage_squeeze(model, 0.5 * h))
-    (y, cage, _), removed = advance_positions(model, h, start), predictor_limiter(model, h, start)
-    y[V] += gamma * a - removed
-    cage_predict(model, gamma, cage, y)
-    end = VerletState(y, rhs(model, t + h, y, w), h=h)
-    end.cage = cage_arrive(model, w, cage, start.cage, y, end.f)
+    gamma, f, a, w = 0.5 * h, start.f, start.f[V], Work()
+    middle, y = predict(h, start)
+    cage = cage_begin(model, h, start, middle, y, w)
+    end, error = VerletState(y, rhs(model, t + h, y, w), h=h), np.zeros(len(y))
+    cage_residual, cage_delta, film_power = cage_end(model, cage, start, end, error, w)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
-    foreseen = np.zeros(N_V)
-    foreseen[CAGE] = cage_foreseen(cage)
-    b, residual = blocks(model, t + h, y, w, gamma), removed + gamma * (end.f[V] - a - foreseen)
-    residual = np.linalg.solve(np.eye(N_V) + gamma**2 * b.K_shear, residual)
+    b, residual = blocks(model, t + h, y, w, gamma), gamma * (end.f[V] - a)
     delta = np.linalg.solve(b.matrix(gamma), residual)
-    power = cage_bent_solve(model, gamma, w, cage, residual[CAGE], delta[CAGE])
-    end.film, b.A_stiff[CAGE, CAGE] = cage_film_matrices(w), cage_matrices(model, w, gamma)[0]
-    end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + power
+    residual[CAGE], delta[CAGE] = cage_residual, cage_delta
+    end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + film_power
     ring_wrench(model, w, gamma, delta)
     end.exchange = exchange_at(w)
-    cage_finish(model, gamma, cage, y, end)
-    delta -= removed  # from here on delta = v_{n+1} - v_n - h a_n
+    y[V][OTHERS] += delta[OTHERS]  # delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
-    cage_correct(model, w, gamma, b.axial, b.shear, delta[CAGE], y, cage)
-    y[V] += removed + delta
-    delta += gamma * foreseen
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
 
-    # Velocities: error h^3/12 a'' of the trapezoidal rule; stiff accelerations give up a part of their second
-    # difference h^2 a''.
-    error, second = np.zeros(len(y)), 2.0 * h * h / (h + start.h)
-    second_difference = second * (delta / (gamma * h) - start.jerk[V])
-    error[V] = h / 12.0 * second_difference
-    damped = second_difference - np.linalg.solve(b.matrix_stiff(gamma), second_difference)
-    end.f[V] = a + delta / gamma - SMOOTHING * damped
-    end.jerk[V] = (end.f[V] - a) / h
-
-    # Friction states follow the joints: mean rate of their motion over the step, and the error h^3/24 u''' of the midpoint rule.
-    end.f[FRICTION] = np.append(cage.joints.way.ravel() / h, np.zeros(2 * Z))
-    end.jerk[FRICTION] = 2.0 / (h + start.h) * (end.f - f)[FRICTION]
-    error[FRICTION] = h / 24.0 * second * (end.jerk - start.jerk)[FRICTION]
-    cage_remember(model, h, second, start, end, error)
+    # Error and history of the velocities; stiff accelerations give up a part of their second difference.
+    second, errors = trapezoid_error(h, start.h, delta, start.jerk[V])
+    stiff = second - np.linalg.solve(b.matrix_stiff(gamma), second)
+    for rows, values in zip((end.f, end.jerk), trapezoid_end(h, a, delta, stiff), strict=True):
+        rows[V][OTHERS] = values[OTHERS]
+    error[V][OTHERS] = errors[OTHERS]
     return end, np.sqrt(np.sum((error * weight) ** 2) / N_STATES)  # modes do not make the tolerance of the others wider
 
 
@@ -432,7 +373,7 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
-        left, bears = t_stop - t, cage_longest_step(model, state.film, state.cage)
+        left, bears = t_stop - t, cage_longest_step(model, state.cage)
         if h >= bears:
             h, count = bears, max(np.ceil(left / bears * (1.0 - LAST_STEP)), 1.0)
             length = left / count

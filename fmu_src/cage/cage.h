@@ -11,22 +11,25 @@
 
 #include "cage/common/films.h"
 #include "cage/common/pocket_spheres.h"
-#include "cage/elastic/cage_substeps.h"
-#include "cage/elastic/rim_films.h"
+#include "cage/elastic/elastic_step.h"
 #include "cage/two_half/two_half.h"
 #include "numbers/isa.h"
 #include "physics/land_bent.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Carried from an evaluation to the next step, of the kind of cage that runs; of the other 0.  Part of the saved state: no
-// member is aligned beyond a double, so that nothing lies between them.
+// Carried from an evaluation to the next step: -dF/dv of each land's film yy, yz, zz [N.s/m]; of the kind of cage that runs, of
+// the other 0.  Part of the saved state: no member is aligned beyond a double, so that nothing lies between them.
 typedef struct {
-    FastState fast;
-    RimFilms films;
-    double squeeze[2][SQUEEZE];  // squeeze velocities of their lands and shapes [m/s]
-    PocketFilms pockets;
+    double film[2][3];
+    ElasticMemory elastic;
 } CageMemory;
+
+// Carried from cage_begin to cage_end.
+typedef struct {
+    HalvesStep halves;
+    ElasticStep elastic;
+} CageStep;
 
 // ---- what the parameters ask for ----------------------------------------------------------------------------
 // The reason why there is no such cage, or NULL.
@@ -41,13 +44,13 @@ const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memo
 // Whether the state has modes.
 bool cage_vibrates(const Parameters *p);
 
-// Part of the velocity scale that a ball's velocity along its orbit gets: it decides how the ball meets its pocket,
-// less so where walls give way.
-double cage_orbit_scale(const Parameters *p);
+// Error scales: of a ball's velocity along its orbit, in parts of that of velocities, because it decides how the ball meets
+// its pocket, less so where walls give way; of the friction states, in deflections at which the plates slip.
+typedef struct {
+    double orbit, friction;
+} CageScales;
 
-// Deflections at which the plates slip that the scale of the friction states gets: their errors hardly change the halves'
-// velocities, and less so where halves give way.
-double cage_friction_scale(const Parameters *p);
+CageScales cage_scales(const Parameters *p);
 
 // Number of states of the scene.
 static inline int cage_states(const Model *model)
@@ -77,83 +80,33 @@ void cage_joints(const Model *model, const scalar *y, Work *w);
 void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot);
 
 // ---- one step of the default method (verlet.c) --------------------------------------------------------------
-// Between the stages of a step: what the halves' own substeps foresee, weights of the position corrections.
-typedef struct {
-    Foreseen foreseen;  // slow accelerations at the end
-    double gamma;       // half of the step [s]
-    JointStep joints;   // friction
-    double axial, shear;
-    // bent rims: what the accelerations foreseen of their shapes lack at the end [m/s2], squeeze velocities, the solution
-    double rim_lack[2][RIM], squeeze[2][SQUEEZE];
-    // forces on them: held at both ends of the step, and those at its start that their impulses so far amount to
-    double rim_held[2][RIM], rim_before[2][RIM];
-    BentSolution bent[2];
-    PocketFilmsStep pockets;
-} CageStep;
-
-// Separates what the cage advances by itself from the rates f at the state y, where w was evaluated.
+// Separates the part that the cage advances by itself from the rates f at the state y, where w was evaluated.
 #define cage_split FOR_ISA(cage_split)
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory);
 
-// Over a step h from the state y_0, its rates f and its memory: rotations, friction states and modes in y, whose other
-// rows have their values at the end; middle: the state in the middle.
-#define cage_advance FOR_ISA(cage_advance)
-void cage_advance(const Model *model, double h, const double *y_0, const double *f, const CageMemory *memory,
-                  const double *middle, double *y, CageStep *step, Work *w);
+// Before the evaluation at the end of a step of length h: sets the cage's rows of y, which has all other positions of the
+// end and friction states and work of the start, to positions of the end and predicted velocities.  middle: the state in the middle.
+#define cage_begin FOR_ISA(cage_begin)
+void cage_begin(const Model *model, double h, const StepFrom *from, const CageMemory *memory,
+                const double *middle, double *y, CageStep *step, Work *w);
 
-// Predicted velocities in y for the evaluation at the end.
-#define cage_predict FOR_ISA(cage_predict)
-void cage_predict(const Model *model, CageStep *step, double *y);
+// After it: solves for the cage's velocities, sets the cage's rows of `to` and its memory, and takes from the other rates
+// of the evaluation the share of films that are implicit.  Returns the power of films beyond that of residual and delta [W].
+#define cage_end FOR_ISA(cage_end)
+double cage_end(const Model *model, CageStep *step, const StepFrom *from, const CageMemory *before,
+                const StepTo *to, CageMemory *memory, Work *w);
 
-// After that evaluation of y, w: separates the cage's part of the rates f, and takes the friction states to the joints' places.
-#define cage_arrive FOR_ISA(cage_arrive)
-void cage_arrive(const Model *model, const Work *w, CageStep *step, const CageMemory *before, double *y,
-                 double *f, CageMemory *memory);
-
-// Adds gamma times what was foreseen of the halves' accelerations to the rows of their velocities, with a sign.
-#define cage_foreseen FOR_ISA(cage_foreseen)
-void cage_foreseen(const Model *model, const CageStep *step, double gamma, double *v);
-
-// v = (1 + gamma A)^-1 v of the halves' velocities by films of the given rates alone.
-#define cage_films FOR_ISA(cage_films)
-void cage_films(const Model *model, const LandFilm film[2], double gamma, double *v);
-
-// v = (1 + gamma^2 K)^-1 v with the joints' stiffness across the axis, a factor of the matrix of its own.
-#define cage_shear FOR_ISA(cage_shear)
-void cage_shear(const Model *model, const Work *w, double gamma, CageStep *step, double *v);
-
-// v = (1 + gamma A + gamma^2 K)^-1 v of both halves with their films and joints.
-#define cage_solve FOR_ISA(cage_solve)
-void cage_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v);
-
-// Positions in y follow the corrections delta of the velocities; the friction states slip where friction does not hold them,
-// and the work loses what that dissipates.
-#define cage_correct FOR_ISA(cage_correct)
-void cage_correct(const Model *model, double gamma, const double *delta, double *y, CageStep *step, Work *w);
-
-// The same of a step of another method, which ends at the state y and its evaluation w: `before` is the state at its
-// start.
+// Maps the friction states back at the end of a step of another method, which ends at the state y and its evaluation w:
+// `before` is the state at its start.
 typedef void CageSlide(const Model *model, const double *before, double *y, Work *w);
 #define cage_slide FOR_ISA(cage_slide)
 CageSlide cage_slide;
 
-// Velocities of the modes at the end, in y, with the forces on bent rims there; the evaluations behind foresee no films.
-#define cage_finish FOR_ISA(cage_finish)
-void cage_finish(const Model *model, const CageStep *step, double *y, const double *f_end, CageMemory *memory,
-                 Work *w);
-
-// Rates of the modes at the end, their history and their error, without the films on bent rims; f, jerk and h_0 are those of the step's start and of
-// the step before.
-#define cage_remember FOR_ISA(cage_remember)
-void cage_remember(const Model *model, double h, double h_0, const double *f, const double *jerk,
-                   const double *y, double *f_end, double *jerk_end, double *error);
-
 // Part of the longest step and of the tolerance that the cage is given: 1, less of a slow cage.
 double cage_part(const CageMemory *memory);
 
-// The longest step that the cage bears from a state with these films [s]: of all films, or of those that do not follow in the
-// substeps of a step from `memory`.
-double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory);
+// The longest step that the cage bears from its memory [s].
+double cage_longest_step(const Model *model, const CageMemory *memory);
 
 // The longest step of a fixed length [s] that vibrations and pulses allow.
 double cage_fixed_step(const Model *model);
@@ -177,15 +130,15 @@ scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 // powers this one counts as a potential, because modes turn by much more than pi in a step.
 INLINE scalar cage_widened(const Work *w)
 {
-    return 0.5 * (w->elastic.more_J[0] + w->elastic.more_J[1]) * (w->frame_omega * w->frame_omega);
+    return 0.5 * (w->cage.elastic.more_J[0] + w->cage.elastic.more_J[1]) * (w->frame_omega * w->frame_omega);
 }
 
 INLINE scalar cage_widening(const Work *w, scalar frame_omega_dot)
 {
     scalar power = 0.0;
     for (int h = 0; h < 2; h++)
-        power += w->frame_omega *
-                 (0.5 * w->elastic.more_J_dot[h] * w->frame_omega + w->elastic.more_J[h] * frame_omega_dot);
+        power += w->frame_omega * (0.5 * w->cage.elastic.more_J_dot[h] * w->frame_omega +
+                                   w->cage.elastic.more_J[h] * frame_omega_dot);
     return power;
 }
 
@@ -194,20 +147,20 @@ INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
 {
     scalar power = 0.0;
     for (int h = 0; h < 2; h++)
-        power += w->elastic.more_J[h] * frame_omega_dot * (w->half[h].s + w->frame_omega);
+        power += w->cage.elastic.more_J[h] * frame_omega_dot * (w->half[h].s + w->frame_omega);
     return power;
 }
 
 // Power that the halves' vibrations and the damping between rigid halves lose [W].  What friction loses is no function of
-// a state: it is the work of a step's slip (cage_correct).
+// a state: it is the work of a step's slip (cage_end).
 INLINE scalar cage_vibrations_lose(const Work *w)
 {
-    return w->elastic.dissipated;
+    return w->cage.elastic.dissipated;
 }
 
 INLINE scalar cage_joints_damp(const Work *w)
 {
-    return w->two_half.dissipated;
+    return w->cage.two_half.dissipated;
 }
 
 INLINE scalar cage_losses(const Work *w)

@@ -56,7 +56,7 @@ static scalar spheres_energy(const Model *model, const Work *w)
         wide V = wide_set(0.0);
         for (int h = 0; h < 2; h++) {
             if (model->modes) {
-                V += wide_load(&w->elastic.wall_energy[h][j]);
+                V += wide_load(&w->cage.elastic.wall_energy[h][j]);
                 continue;
             }
             const SphereGap gap = sphere_gap(model->d, w, h, j);
@@ -88,7 +88,7 @@ static scalar two_half_energy(const Model *model, const scalar *y, const Work *w
     const Derived *d = model->d;
     scalar E = 0.0;
     for (int k = 0; k < Z; k++) {
-        const scalar pull = w->two_half.pull[k], push = w->two_half.push[k];
+        const scalar pull = w->cage.two_half.pull[k], push = w->cage.two_half.push[k];
         E += 0.5 * (pull * pull / d->k_rivet + push * push / d->k_plate);
     }
     const JointStiffness k_in = two_half_stiffness(d);
@@ -97,14 +97,14 @@ static scalar two_half_energy(const Model *model, const scalar *y, const Work *w
 
 static scalar elastic_energy(const Model *model, const scalar *y, const Work *w)
 {
-    const ElasticJoints *joints = &w->elastic.joints;
+    const ElasticJoints *joints = &w->cage.elastic.joints;
     const JointStiffness k_in = cage_elastic_stiffness(model);
     scalar V = 0.0;  // of the joints, and of the halves around them beside their modes
     for (int k = 0; k < Z; k++) {
         for (int a = 0; a < PAD_OUT; a++) V += 0.5 * joints->e[a][k] * joints->trial[a][k];
         V -= joints->U[k];
     }
-    return w->elastic.energy + 2.0 * V + joints_energy(model, y, &k_in, joints->u_y, joints->u_z);
+    return w->cage.elastic.energy + 2.0 * V + joints_energy(model, y, &k_in, joints->u_y, joints->u_z);
 }
 
 static void elastic_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z])
@@ -112,7 +112,7 @@ static void elastic_flex(const Model *model, const Work *w, int h, scalar x[Z], 
     // Half 0 is the mirror image of half 1.
     const ElasticHalf *half = model->modes;
     const double inv_root = sqrt(0.5), side = h == 1 ? inv_root : -inv_root;
-    const scalar *q = w->elastic.q[h];
+    const scalar *q = w->cage.elastic.q[h];
     for (int i = 0; i < half->n; i++)
         for (int k = 0; k < Z; k++) {
             x[k] += side * elastic_half_pad(half, true, i, 0, k) * q[i];
@@ -123,8 +123,8 @@ static void elastic_flex(const Model *model, const Work *w, int h, scalar x[Z], 
 
 void cage_slip(const Model *model, const Work *w, scalar slip[Z])
 {
-    const scalar *u_y = model->modes ? w->elastic.joints.u_y : w->u_y;
-    const scalar *u_z = model->modes ? w->elastic.joints.u_z : w->u_z;
+    const scalar *u_y = model->modes ? w->cage.elastic.joints.u_y : w->u_y;
+    const scalar *u_z = model->modes ? w->cage.elastic.joints.u_z : w->u_z;
     for (int k = 0; k < Z; k++) slip[k] = scalar_sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k]);
 }
 

@@ -34,14 +34,9 @@ const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memo
     return memory;
 }
 
-double cage_orbit_scale(const Parameters *p)
+CageScales cage_scales(const Parameters *p)
 {
-    return cage_vibrates(p) ? 1.0 / 4.5 : 1.0 / 6.0;
-}
-
-double cage_friction_scale(const Parameters *p)
-{
-    return cage_vibrates(p) ? 300.0 : 130.0;
+    return cage_vibrates(p) ? (CageScales){1.0 / 4.5, 300.0} : (CageScales){1.0 / 6.0, 130.0};
 }
 
 // Elastic halves are as far apart as their bodies are under the centrifugal load.
@@ -84,22 +79,22 @@ static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of th
 
 double cage_part(const CageMemory *memory)
 {
-    return fmin(fmax(sqrt(memory->fast.omega_2) / SLOW, LEAST_PART), 1.0);
+    return fmin(fmax(sqrt(memory->elastic.fast.omega_2) / SLOW, LEAST_PART), 1.0);
 }
 
-double cage_longest_step(const Model *model, double film[2][3], const CageMemory *memory)
+double cage_longest_step(const Model *model, const CageMemory *memory)
 {
     const double part = cage_part(memory);
     if (!model->modes) return part * LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
     const double d = model->modes->substep;
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {
-        const bool bent = memory->films.rates[h][0][0] + memory->films.rates[h][1][1] > 0.0;
-        if (!bent) rate = fmax(rate, film[h][0] + film[h][2]);
+        const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
+        if (!bent) rate = fmax(rate, memory->film[h][0] + memory->film[h][2]);
     }
     const double most = part * elastic_longest_step(model->modes);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
-    const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->pockets.rate);
+    const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->elastic.pockets.rate);
     return fmin(most, fmin(lands, pockets));
 }
 
@@ -114,31 +109,34 @@ double cage_fixed_step(const Model *model)
 
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
 {
-    // Motions and loads of the joints up to those of anything that holds, fast accelerations.
+    // Films; motions and loads of the joints up to those of anything that holds, fast accelerations.
+    const double LARGEST_FILM = 1e30;  // [N.s/m]
     const bool elastic = cage_vibrates(p);
     const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
                  acceleration = elastic ? 1e15 : 0.0;
-    const FastState *fast = &memory->fast;
-    return values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
+    const FastState *fast = &memory->elastic.fast;
+    return values_are_within(memory->film[0], 6, LARGEST_FILM) &&
+           values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
            values_are_within(fast->u_z, LANES, motion) &&
-           values_are_within(fast->touch_x[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_t[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_K[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-           values_are_within(fast->touch_delta[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_Q[0], 2 * LANES, load) &&
-           values_are_within(fast->touch_r[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch_chi[0], 2 * LANES, 2.0 * motion) &&
-           values_are_within(fast->touch_radius[0], 2 * LANES, 10.0 * motion) &&
+           values_are_within(fast->touch.x[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.t[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.K[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+           values_are_within(fast->touch.delta[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.Q[0], 2 * LANES, load) &&
+           values_are_within(fast->touch.r[0], 2 * LANES, motion) &&
+           values_are_within(fast->touch.chi[0], 2 * LANES, 2.0 * motion) &&
+           values_are_within(fast->touch.radius[0], 2 * LANES, 10.0 * motion) &&
            values_are_within(&fast->omega_2, 1, 1e18) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
-           values_are_within(memory->films.force[0], 2 * RIM, load) &&
-           values_are_within(memory->films.rates[0][0], 2 * SQUEEZE * SQUEEZE, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
-           values_are_within(memory->pockets.D[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-           values_are_within(&memory->pockets.rate, 1, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->pockets.u[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
-           values_are_within(memory->pockets.F[0], 2 * LANES, load) &&
-           values_are_within(memory->pockets.m_x[0], 6 * LANES, 2.0 * motion) &&
-           values_are_within(memory->pockets.shape[0][0], 2 * Z * N_MODES, elastic ? 1e3 : 0.0);
+           values_are_within(memory->elastic.films.force[0], 2 * RIM, load) &&
+           values_are_within(memory->elastic.films.rates[0][0], 2 * SQUEEZE * SQUEEZE,
+                             elastic ? 1e30 : 0.0) &&
+           values_are_within(memory->elastic.squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
+           values_are_within(memory->elastic.pockets.D[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
+           values_are_within(&memory->elastic.pockets.rate, 1, elastic ? 1e30 : 0.0) &&
+           values_are_within(memory->elastic.pockets.u[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
+           values_are_within(memory->elastic.pockets.F[0], 2 * LANES, load) &&
+           values_are_within(memory->elastic.pockets.m_x[0], 6 * LANES, 2.0 * motion) &&
+           values_are_within(memory->elastic.pockets.shape[0][0], 2 * Z * N_MODES, elastic ? 1e3 : 0.0);
 }

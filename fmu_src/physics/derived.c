@@ -381,10 +381,11 @@ static void derive_scales(const Parameters *p, Derived *d)
 {
     const bool equal = p->solver.method == METHOD_EXPLICIT;
     const double length = 1e-5, velocity = equal ? 0.1 : 0.5, r = 0.5 * p->bearing.d_m;
-    const double orbit = velocity * cage_orbit_scale(p);
+    const CageScales scales = cage_scales(p);
+    const double orbit = velocity * scales.orbit;
     const double slip =
         fmax(p->joint.mu * d->P_mean, 3.0);  // force at which plates slip; of a loose joint the default's
-    const double friction = equal ? slip : cage_friction_scale(p) * slip;
+    const double friction = equal ? slip : scales.friction * slip;
     d->scale[SCALE_LENGTH] = length;
     d->scale[SCALE_VELOCITY] = velocity;
     d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;

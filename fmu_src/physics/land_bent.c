@@ -9,8 +9,8 @@
 // F.  Where a closed gap makes gamma Y D a million, steps would run to and fro over the ends: from the third on they are as long as
 // the sum falls.
 //
-// There F(V^) would be a thousand kilonewtons too.  What a half's tilt does to it in the second order, 1e-5 of it, is not in Y and would
-// be left when V is solved.  The evaluation has therefore the film at the velocities that it leaves of V^, those with r = 0 and F^ = 0.
+// There F(V^) would be a thousand kilonewtons too.  Y omits second-order tilt terms (1e-5 of F), which would remain as an error.
+// The evaluation has therefore the film at the velocities that it leaves of V^, those with r = 0 and F^ = 0.
 #include "physics/land_bent.h"
 
 enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH, ROW = 8 };

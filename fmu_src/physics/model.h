@@ -8,13 +8,10 @@
 // n unit normal from race or pocket surface into it, seen from the ball (the ball is pushed along -n).
 #pragma once
 
-#include "cage/elastic/elastic_work.h"
-#include "cage/two_half/half_path.h"
-#include "cage/two_half/two_half_work.h"
 #include "numbers/lanes.h"
 #include "numbers/variable_table.h"
-
-typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
+#include "physics/cage_work.h"
+#include "physics/land_path.h"
 
 enum { LAND_POINTS = 24, BENT_POINTS = 48 };  // of the sums over a land's film, over that of a bent rim
 
@@ -100,11 +97,12 @@ typedef struct {
         loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
 } RingFit;
 
-// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.
-enum { RELATIVE_MOTIONS = 6 };
+// Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.  Rigid motions of both
+// halves, in the order of their velocities in the state.
+enum { RELATIVE_MOTIONS = 6, CAGE_MOTIONS = 2 * RELATIVE_MOTIONS };
 
-// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; what of y and z the centres of
-// mass take; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
+// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; share of a relative y/z displacement that moves
+// the centres of mass; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
 typedef struct {
     double inverse[RELATIVE_MOTIONS], part, tilt;
 } RelativeInertia;
@@ -266,10 +264,11 @@ typedef struct {
     scalar yy, yz, zz, spin;
 } LandFilm;
 
-// ---- what decides the pressure on the rim of an elastic half, along the half's axes; written by land_film.c, velocities and forces again
-// by land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], load of the dry contact [N], part of the film's waves that
-// load the rivets, clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its velocity and squeeze velocity
-// [m/s], what they gain by the spin against the outer ring [m], forces on the rim's shapes and, by the film alone, on land and rim [N]; waves of the film's rates [N.s/m], squeeze velocities to
+// ---- pressure on the rim of an elastic half, along the half's axes; written by land_film.c, velocities and forces again by
+// land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], load of the dry contact [N], part of the film's
+// waves that load the rivets, clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its
+// velocity and squeeze velocity [m/s], forces on the rim's shapes and, by the film alone, on land and rim [N]; change of
+// the squeeze velocities by the spin against the outer ring [m], waves of the film's rates [N.s/m], squeeze velocities to
 // which film and rates belong ----
 typedef struct {
     scalar e[2], V[2], dry, still, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM],
@@ -349,7 +348,7 @@ typedef struct {
     ball_array S_y, S_z, H_y, H_z, B_y, B_z, joint_F_y, joint_F_z;
     ball_array plate_held, head_held, k_bearing;
     ball_array joint_dissipated;
-    ball_array joint_rubbed;  // normal force times slip in the step that ends here [J] (cage_correct)
+    ball_array joint_rubbed;  // normal force times slip in the step that ends here [J] (halves_slide)
 
     // mixture (drag_mixture): density / that of the derived constants, angular speed about X [rad/s],
     // |shaft speed|^-0.25; power of its friction on the ring [W] (drag_ring)
@@ -372,9 +371,7 @@ typedef struct {
     scalar squeeze_by[2][SQUEEZE];
     LandLoad land[2];  // of rigid halves
 
-    // what one kind of cage has
-    TwoHalfWork two_half;
-    ElasticWork elastic;
+    CageWork cage;  // of the kind of cage that runs
 } Work;
 
 enum { HOUSING_DOF = 5 };  // x, y, z, beta, gamma

@@ -10,26 +10,18 @@
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
 //   pocket, oil             v.m of the ball by itself; rigid halves      D
-//   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
-//   land and bent rim       and its shapes                               Newton's method (land_bent.c)
-//   land, Couette and dry   spin s                                       film_spin
-//   rivets and plates       v_x + z beta_dot - y gamma_dot, half 1 - 0   c; k of tense rivets, pressed plates
-//   sticking, hole contact  v_y - s z, v_z + s y, half 1 - 0             stiffness k/(1 + gamma D), k_hole
 //   ring support            each velocity of the ring by itself          c; tilts: c_tilt, k_tilt or filter
 //
 // C is symmetric and not negative, so every block is symmetric positive definite and needs no pivoting.
 // Traction has the secant |traction|/|slip| in place of the tangent for that reason; of a concave law it is
 // never below the tangent, and too large a rate is safe where too small a one is not (docs/method.md).  Left
-// out: the turning of the normals, the films' stiffness, Coriolis and gyroscopic terms, the pockets' coupling
-// of ball and cage.
+// out: the turning of the normals, Coriolis and gyroscopic terms, the pockets' coupling of ball and cage.  So A and K do
+// not couple the halves of the cage with balls and ring: their blocks are the cage's own (cage_end).
 //
-// Order of elimination: balls, 6 x 6 each; by their Schur complement the ring, 5 x 5; the halves by
-// themselves, their films first, then the joints between them.  The joints' stiffness across the axis is a
-// factor of its own, solved before (cage_shear).  Rolling couples the velocities of a ball as
-// strongly as it holds each one back: a diagonal matrix would leave stiff terms outside.
+// Order of elimination: balls, 6 x 6 each; by their Schur complement the ring, 5 x 5.  Rolling couples the velocities of
+// a ball as strongly as it resists each one: a diagonal matrix would leave stiff terms outside.
 #include "solver/implicit.h"
 
-#include "cage/cage.h"
 #include "numbers/elimination.h"
 #include "numbers/octet.h"
 #include "numbers/vec.h"
@@ -334,16 +326,6 @@ double implicit_spring_power(const Work *w, double gamma, const double *v)
     return ball_array_sum(power);
 }
 
-// ---- cage halves ------------------------------------------------------------------------------------------
-
-static void stiff_part_of_halves(const Model *model, const Work *w, double gamma, double *v)
-{
-    double kept[N_STATES];
-    memcpy(&kept[Y_CAGE_V_X], &v[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *v);
-    cage_films(model, w->film, gamma, kept);
-    for (int i = Y_CAGE_V_X; i < Y_RING_V_X; i++) v[i] -= kept[i];
-}
-
 // ---- ring -------------------------------------------------------------------------------------------------
 
 enum { RING = BODY_DOF };  // velocities of the ring: v_x, v_y, v_z, beta_dot, gamma_dot
@@ -445,7 +427,7 @@ static void stiff_part_of_ring(const Model *model, double gamma, double *v)
 
 // ---- all --------------------------------------------------------------------------------------------------
 
-void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v)
+void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
 {
     ball_array rows[BLOCK];
     Coupling coupling;
@@ -461,9 +443,6 @@ void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *s
     else
         for (int i = 0; i < RING; i++) V[i] /= 1.0 + support[i];
     store_balls(rows, v);
-
-    // The cage, which A and K do not couple with the rest.
-    cage_solve(model, w, gamma, step, v);
 }
 
 void implicit_ring_wrench(const Model *model, double gamma, const double *delta, Work *w)
@@ -510,6 +489,5 @@ void implicit_ring_wrench(const Model *model, double gamma, const double *delta,
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)
 {
     stiff_part_of_balls(model, w, gamma, v);
-    stiff_part_of_halves(model, w, gamma, v);
     stiff_part_of_ring(model, gamma, v);
 }

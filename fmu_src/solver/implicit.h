@@ -3,13 +3,12 @@
 // with them.
 #pragma once
 
-#include "cage/cage.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 
-// v = (1 + gamma A + gamma^2 K)^-1 v, A and K at the evaluation w, but for the joints' stiffness across the axis
-// (cage_shear).  v has the rows of the state vector; only velocities are read and written.
-void implicit_solve(const Model *model, const Work *w, double gamma, CageStep *step, double *v);
+// v = (1 + gamma A + gamma^2 K)^-1 v of balls and ring, A and K at the evaluation w.  v has the rows of the state vector;
+// only velocities of balls and ring are read and written.
+void implicit_solve(const Model *model, const Work *w, double gamma, double *v);
 
 // The wrench of the race contacts on the ring in w becomes the one that moved the balls in a step: that of the evaluation and
 // what the solve's result delta adds to the forces on the balls.

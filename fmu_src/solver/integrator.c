@@ -197,7 +197,7 @@ static double verlet_length(void *context, double left)
     Integrator *in = context;
     if (in->warming_up) return left;
     if (is_fixed(in)) return in->goal >= left * (1.0 - LAST_STEP) ? left : in->goal;
-    const double bears = cage_longest_step(in->model, in->now->film, &in->now->cage);
+    const double bears = cage_longest_step(in->model, &in->now->cage);
     if (in->goal >= bears) {
         in->goal = bears;
         return left / fmax(ceil(left / bears * (1.0 - LAST_STEP)), 1.0);
@@ -649,8 +649,8 @@ static double largest_of(StateScale scale)
 
 bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 {
-    // A state crosses its range in no less than a microsecond [1/s]; largest film rate [N.s/m].
-    const double RATE = 1e6, LARGEST_FILM = 1e30;
+    // A state crosses its range in no less than a microsecond [1/s].
+    const double RATE = 1e6;
 
     // Time and step sizes.
     bool fine = values_are_within(&s->t, 1, LARGEST_TIME) && values_are_amounts(&s->now.h, 1) &&
@@ -675,14 +675,12 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 
     fine &= cage_memory_is_valid(&s->now.cage, p);
 
-    // What the shaft gives; films, switch and counters.
+    // What the shaft gives; switch and counters.
     const double LARGEST_EXCHANGE = 1e30;
     const size_t amounts = sizeof(Exchange) / sizeof(double);
     fine &= values_are_within(&s->now.exchange.torque, amounts, LARGEST_EXCHANGE) &&
             values_are_within(&s->sum.torque, amounts, LARGEST_EXCHANGE) &&
             values_are_within(&s->since, 1, LARGEST_TIME);
-    fine &=
-        values_are_within(&s->now.film[0][0], sizeof s->now.film / sizeof s->now.film[0][0], LARGEST_FILM);
     fine &= s->f_is_current == 0 || s->f_is_current == 1;
     return fine && value_is_count(s->steps) && value_is_count(s->rhs_evals) &&
            value_is_count(s->error_tests_failed);

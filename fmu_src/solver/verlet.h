@@ -11,7 +11,6 @@ typedef struct {
     double y[N_ALL_STATES];
     double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
     double jerk[N_ALL_STATES];  // change of f over the last step / its length: history for the error estimate
-    double film[2][3];          // -dF/dv of each land's film there: yy, yz, zz [N.s/m]
     CageMemory cage;            // of the cage there; f lacks the accelerations that it advances by itself
     Housing housing;            // where it moves on springs, else 0
     BallTurn turn;              // of balls where one has a spall, else 0

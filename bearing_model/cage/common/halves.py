@@ -69,8 +69,10 @@ def halves_acceleration(model, y, w, y_dot):
         s, v = half.x + half.c, half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
         M = half.M - vec_cross(half.c, half.F) + frame_moment(frame, half, d.J_p, d.J_t)
         # A half that expands gains inertia and slows down; what it has gained resists the frame's rate too.
-        moment = w.elastic.more_J_dot[h] * (half.s + w.frame_omega) + w.elastic.more_J[h] * frame.frame_omega_dot
+        moment = (
+            w.cage.elastic.more_J_dot[h] * (half.s + w.frame_omega) + w.cage.elastic.more_J[h] * frame.frame_omega_dot
+        )
         M = M - moment * half.a
         a_ddot, s_dot = rotor_acceleration(half, d.J_p, d.J_t, M)
-        s_dot = s_dot * (d.J_p / (d.J_p + w.elastic.more_J[h]))
+        s_dot = s_dot * (d.J_p / (d.J_p + w.cage.elastic.more_J[h]))
         half_rates(y, half, h, half.F / p.cage.m + frame_acceleration(frame, s, v), a_ddot, s_dot, y_dot)

@@ -194,7 +194,7 @@ def pocket_elastic(model, w):
     approach, load (wall_loads.py).
     """
     pocket_clear(w)
-    e = w.elastic
+    e = w.cage.elastic
     elastic_clear(e)
     for h in range(2):
         gap = pocket_gap(model, w, h)

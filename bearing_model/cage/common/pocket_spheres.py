@@ -241,7 +241,7 @@ def spheres_wall(model, w, h, gap):
     """Motion of the walls of elastic half h where balls may touch: takes it from gap.q; velocity u_dot along the pocket's axes and shapes of the
     modes [3, ..., Z, n]; slopes of the motion along q.
     """
-    half, e = model.modes, w.elastic
+    half, e = model.modes, w.cage.elastic
     chi, radius, back, chi_slope, radius_slope = spheres_place(model.d.spheres, half, gap.q)
     shape, by_chi, by_r = ribbon_wall_shapes(half, gap.side, chi, radius, back)
     q, q_dot = e.q[h], e.q_dot[h]
@@ -307,7 +307,7 @@ def spheres_forces(model, w, h, gap, wall=None):
         w.squeeze = w.squeeze + squeeze_rate(film)
         if wall:
             wet = pressed | (wall.near & sphere_wet(d, gap.q, 0.0))
-            w.elastic.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), wall.shape, wet)
+            w.cage.elastic.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), wall.shape, wet)
     if wall:  # the wall's place moves with the ball
         tilt = [Q_0 * sum(n_i * u_i for n_i, u_i in zip(n_q, slope, strict=True)) for slope in wall.slopes]
         F = F + (gap.side * tilt[0] * gap.a + tilt[1] * gap.b + tilt[2] * gap.e_t)
@@ -345,7 +345,7 @@ def spheres_rigid(model, w):
 def spheres_elastic(model, w):
     """The same of two elastic halves, as pocket_elastic of machined ones."""
     pocket_clear(w)
-    e = w.elastic
+    e = w.cage.elastic
     elastic_clear(e)
     e.wall_energy = [None, None]
     for h in range(2):
@@ -367,5 +367,5 @@ def spheres_elastic(model, w):
 def spheres_energy(model, w):
     """Elastic energy of all pockets [J], [..., Z]; of elastic walls also that in their compliance, beside their modes."""
     if model.modes:
-        return w.elastic.wall_energy[0] + w.elastic.wall_energy[1]
+        return w.cage.elastic.wall_energy[0] + w.cage.elastic.wall_energy[1]
     return sum(spheres_contact(model.d.spheres, *spheres_gap(model, w, h).q)[0] for h in range(2))

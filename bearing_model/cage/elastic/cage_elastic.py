@@ -79,7 +79,7 @@ def cage_elastic_kinematics(model, y, w):
     """Coordinates of both halves [..., 1, n], reach of their walls, inertia that the modes add, motions of the pads against
     each other: elastic part, out of the plane (x, phi_r, phi_t) and in it (r, t).
     """
-    half, e = model.modes, w.elastic
+    half, e = model.modes, w.cage.elastic
     S, D, S_dot, D_dot = (y[..., block][..., : half.n] for block in (MODE_S, MODE_D, MODE_S_DOT, MODE_D_DOT))
     e.q, e.q_dot = ([(s - d)[..., None, :] / ROOT, (s + d)[..., None, :] / ROOT] for s, d in ((S, D), (S_dot, D_dot)))
     moved = [wall_amplitudes(half, np.real(q)) for q in e.q]
@@ -100,13 +100,13 @@ def move_pads(model, w):
     """Motions of the pads against each other: those of the halves as rigid bodies and of their modes.  Sets e [3, ..., Z],
     half the relative motion out of the plane, and u, v [2, ..., Z], offset and velocity (y, z) in it.
     """
-    (_, c, s), (h0, h1), j = circle(model.d), w.half, w.elastic.joints
+    (_, c, s), (h0, h1), j = circle(model.d), w.half, w.cage.elastic.joints
     turn_y, turn_z = -vec_dot(h0.b_z, h1.a), vec_dot(h0.b_y, h1.a)  # small rotation of half 1 against half 0
     rigid = np.array([w.u[0], turn_y * c + turn_z * s, turn_z * c - turn_y * s])
-    j.e = 0.5 * (rigid + w.elastic.pad_out)
+    j.e = 0.5 * (rigid + w.cage.elastic.pad_out)
     j.u, j.v = (
         total[1:] + np.array([c * r - s * t, s * r + c * t])
-        for total, (r, t) in ((w.u, w.elastic.pad_in), (w.v_j, w.elastic.pad_in_dot))
+        for total, (r, t) in ((w.u, w.cage.elastic.pad_in), (w.v_j, w.cage.elastic.pad_in_dot))
     )
 
 
@@ -152,7 +152,7 @@ def cage_elastic_preload(model, omega_2):
 
 def add_moments(model, w):
     """Adds the moments of the joints to both halves: on half 1 those whose power is that of the rates of turn_y, turn_z."""
-    (_, c, s), (h0, h1), (_, M_r, M_t) = circle(model.d), w.half, w.elastic.joints.load
+    (_, c, s), (h0, h1), (_, M_r, M_t) = circle(model.d), w.half, w.cage.elastic.joints.load
     M_y, M_z = ball_array_sum(M_r * c - M_t * s), ball_array_sum(M_r * s + M_t * c)
     moment = M_y * vec_cross(h1.a, h0.b_z) - M_z * vec_cross(h1.a, h0.b_y)
     h0.M, h1.M = h0.M - moment, h1.M + moment
@@ -160,7 +160,7 @@ def add_moments(model, w):
 
 def cage_elastic_joints(model, y, w):
     """Joints by the present state (cage_joint_kinematics before); adds their forces and moments to both halves."""
-    j = w.elastic.joints = SimpleNamespace()
+    j = w.cage.elastic.joints = SimpleNamespace()
     move_pads(model, w)
     cage_elastic_loads(model, cage_elastic_preload(model, cage_elastic_speed_2(w)), j)
     add_moments(model, w)
@@ -183,7 +183,7 @@ def cage_elastic_acceleration(model, y, w, y_dot):
     """Rates of the modal coordinates; their energy and dissipation [..., 1], the energy with that of the spin in the moment
     of inertia that they add.
     """
-    half, m, e = model.modes, model.p.cage.m, w.elastic
+    half, m, e = model.modes, model.p.cage.m, w.cage.elastic
     mirrored, opposed = cage_elastic_pull(model, e.joints.load, e.joints.F)
     if w.pressure:
         e.wall_force = [
@@ -206,7 +206,7 @@ def cage_elastic_acceleration(model, y, w, y_dot):
 
 def cage_elastic_rivets(model, w):
     """JointLoads of all joints and their rivets."""
-    j, shear = w.elastic.joints, cage_joint_carried(model, w)
+    j, shear = w.cage.elastic.joints, cage_joint_carried(model, w)
     if w.pressure and np.any(np.real(w.pressure.still) > 0.0):
         j = elastic_lands(model, w, cage_elastic_preload(model, cage_elastic_speed_2(w)), shear)
     return cage_joint_loads(model, j.load, j.rivet, shear)

@@ -129,7 +129,7 @@ def fast_accelerations(model, q, load, shear):
 
 def cage_substeps_split(model, y, w, f):
     """Takes the fast part from the rates f [states] of the state y, at which w was evaluated; returns it as FastState."""
-    half, e, j = model.modes, w.elastic, w.elastic.joints
+    half, e, j = model.modes, w.cage.elastic, w.cage.elastic.joints
     q, v = (
         np.array([y[block][: half.n] for block in blocks]) for blocks in ((MODE_S, MODE_D), (MODE_S_DOT, MODE_D_DOT))
     )
@@ -160,7 +160,7 @@ def turn_out(phi, relative):
     return turned
 
 
-def add_spin(spin, t, middle, slow, moved, relative):
+def to_joint_frame(spin, t, middle, slow, moved, relative):
     """Velocities [6] in the frame of the middle as the joints see them at the time t after it: both these and the way
     since the middle turn back.
     """
@@ -194,7 +194,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     # the joints at the step's start; their velocities by modes and relative rigid motions, and those by the slow motion
     # of the rigid halves in the middle of the step
     u, joints, slip = fast.u, SimpleNamespace(e=fast.e), JointStep(None)
-    w.elastic = SimpleNamespace(joints=joints)
+    w.cage.elastic = SimpleNamespace(joints=joints)
     _, c, s = circle(d)
     out, inside = joints_out(d, half.pad), joints_in(d, half.pad)  # rows: all joints, motion by motion
     Omega = w.half[1].Omega[:, 0] - h0.Omega[:, 0]
@@ -217,7 +217,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         pushed = pushed + 0.5 * sub * push
         way = way + sub * pushed
         relative = between_halves(model, h0, pushed) + speed + time * slow
-        relative = add_spin(spin, time, middle, slow, halfway, relative)
+        relative = to_joint_frame(spin, time, middle, slow, halfway, relative)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
         r, t = (inside @ np.append(v_m[1], relative[3:])).reshape(Z, 2).T
         joints.e = joints.e + 0.5 * sub * (middle_out + by_out)

@@ -56,6 +56,7 @@ class ElasticHalf:
     # largest |u|/|q| of a wall, of a pair's a over the amplitude of both: by modes that move all pockets alike, else 0; by the others [n]
     widest: np.ndarray
     widest_others: np.ndarray
+    wall_mobility: float  # of a wall by modes and half, at the widest place, at most [m/s/(N.s)]
     weak_film: float  # damping of a pocket's film that need not follow in the substeps [N.s/m]
     compliance: float  # that the modes leave at a wall, along its normal, less that in Hertz's [m/N]
     # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
@@ -153,6 +154,7 @@ def elastic_half_derive(p, d, table):
         compliance=max(float(np.ravel(wall)[len(np.ravel(wall)) // 2]), 0.0) if ribbon else wall,
         mirrored=mirrored,
         substep=substep,
+        wall_mobility=wall_mobility,
         weak_film=WEAK_FILM / (LONGEST * substep * wall_mobility),
         law=law,
     )

@@ -1,4 +1,5 @@
-"""The films of the lands on the rivets of elastic halves: static loads, which neither modes nor friction feel.
+"""The films of the lands on the rivets of elastic halves: static loads.  They change the reported rivet loads only,
+not the motion.
 
 The films press on the rims and so pry at the joints: the load path (half_path.py) gives the loads Delta L, Delta V of
 bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the modes
@@ -77,7 +78,7 @@ def elastic_lands(model, w, P, shear):
     """Loads of the joints and of their rivets [3, ..., Z] with the films; adds the shear loads that they put on plates, heads and
     shanks.  P: preloads with the centrifugal load.
     """
-    j, d = w.elastic.joints, model.d
+    j, d = w.cage.elastic.joints, model.d
     rows = land_rows(
         replace(d.table.half, land=beside_modes(d.table.half.land)), model.p.cage.land_x, land_film_loads(model, w)
     )

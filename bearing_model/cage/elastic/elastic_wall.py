@@ -81,8 +81,8 @@ def elastic_wall(model, w, h, n_x, n_t, S, delta):
     across n; the modes' shapes there.
     """
     shape, shape_chi = elastic_wall_shape(model.modes, 2 * h - 1, n_x, n_t)
-    q, q_dot = w.elastic.q[h], w.elastic.q_dot[h]
-    near = np.real(delta) + w.elastic.reach[h] > 0.0  # others cannot have been reached
+    q, q_dot = w.cage.elastic.q[h], w.cage.elastic.q_dot[h]
+    near = np.real(delta) + w.cage.elastic.reach[h] > 0.0  # others cannot have been reached
     u, u_dot, u_chi = (np.sum(a * b, axis=-1) * near for a, b in ((shape, q), (shape, q_dot), (shape_chi, q)))
     turn = (2 * h - 1) * np.where(np.real(n_t) < 0.0, -1.0, 1.0)
     slope = (n_t * u[0] - n_x * u[2] + turn * (n_x * u_chi[0] + n_t * u_chi[2])) / S

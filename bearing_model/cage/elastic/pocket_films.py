@@ -60,7 +60,7 @@ def pocket_films_split(model, w):
     """Takes the films of an evaluation; weak ones have a force alone."""
     if not model.d.squeeze:
         return PocketFilms()
-    D, u, m, shape = (np.array([film[name] for film in w.elastic.films]) for name in ("D", "u", "m", "shape"))
+    D, u, m, shape = (np.array([film[name] for film in w.cage.elastic.films]) for name in ("D", "u", "m", "shape"))
     F = D * np.maximum(u, 0.0)
     strong = model.modes.weak_film < D
     return PocketFilms(np.where(strong, D, 0.0), np.where(strong, u, 0.0), F, m, shape)
@@ -159,7 +159,7 @@ class PocketFilmsStep:
             u -= gamma * (of_wall * (new - F_f) + of_ball * (new - F_0))
             saved += F * films.u[i, k] - new * u
             films.F[i, k] = new
-            films.rate = max(films.rate, of_wall * D)
+            films.rate = max(films.rate, D * (model.modes.wall_mobility if model.d.guided else of_wall))
         f[MODE_S_DOT][:n] += (more_modes[1] + more_modes[0]) / ROOT
         f[MODE_D_DOT][:n] += (more_modes[1] - more_modes[0]) / ROOT
         for block, change in zip(HALVES, more_rows, strict=True):

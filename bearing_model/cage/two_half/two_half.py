@@ -31,6 +31,7 @@ import numpy as np
 
 from bearing_model.cage.common.cage_joint import (
     JointMotion,
+    JointStep,
     JointStiffness,
     cage_joint_carried,
     cage_joint_follow,
@@ -38,6 +39,15 @@ from bearing_model.cage.common.cage_joint import (
     cage_joint_loads,
 )
 from bearing_model.cage.common.films import HALF, N_HALVES
+from bearing_model.cage.common.halves_step import (
+    halves_correct,
+    halves_films,
+    halves_move,
+    halves_predict,
+    halves_remember,
+    halves_residual,
+    halves_slide,
+)
 from bearing_model.cage.common.joint_slip import joint_slip_add
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.two_half.half_path import half_path_rows, land_rows
@@ -82,7 +92,7 @@ def bonded_rows(model, w, omega_2):
 
 def open_joints(model, w):
     """Loads of the joints by their springs' forces and the load path: sets load, rivet [3, ..., Z], N_plate, bonded_V."""
-    d, t = model.d, w.two_half
+    d, t = model.d, w.cage.two_half
     omega_2 = 0.5 * ((w.half[0].s + w.frame_omega) ** 2 + (w.half[1].s + w.frame_omega) ** 2)
     N, V_r, V_t, M_r, M_t, dP, dm_r, dm_t = np.moveaxis(bonded_rows(model, w, omega_2), -1, 0)
     t.bonded_V = np.array([V_r, V_t])
@@ -104,7 +114,7 @@ def open_joints(model, w):
 
 def two_half_joints(model, y, w):
     """Forces of the joints (cage_joint_kinematics before), tension of the rivets."""
-    t = w.two_half = SimpleNamespace()
+    t = w.cage.two_half = SimpleNamespace()
     t.pull, t.push = springs(model.d, w.u[0])
     open_joints(model, w)
     damping = model.d.c_joint * t.push / (t.push + model.p.joint.F_floor)
@@ -119,7 +129,7 @@ def two_half_joints(model, y, w):
 
 def two_half_loads(model, w):
     """JointLoads of all joints and their rivets."""
-    t, shear = w.two_half, cage_joint_carried(model, w)
+    t, shear = w.cage.two_half, cage_joint_carried(model, w)
     joint_slip_add(model, w, w.u[1:], t.rivet[0], t.N_plate, t.bonded_V, shear)
     return cage_joint_loads(model, t.load, t.rivet, shear)
 
@@ -145,7 +155,7 @@ def joint_matrix(model, w):
     """Force per axial velocity and per axial offset of half 1 against half 0 [12, 12], of all joints; b = (1, z, -y) of v_x,
     beta_dot, gamma_dot.  The rivet is stiff while it is tense, the plates while they are pressed together.
     """
-    d, t, (y, z) = model.d, w.two_half, turned_rivets(model, w)
+    d, t, (y, z) = model.d, w.cage.two_half, turned_rivets(model, w)
     B = np.zeros((Z, N_HALVES))
     B[:, HALF[[0, 3, 4], 1]] = np.array([np.ones(Z), z, -y]).T
     B[:, HALF[[0, 3, 4], 0]] = -B[:, HALF[[0, 3, 4], 1]]
@@ -183,7 +193,7 @@ def two_half_matrices(model, w, gamma):
     return weight * A, weight * K, weight_shear * K_shear, axial, shear
 
 
-def two_half_correct(model, w, gamma, axial, shear, delta, y, joints):
+def correct_halves(model, w, gamma, axial, shear, delta, y, joints):
     """Positions and trial deflections in y follow the corrections delta [12] of the velocities: half 1 against half 0 with
     weights; z_{n+1} += c gamma u, u the change of the joint's velocity.
     """
@@ -197,3 +207,32 @@ def two_half_correct(model, w, gamma, axial, shear, delta, y, joints):
     u = np.array([u_y - ds * d.rivet_z, u_z + ds * d.rivet_y])
     cage_joint_follow(shear * gamma, u, y)
     joints.way = joints.way + shear * gamma * u
+
+
+def two_half_begin(model, h, start, middle, y, w):
+    """Motion and predicted velocities; returns the HalvesStep."""
+    step, across = halves_move(model, h, start, middle, y, w), w.v_j[1:]
+    step.joints = JointStep(cage_joint_follow(h, across, y), h * across)
+    halves_predict(model, start, y, step)
+    return step
+
+
+def two_half_end(model, step, start, end, error, w):
+    """Solution, corrections and history; returns residual and delta [12].
+
+    S (1 + gamma A + gamma^2 K) delta = residual; S = 1 + gamma^2 K_shear, across the axis, is a factor of its own.
+    """
+    gamma, one, films = step.gamma, np.eye(N_HALVES), halves_films(model, w)
+    A, K, K_shear, axial, shear = two_half_matrices(model, w, gamma)
+    residual = np.linalg.solve(one + gamma**2 * K_shear, halves_residual(step, start, end))
+    delta = np.linalg.solve(one + gamma * (films + A) + gamma**2 * K, residual)
+    change = halves_correct(step, delta, end.y)
+    correct_halves(model, w, gamma, axial, shear, change, end.y, step.joints)
+    two_half_slide(model, w, end.y, step.joints)
+    halves_remember(model, w, step, start, change, end, error)
+    return residual, delta
+
+
+def two_half_slide(model, w, y, joints):
+    """Maps the friction states in y back under the loads in w."""
+    return halves_slide(model, two_half_stiffness(model.d), w.cage.two_half, y, joints)

@@ -75,11 +75,11 @@ void halves_acceleration(const Model *model, const scalar *y, const Work *w, sca
         }
 
         // A half that expands gains inertia and slows down; what it has gained resists the frame's rate too.
-        const scalar moment = w->elastic.more_J_dot[h] * (half->s + w->frame_omega) +
-                              w->elastic.more_J[h] * model->ring_load->frame_omega_dot;
+        const scalar moment = w->cage.elastic.more_J_dot[h] * (half->s + w->frame_omega) +
+                              w->cage.elastic.more_J[h] * model->ring_load->frame_omega_dot;
         for (int i = 0; i < 3; i++) M[i] -= moment * half->a[i];
         rotor_acceleration(half, d->J_p, d->J_t, M, a_ddot, &s_dot);
-        s_dot *= d->J_p / (d->J_p + w->elastic.more_J[h]);
+        s_dot *= d->J_p / (d->J_p + w->cage.elastic.more_J[h]);
         half_rates(y, half, h, acc, a_ddot, s_dot, y_dot);
     }
 }

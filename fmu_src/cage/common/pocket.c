@@ -120,7 +120,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
             squeeze_leave(&film, v, a, gap->b, e_t, h, j, w);
         }
 
-        wide_store(&w->elastic.touch_Q[h][j], Q);
+        wide_store(&w->cage.elastic.touch.Q[h][j], Q);
     }
 
     wide_store(&pocket->Q[j], d->squeeze.filled ? Q + film.F : Q);
@@ -185,21 +185,21 @@ INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const P
     const wide reached = wide_select(wide_above(delta, 0.0), delta, delta + ahead);
     const wide share = pocket_share(model->d, h, gap->n_x, reached).load;
     const bits acts = wide_above(wide_min(share, reached), 0.0);
-    wide_store(&w->elastic.touch_x[h][j], gap->n_x);
-    wide_store(&w->elastic.touch_t[h][j], gap->n_t);
-    wide_store(&w->elastic.touch_K[h][j], wide_select(acts, model->d->pocket.K * share, zero));
-    wide_store(&w->elastic.touch_delta[h][j], delta);
+    wide_store(&w->cage.elastic.touch.x[h][j], gap->n_x);
+    wide_store(&w->cage.elastic.touch.t[h][j], gap->n_t);
+    wide_store(&w->cage.elastic.touch.K[h][j], wide_select(acts, model->d->pocket.K * share, zero));
+    wide_store(&w->cage.elastic.touch.delta[h][j], delta);
 }
 
 // Motion of a wall along the normal of a ball; the motion by each mode is left to the substeps.
 INLINE scalar moved_wall(const Model *model, Work *w, int h, int k, const WallPlaces *places)
 {
-    PressedWall *wall = &w->elastic.pressed[h][k];
+    PressedWall *wall = &w->cage.elastic.pressed[h][k];
     elastic_wall_shape(model->modes, 2 * h - 1, k, places, wall->shape);
     memset(wall->place, 0, sizeof wall->place);
     wall->place[0] = places->n_x[k], wall->place[2] = places->n_t[k];
     wall->place[5] = model->p->cage.m;
-    return elastic_sum(wall->shape, w->elastic.q[h]);
+    return elastic_sum(wall->shape, w->cage.elastic.q[h]);
 }
 
 // Bits of the balls of a packet that press on a wall or on the oil before it, behind what the walls have moved; `near`:
@@ -226,11 +226,11 @@ static void clear_touches(Work *w, int h, int j)
 {
     const wide zero = wide_set(0.0);
     pocket_clear(&w->pocket[h], j);
-    wide_store(&w->elastic.touch_x[h][j], zero);
-    wide_store(&w->elastic.touch_t[h][j], zero);
-    wide_store(&w->elastic.touch_K[h][j], zero);
-    wide_store(&w->elastic.touch_delta[h][j], zero);
-    wide_store(&w->elastic.touch_Q[h][j], zero);
+    wide_store(&w->cage.elastic.touch.x[h][j], zero);
+    wide_store(&w->cage.elastic.touch.t[h][j], zero);
+    wide_store(&w->cage.elastic.touch.K[h][j], zero);
+    wide_store(&w->cage.elastic.touch.delta[h][j], zero);
+    wide_store(&w->cage.elastic.touch.Q[h][j], zero);
 }
 
 // Motion of the walls, forces and modal forces of a packet.
@@ -247,17 +247,17 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     wide_store(&S[j], 1.0 / at->gap.inv_S);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
         if (at->touched >> i & 1)
-            elastic_wall(elastic, side, j + i, places, w->elastic.q[h], w->elastic.q_dot[h], S[j + i], &wall,
-                         &shape[i]);
+            elastic_wall(elastic, side, j + i, places, w->cage.elastic.q[h], w->cage.elastic.q_dot[h],
+                         S[j + i], &wall, &shape[i]);
     pocket_contacts(model, w, h, j, &at->gap, at->pressed, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) {
-            w->elastic.film_D[h][j + i] = 0.0;
+            w->cage.elastic.film_D[h][j + i] = 0.0;
             continue;
         }
         if (model->d->squeeze.filled) squeeze_wall(model, h, j + i, &shape[i], w);
         const scalar F[3] = {on_wall[0][j + i], on_wall[1][j + i], on_wall[2][j + i]};
-        elastic_wall_force(elastic, j + i, &shape[i], F, w->elastic.wall_force[h]);
+        elastic_wall_force(elastic, j + i, &shape[i], F, w->cage.elastic.wall_force[h]);
     }
 }
 
@@ -274,7 +274,7 @@ void pocket_elastic(const Model *model, Work *w)
             TouchedPacket *at = &packets[count];
             *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
             at->ahead = pocket_ahead(model, w, h, j, &at->gap);
-            const scalar reach = w->elastic.reach[h] + model->d->squeeze.reach;
+            const scalar reach = w->cage.elastic.reach[h] + model->d->squeeze.reach;
             const int near = wide_mask(wide_above(at->gap.delta + (at->ahead + reach), 0.0));
             if (near != 0)
                 at->touched = find_touched(model, w, h, j, near, &at->gap, &places[h], &at->pressed);

@@ -287,7 +287,7 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
     }
     gap->x = wide_load(&alike[0][j]), gap->r = wide_load(&alike[1][j]), gap->t = wide_load(&alike[2][j]);
     sphere_reached(s, slack, gap, delta);
-    const double others = w->elastic.reach_others[h];
+    const double others = w->cage.elastic.reach_others[h];
     near &= wide_mask(wide_above(*delta + others, 0.0)) | sphere_wet(model->d, j, gap, others);
     if (near == 0) return 0;
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
@@ -297,7 +297,7 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
             continue;
         }
         scalar u[3];
-        ribbon_wall_moved(model->modes, side, k, is_back(at, lane), &at->nodes, lane, w->elastic.q[h], u,
+        ribbon_wall_moved(model->modes, side, k, is_back(at, lane), &at->nodes, lane, w->cage.elastic.q[h], u,
                           &shape[lane]);
         take(q, k, side, u);
     }
@@ -324,7 +324,7 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
         const scalar along[3] = {side * n[0][k], n[1][k], n[2][k]};
         RibbonWall wall;
         ribbon_wall(model->modes, side, k, is_back(at, lane), &at->nodes, lane, &shape[lane], along,
-                    w->elastic.q[h], w->elastic.q_dot[h], &wall);
+                    w->cage.elastic.q[h], w->cage.elastic.q_dot[h], &wall);
         for (int i = 0; i < 3; i++) {
             walls->u_dot[i][k] = wall.u_dot[i];
             walls->slope[i][k] =
@@ -337,16 +337,16 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
 static void clear_walls(Work *w, int h, int j)
 {
     const wide zero = wide_set(0.0);
-    ElasticWork *e = &w->elastic;
+    ElasticWork *e = &w->cage.elastic;
     pocket_clear(&w->pocket[h], j);
-    wide_store(&e->touch_x[h][j], zero);
-    wide_store(&e->touch_r[h][j], zero);
-    wide_store(&e->touch_t[h][j], zero);
-    wide_store(&e->touch_K[h][j], zero);
-    wide_store(&e->touch_delta[h][j], zero);
-    wide_store(&e->touch_Q[h][j], zero);
-    wide_store(&e->touch_chi[h][j], zero);
-    wide_store(&e->touch_radius[h][j], zero);
+    wide_store(&e->touch.x[h][j], zero);
+    wide_store(&e->touch.r[h][j], zero);
+    wide_store(&e->touch.t[h][j], zero);
+    wide_store(&e->touch.K[h][j], zero);
+    wide_store(&e->touch.delta[h][j], zero);
+    wide_store(&e->touch.Q[h][j], zero);
+    wide_store(&e->touch.chi[h][j], zero);
+    wide_store(&e->touch.radius[h][j], zero);
     wide_store(&e->wall_energy[h][j], zero);
 }
 
@@ -355,7 +355,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
                           const SphereContact *contact, bits pressed, int wet, const SpherePlaces *at,
                           const WallShape shape[LANE_WIDTH])
 {
-    ElasticWork *e = &w->elastic;
+    ElasticWork *e = &w->cage.elastic;
     const wide zero = wide_set(0.0), side = wide_set(h == 0 ? -1.0 : 1.0);
     const int mask = wide_mask(pressed) | wet;
     ball_array on_wall[3];
@@ -368,15 +368,15 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     const wide by_sphere = wide_max(contact->Q, wide_set(LEAST)) / model->d->spheres.K;
     const wide least = wide_exp((2.0 / 3.0) * wide_log(by_sphere)) / CORNER;
     const wide own = wide_min(wide_max(contact->delta, least), (CORNER * CORNER) * least);
-    wide_store(&e->touch_x[h][j], wide_select(pressed, n[0], zero));
-    wide_store(&e->touch_r[h][j], wide_select(pressed, n[1], zero));
-    wide_store(&e->touch_t[h][j], wide_select(pressed, n[2], zero));
-    wide_store(&e->touch_K[h][j], wide_select(pressed, contact->Q / (own * wide_sqrt(own)), zero));
-    wide_store(&e->touch_delta[h][j], wide_select(pressed, own, zero));
-    wide_store(&e->touch_Q[h][j], load);
+    wide_store(&e->touch.x[h][j], wide_select(pressed, n[0], zero));
+    wide_store(&e->touch.r[h][j], wide_select(pressed, n[1], zero));
+    wide_store(&e->touch.t[h][j], wide_select(pressed, n[2], zero));
+    wide_store(&e->touch.K[h][j], wide_select(pressed, contact->Q / (own * wide_sqrt(own)), zero));
+    wide_store(&e->touch.delta[h][j], wide_select(pressed, own, zero));
+    wide_store(&e->touch.Q[h][j], load);
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
-    wide_store(&e->touch_chi[h][j], zero);
-    wide_store(&e->touch_radius[h][j], zero);
+    wide_store(&e->touch.chi[h][j], zero);
+    wide_store(&e->touch.radius[h][j], zero);
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         const int b = j + lane;
         if (!(mask >> lane & 1)) {
@@ -384,15 +384,15 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
             continue;
         }
         if (model->d->squeeze.filled) squeeze_wall(model, h, b, &shape[lane], w);
-        e->touch_chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
-        e->touch_radius[h][b] = at->radius[lane];
+        e->touch.chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
+        e->touch.radius[h][b] = at->radius[lane];
         const scalar F[3] = {on_wall[0][b], on_wall[1][b], on_wall[2][b]};
         elastic_wall_force(model->modes, b, &shape[lane], F, e->wall_force[h]);
 #ifndef DUAL
-        const double along[3] = {e->touch_x[h][b], e->touch_r[h][b], e->touch_t[h][b]};
+        const double along[3] = {e->touch.x[h][b], e->touch.r[h][b], e->touch.t[h][b]};
         PressedWall *wall = &e->pressed[h][b];
         memcpy(wall->place, along, sizeof along);
-        wall->place[3] = e->touch_chi[h][b], wall->place[4] = e->touch_radius[h][b];
+        wall->place[3] = e->touch.chi[h][b], wall->place[4] = e->touch.radius[h][b];
         wall->place[5] = model->p->cage.m;
         elastic_wall_along(model->modes, b, &shape[lane], along, wall->shape);
 #endif
@@ -407,7 +407,7 @@ void spheres_elastic(const Model *model, Work *w)
     for (int h = 0; h < 2; h++) {
         bool touched = false;
         RibbonAlike alike;
-        ribbon_alike(model->modes, w->elastic.q[h], &alike);
+        ribbon_alike(model->modes, w->cage.elastic.q[h], &alike);
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             SphereGap gap = sphere_gap(model->d, w, h, j);
             const wide slack = wide_load(&s->slack[j]);
@@ -416,8 +416,8 @@ void spheres_elastic(const Model *model, Work *w)
             SphereContact contact = {0};
             bits pressed = {0};
             sphere_reached(s, slack, &gap, &contact.delta);
-            int near = wide_mask(wide_above(contact.delta + w->elastic.reach[h], 0.0)) |
-                       sphere_wet(model->d, j, &gap, w->elastic.reach[h]);
+            int near = wide_mask(wide_above(contact.delta + w->cage.elastic.reach[h], 0.0)) |
+                       sphere_wet(model->d, j, &gap, w->cage.elastic.reach[h]);
             if (near != 0) near = move_walls(model, w, h, j, near, &alike, &gap, &at, shape, &contact.delta);
             const int wet = near & sphere_wet(model->d, j, &gap, 0.0);
             if (near != 0 && sphere_reached(s, slack, &gap, &contact.delta)) {

@@ -54,7 +54,7 @@ INLINE void squeeze_clear(const Model *model, Work *w)
 {
     if (!model->d->squeeze.filled) return;
     memset(w->squeeze, 0, sizeof w->squeeze);
-    if (model->modes) memset(w->elastic.film_D, 0, sizeof w->elastic.film_D);
+    if (model->modes) memset(w->cage.elastic.film_D, 0, sizeof w->cage.elastic.film_D);
 }
 
 // Adds a film's D m m^T to the matrix that the integrator solves (implicit.c), where it acts.
@@ -70,7 +70,7 @@ INLINE void squeeze_rate(const SqueezeFilm *film, Work *w, int j)
 // Leaves a film to the substeps of elastic halves (pocket_films.c).
 INLINE void squeeze_leave(const SqueezeFilm *film, vec v, vec a, vec b, vec e_t, int h, int j, Work *w)
 {
-    ElasticWork *e = &w->elastic;
+    ElasticWork *e = &w->cage.elastic;
     wide_store(&e->film_D[h][j], film->D);
     wide_store(&e->film_u[h][j], vec_dot(film->m, v));
     wide_store(&e->film_m[0][h][j], vec_dot(film->m, a));
@@ -82,10 +82,10 @@ INLINE void squeeze_leave(const SqueezeFilm *film, vec v, vec a, vec b, vec e_t,
 INLINE void squeeze_wall(const Model *model, int h, int k, const WallShape *shape, Work *w)
 {
 #ifndef DUAL
-    const ElasticWork *e = &w->elastic;
+    const ElasticWork *e = &w->cage.elastic;
     if (!(e->film_D[h][k] > model->modes->weak_film)) return;
     const double m[3] = {e->film_m[0][h][k], e->film_m[1][h][k], e->film_m[2][h][k]};
-    elastic_wall_along(model->modes, k, shape, m, w->elastic.film_shape[h][k]);
+    elastic_wall_along(model->modes, k, shape, m, w->cage.elastic.film_shape[h][k]);
 #else
     (void)model, (void)h, (void)k, (void)shape, (void)w;
 #endif

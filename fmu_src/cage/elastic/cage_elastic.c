@@ -73,27 +73,28 @@ void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
     const double inv_root = 1.0 / ROOT;
     const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
     for (int i = 0; i < MODES; i++) {
-        w->elastic.q[0][i] = inv_root * (S[i] - D[i]), w->elastic.q[1][i] = inv_root * (S[i] + D[i]);
-        w->elastic.q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]),
-        w->elastic.q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
-        w->elastic.wall_force[0][i] = w->elastic.wall_force[1][i] = 0.0;
+        w->cage.elastic.q[0][i] = inv_root * (S[i] - D[i]),
+        w->cage.elastic.q[1][i] = inv_root * (S[i] + D[i]);
+        w->cage.elastic.q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]),
+        w->cage.elastic.q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
+        w->cage.elastic.wall_force[0][i] = w->cage.elastic.wall_force[1][i] = 0.0;
     }
-    cage_elastic_out(half, S, w->elastic.pad_out);
-    cage_elastic_in(half, D, w->elastic.pad_in);
-    cage_elastic_in(half, D_dot, w->elastic.pad_in_dot);
+    cage_elastic_out(half, S, w->cage.elastic.pad_out);
+    cage_elastic_in(half, D, w->cage.elastic.pad_in);
+    cage_elastic_in(half, D_dot, w->cage.elastic.pad_in_dot);
     for (int h = 0; h < 2; h++) {
-        const scalar *q = w->elastic.q[h], *q_b = &q[half->count[0]];
+        const scalar *q = w->cage.elastic.q[h], *q_b = &q[half->count[0]];
         mode_array moved;
         for (int i = 0; i < MODES; i++) moved[i] = fabs(scalar_value(q[i]));
         for (int m = 0; m < half->pairs; m++) {
             const double a = scalar_value(q[m]), b = scalar_value(q_b[m]);
             moved[m] = sqrt(a * a + b * b);
         }
-        w->elastic.reach_others[h] = elastic_dot(half->widest_others, moved);
-        w->elastic.reach[h] = w->elastic.reach_others[h] + elastic_dot(half->widest, moved);
-        w->elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q[h]);
-        w->elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->elastic.q_dot[h]);
-        elastic_rims(half, w->elastic.q[h], w->elastic.q_dot[h], w->rim[h], w->rim_v[h]);
+        w->cage.elastic.reach_others[h] = elastic_dot(half->widest_others, moved);
+        w->cage.elastic.reach[h] = w->cage.elastic.reach_others[h] + elastic_dot(half->widest, moved);
+        w->cage.elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->cage.elastic.q[h]);
+        w->cage.elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->cage.elastic.q_dot[h]);
+        elastic_rims(half, w->cage.elastic.q[h], w->cage.elastic.q_dot[h], w->rim[h], w->rim_v[h]);
     }
 }
 
@@ -113,7 +114,7 @@ static void move_pads(const Model *model, Work *w)
 {
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
     const double inv_R = model->d->inv_R;
-    ElasticWork *elastic = &w->elastic;
+    ElasticWork *elastic = &w->cage.elastic;
     ElasticJoints *joints = &elastic->joints;
     const scalar turn_y = -dot3(h0->b_z, h1->a),
                  turn_z = dot3(h0->b_y, h1->a);  // small rotation of half 1 against half 0
@@ -192,7 +193,7 @@ void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P)
 static void add_moments(const Model *model, Work *w)
 {
     const Derived *d = model->d;
-    const ElasticJoints *joints = &w->elastic.joints;
+    const ElasticJoints *joints = &w->cage.elastic.joints;
     ball_array M_y, M_z;
     for (int k = 0; k < Z; k++) {
         const double c = d->rivet_y[k] * d->inv_R, s = d->rivet_z[k] * d->inv_R;
@@ -215,7 +216,7 @@ static void add_moments(const Model *model, Work *w)
 
 void cage_elastic_joints(const Model *model, const scalar *y, Work *w)
 {
-    ElasticJoints *joints = &w->elastic.joints;
+    ElasticJoints *joints = &w->cage.elastic.joints;
     ball_array P, F_x;
     move_pads(model, w);
     cage_elastic_preload(model, cage_elastic_speed_2(w), P);
@@ -284,14 +285,14 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         spin[h] = s * s;
     }
     for (int h = 0; h < 2; h++)
-        if (model->d->guided) add_rim_force(half, w->pressure[h].rim_force, w->elastic.wall_force[h]);
+        if (model->d->guided) add_rim_force(half, w->pressure[h].rim_force, w->cage.elastic.wall_force[h]);
     for (int i = 0; i < MODES; i++) {
-        const scalar f_0 = w->elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
-        const scalar f_1 = w->elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];
+        const scalar f_0 = w->cage.elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
+        const scalar f_1 = w->cage.elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];
         mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
     }
 
-    ElasticJoints *joints = &w->elastic.joints;
+    ElasticJoints *joints = &w->cage.elastic.joints;
     cage_elastic_pull(model, joints);
 
     // rates, energy and dissipation
@@ -311,16 +312,16 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
     for (int i = half->n; i < MODES; i++)
         y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
-    w->elastic.energy = 0.5 * m * elastic_sum(rates, one);
-    w->elastic.dissipated = m * elastic_sum(lost, one);
+    w->cage.elastic.energy = 0.5 * m * elastic_sum(rates, one);
+    w->cage.elastic.dissipated = m * elastic_sum(lost, one);
     for (int h = 0; h < 2; h++)
-        w->elastic.energy +=
-            0.5 * w->elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
+        w->cage.elastic.energy +=
+            0.5 * w->cage.elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
 }
 
 void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)
 {
-    const ElasticJoints *joints = &w->elastic.joints;
+    const ElasticJoints *joints = &w->cage.elastic.joints;
     JointShear shear;
     ball_array P;
     LandedJoints landed;

@@ -36,7 +36,7 @@
 // little, by 120/s at 12,000 r/min.
 //
 // The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
-// end of each substep (cage_joint_slide), and under those of the evaluation by cage_correct.  What they and the modes' damping dissipate is
+// end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  What they and the modes' damping dissipate is
 // summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
@@ -133,18 +133,9 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast)
 {
     const ElasticHalf *half = model->modes;
-    const ElasticJoints *joints = &w->elastic.joints;
+    const ElasticJoints *joints = &w->cage.elastic.joints;
     fast_accelerations(model, y, joints, fast->modes, fast->rigid);
-    for (int h = 0; h < 2; h++) {
-        memcpy(fast->touch_x[h], w->elastic.touch_x[h], sizeof fast->touch_x[h]);
-        memcpy(fast->touch_t[h], w->elastic.touch_t[h], sizeof fast->touch_t[h]);
-        memcpy(fast->touch_K[h], w->elastic.touch_K[h], sizeof fast->touch_K[h]);
-        memcpy(fast->touch_delta[h], w->elastic.touch_delta[h], sizeof fast->touch_delta[h]);
-        memcpy(fast->touch_Q[h], w->elastic.touch_Q[h], sizeof fast->touch_Q[h]);
-        memcpy(fast->touch_r[h], w->elastic.touch_r[h], sizeof fast->touch_r[h]);
-        memcpy(fast->touch_chi[h], w->elastic.touch_chi[h], sizeof fast->touch_chi[h]);
-        memcpy(fast->touch_radius[h], w->elastic.touch_radius[h], sizeof fast->touch_radius[h]);
-    }
+    fast->touch = w->cage.elastic.touch;
     memcpy(fast->e, joints->e, sizeof fast->e);
     memcpy(fast->u_y, joints->u_y, sizeof fast->u_y);
     memcpy(fast->u_z, joints->u_z, sizeof fast->u_z);
@@ -153,7 +144,7 @@ void cage_substeps_split(const Model *model, const double *y, const Work *w, dou
         f[Y_MODE_S_DOT + i] -= fast->modes[i] - half->damping[i] * y[Y_MODE_S_DOT + i];
         f[Y_MODE_D_DOT + i] -= fast->modes[N_MODES + i] - half->damping[i] * y[Y_MODE_D_DOT + i];
     }
-    f[Y_WORK] += w->elastic.dissipated;
+    f[Y_WORK] += w->cage.elastic.dissipated;
 }
 
 // Velocities of the joints by the rigid motions of the halves: out of the plane (x, about r, about t), across
@@ -198,11 +189,11 @@ static void turn_out(double phi, double relative[RELATIVE_MOTIONS])
     }
 }
 
-// Adds to velocities in the frame of the middle what the joints, which turn at the rate s, see beside them at
-// the time t after it: those velocities turn back, and so does the way since the middle.  moved: the part of
-// that way by the fast accelerations.
-static void add_spin(double s, double t, const JointVelocities *middle, const double slow[RELATIVE_MOTIONS],
-                     const double moved[RELATIVE_MOTIONS], double relative[RELATIVE_MOTIONS])
+// Adds the apparent velocity in the rotating joint frame, at the time t after the middle of the step: the velocities rotate
+// back at the rate s, and so does the way since the middle.  moved: the part of that way by the fast accelerations.
+static void to_joint_frame(double s, double t, const JointVelocities *middle,
+                           const double slow[RELATIVE_MOTIONS], const double moved[RELATIVE_MOTIONS],
+                           double relative[RELATIVE_MOTIONS])
 {
     double back[RELATIVE_MOTIONS];
     for (int i = MOTION_ABOUT_Y; i <= MOTION_ACROSS_Z; i++)
@@ -356,7 +347,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
             between_halves(model, &w->half[0], pushed, by_loads);
         }
         for (int i = 0; i < RELATIVE_MOTIONS; i++) relative[i] = by_loads[i] + (speed[i] + time * slow[i]);
-        add_spin(s, time, &middle, slow, halfway, relative);
+        to_joint_frame(s, time, &middle, slow, halfway, relative);
         ball_array out[3], in[2];
         cage_elastic_out(half, v_m, out);
         cage_elastic_in(half, v_m + N_MODES, in);

@@ -12,9 +12,7 @@
 // of the saved state: no member is aligned beyond a double, so that nothing lies between them.
 typedef struct {
     double e[3][LANES], u_y[LANES], u_z[LANES];  // motions of the joints out of the plane and offsets in it
-    // contacts with the walls of each half (model.h), their loads [N]
-    double touch_x[2][LANES], touch_t[2][LANES], touch_K[2][LANES], touch_delta[2][LANES], touch_Q[2][LANES];
-    double touch_r[2][LANES], touch_chi[2][LANES], touch_radius[2][LANES];
+    WallTouch touch;
     double omega_2;             // square of the halves' speed in space [rad2/s2]
     double modes[2 * N_MODES];  // accelerations of S, then of D, by joints and the modes' own springs [m/s2]
     double

@@ -17,7 +17,7 @@
 //
 // and its coordinates get the forces f_a = F' cos nu - F'' sin nu, f_b = F' sin nu + F'' cos nu of F' = U'.F,
 // F'' = U''.F.  A single mode has sin nu = 0.  Mirroring the half in the plane between the first and the last
-// rivet turns the sign of each motion of pads by an a or by a b, so that half of the rivets say what all do.
+// rivet turns the sign of each motion of pads by an a or by a b: by mirror symmetry half of the rivets determine all.
 #pragma once
 
 #include "cage/common/joint_law.h"

@@ -1,4 +1,5 @@
-// The films of the lands on the rivets of elastic halves: static loads, which neither modes nor friction feel.
+// The films of the lands on the rivets of elastic halves: static loads.  They change the reported rivet loads only, not the
+// motion.
 //
 // The films press on the rims and so pry at the joints: the load path (half_path.h) gives the loads Delta L, Delta V of
 // bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the
@@ -137,7 +138,7 @@ bool elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
     if (!land_is_felt(w, 0) && !land_is_felt(w, 1)) return false;
     const Derived *d = model->d;
     const JointLaw *law = &rivet_table.half.law;
-    const ElasticJoints *by_modes = &w->elastic.joints;
+    const ElasticJoints *by_modes = &w->cage.elastic.joints;
     const int kind[3] = {ROW_N, ROW_M_R, ROW_M_T};
     const wide zero = wide_set(0.0);
     PathRows rows;

@@ -32,14 +32,14 @@ void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
     if (!model->d->squeeze.filled) return;
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < Z; k++) {
-            const double D = w->elastic.film_D[h][k], u = w->elastic.film_u[h][k];
+            const double D = w->cage.elastic.film_D[h][k], u = w->cage.elastic.film_u[h][k];
             films->F[h][k] = D * fmax(u, 0.0);
             if (!(D > model->modes->weak_film)) continue;
             films->D[h][k] = D, films->u[h][k] = u;
-            films->m_x[h][k] = w->elastic.film_m[0][h][k];
-            films->m_r[h][k] = w->elastic.film_m[1][h][k];
-            films->m_t[h][k] = w->elastic.film_m[2][h][k];
-            memcpy(films->shape[h][k], w->elastic.film_shape[h][k], sizeof films->shape[h][k]);
+            films->m_x[h][k] = w->cage.elastic.film_m[0][h][k];
+            films->m_r[h][k] = w->cage.elastic.film_m[1][h][k];
+            films->m_t[h][k] = w->cage.elastic.film_m[2][h][k];
+            memcpy(films->shape[h][k], w->cage.elastic.film_shape[h][k], sizeof films->shape[h][k]);
         }
 }
 
@@ -230,7 +230,8 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
                 u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
                 saved += F * films->u[h][k] - F_new * u;
                 films->F[h][k] = F_new;
-                films->rate = fmax(films->rate, of_wall * D);
+                films->rate =
+                    fmax(films->rate, D * (model->d->guided ? model->modes->wall_mobility : of_wall));
             }
         }
     add_half_modes(rates.modes, &f[Y_MODE_S_DOT]);

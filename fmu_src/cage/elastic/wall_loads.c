@@ -93,9 +93,9 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
                        mode_array shape)
 {
     const int side = 2 * h - 1, j = k / LANE_WIDTH * LANE_WIDTH;
-    const double place[6] = {fast->touch_x[h][k],   fast->touch_r[h][k],      fast->touch_t[h][k],
-                             fast->touch_chi[h][k], fast->touch_radius[h][k], model->p->cage.m};
-    const PressedWall *known = &w->elastic.pressed[h][k];
+    const double place[6] = {fast->touch.x[h][k],   fast->touch.r[h][k],      fast->touch.t[h][k],
+                             fast->touch.chi[h][k], fast->touch.radius[h][k], model->p->cage.m};
+    const PressedWall *known = &w->cage.elastic.pressed[h][k];
     if (memcmp(place, known->place, sizeof place) == 0) {
         memcpy(shape, known->shape, sizeof known->shape);
         return;
@@ -106,8 +106,8 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
         ribbon_wall_shape(model->modes, side, k, place[3] < 0.0, &nodes, 0, place, shape);
     } else {
         WallPlaces places;
-        elastic_wall_places(model->modes, side, j, wide_load(&fast->touch_x[h][j]),
-                            wide_load(&fast->touch_t[h][j]), &places);
+        elastic_wall_places(model->modes, side, j, wide_load(&fast->touch.x[h][j]),
+                            wide_load(&fast->touch.t[h][j]), &places);
         elastic_wall_shape(model->modes, side, k, &places, shape);
     }
 }
@@ -121,7 +121,7 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
 {
     const int k = j + lane;
     const double rate = approach->rate[lane];
-    const double delta = fast->touch_delta[half][k], K = fast->touch_K[half][k], Q = fast->touch_Q[half][k];
+    const double delta = fast->touch.delta[half][k], K = fast->touch.K[half][k], Q = fast->touch.Q[half][k];
     const double Q_0 = delta > 0.0 ? K * delta * sqrt(delta) : 0.0;
     const bool pressed = Q_0 > 0.0;
     if (!pressed && !(delta + h * rate > 0.0)) return false;
@@ -145,12 +145,12 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     for (int half = 0; half < 2; half++) {
         loads->of_0 = loads->count;
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&fast->touch_K[half][j]), 0.0)),
+            const int mask = wide_mask(wide_above(wide_load(&fast->touch.K[half][j]), 0.0)),
                       first = loads->count;
             int ball[LANE_WIDTH];
             RigidApproach approach;
             if (mask == 0) continue;
-            const double *const n[3] = {fast->touch_x[half], fast->touch_r[half], fast->touch_t[half]};
+            const double *const n[3] = {fast->touch.x[half], fast->touch.r[half], fast->touch.t[half]};
             rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
                 if (mask >> i & 1 && add_load(model, h, fast, half, j, i, &approach, loads))

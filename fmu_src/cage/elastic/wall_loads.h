@@ -9,9 +9,6 @@ enum { WALL_LOADS = (2 * Z + 7) / 8 * 8 };  // room for packets
 // Relative rigid motions of the halves at the joints.
 enum { MOTION_X, MOTION_ABOUT_Y, MOTION_ABOUT_Z, MOTION_ACROSS_Y, MOTION_ACROSS_Z, MOTION_SPIN };
 
-// Rigid motions of both halves, in the order of their velocities in the state.
-enum { CAGE_MOTIONS = 2 * RELATIVE_MOTIONS };
-
 typedef double wall_load_array[WALL_LOADS];
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.

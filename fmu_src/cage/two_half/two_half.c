@@ -76,7 +76,7 @@ static scalar bend_lands(const Derived *d, scalar omega_2, PathRows *rows)
 static void open_joints(const Model *model, Work *w)
 {
     const Derived *d = model->d;
-    TwoHalfWork *t = &w->two_half;
+    TwoHalfWork *t = &w->cage.two_half;
     PathRows rows;
     ball_array bonded[3], P;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
@@ -114,7 +114,7 @@ static void open_joints(const Model *model, Work *w)
 void two_half_joints(const Model *model, const scalar *y, Work *w)
 {
     const Derived *d = model->d;
-    TwoHalfWork *t = &w->two_half;
+    TwoHalfWork *t = &w->cage.two_half;
     const wide floor = wide_set(model->p->joint.F_floor);
     ball_array F_x, damped;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
@@ -137,7 +137,7 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
 // Adds what the load path puts on plates, heads and shanks.
 ONCE void add_slip(const Model *model, const Work *w, JointShear *shear)
 {
-    const TwoHalfWork *t = &w->two_half;
+    const TwoHalfWork *t = &w->cage.two_half;
     const SlipState at = {w->u_y, w->u_z, t->rivet[0], t->N_plate};
     joint_slip_add(model, w, &at, t->bonded_V[0], t->bonded_V[1], shear);
 }
@@ -147,10 +147,20 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
     JointShear shear;
     cage_joint_carried(model, w, &shear);
     add_slip(model, w, &shear);
-    cage_joint_loads(model, w->two_half.load, w->two_half.rivet, &shear, load);
+    cage_joint_loads(model, w->cage.two_half.load, w->cage.two_half.rivet, &shear, load);
 }
 
 // ---- a step -------------------------------------------------------------------------------------------------
+//
+//   two_half_begin   halves and joints in the middle; friction states follow; predicted velocities v^
+//   two_half_end     S (1 + gamma A + gamma^2 K) delta = residual     S = 1 + gamma^2 K_shear, across the axis, a factor of
+//                    its own (two_half_shear); A, K of films and joints along the axis (two_half_solve)
+//                    v_{n+1} = v^ + delta; positions and friction states follow with weights; history and errors
+//
+// Terms of the joints in the block Jacobian (implicit.c), all of half 1 against half 0:
+//
+//   rivets and plates       v_x + z beta_dot - y gamma_dot               c; k of tense rivets, pressed plates
+//   sticking, hole contact  v_y - s z, v_z + s y                         stiffness k/(1 + gamma D), k_hole
 #ifndef DUAL
 // Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
 // matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
@@ -176,8 +186,8 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
         const wide y = s_y * h0->b_y[1] + s_z * h0->b_z[1], z = s_y * h0->b_y[2] + s_z * h0->b_z[2];
 
         // The rivet is stiff while it is tense, the plates while they are pressed together.
-        const wide push = wide_load(&w->two_half.push[k]);
-        const wide tense = wide_select(wide_above(wide_load(&w->two_half.pull[k]), 0.0), k_rivet, zero);
+        const wide push = wide_load(&w->cage.two_half.push[k]);
+        const wide tense = wide_select(wide_above(wide_load(&w->cage.two_half.pull[k]), 0.0), k_rivet, zero);
         const wide pressed = wide_select(wide_above(push, 0.0), k_plate, zero);
         const wide damping = d->c_joint * push / (push + model->p->joint.F_floor);
         const wide rate_k = gamma * (damping + gamma * (tense + pressed));
@@ -201,8 +211,8 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
 // Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
 // correction's weight.
-double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
-                      HalfVelocity half[2])
+static double solve_joints(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
+                           HalfVelocity half[2])
 {
     double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
     joint_matrix(model, w, gamma, C);
@@ -240,6 +250,20 @@ double two_half_solve(const Model *model, const Work *w, double gamma, const Hal
         half[h].beta += change.beta, half[h].gamma += change.gamma;
     }
     return correction;
+}
+
+double two_half_solve(const Model *model, const Work *w, double gamma, double *v)
+{
+    HalfFilm f[2];
+    HalfVelocity half[2];
+    for (int h = 0; h < 2; h++) {
+        half[h] = half_velocity_load(v, h);
+        f[h] = half_film(model, &w->film[h], h, gamma);
+        half_film_solve(&f[h], &half[h]);
+    }
+    const double axial = solve_joints(model, w, gamma, f, half);
+    for (int h = 0; h < 2; h++) half_velocity_store(&half[h], v, h);
+    return axial;
 }
 
 // Stiffness [N/m] across the axis of a packet's joints from k on: between that of plates which stick and that of heads by
@@ -315,8 +339,9 @@ static void correct_friction(const Model *model, const Work *w, double gamma, co
     cage_joint_follow(c * gamma, u_y, u_z, y);
 }
 
-void two_half_correct(const Model *model, const Work *w, double gamma, double axial, double shear,
-                      const double *delta, double *y, JointStep *joints)
+// Positions and trial deflections in y follow the corrections delta of the velocities.
+static void correct_halves(const Model *model, const Work *w, double gamma, double axial, double shear,
+                           const double *delta, double *y, JointStep *joints)
 {
     for (int half_0 = Y_CAGE_X; half_0 < Y_RING_X; half_0 += 2) {
         const int half_1 = half_0 + 1;
@@ -327,5 +352,37 @@ void two_half_correct(const Model *model, const Work *w, double gamma, double ax
         y[half_1] += share;
     }
     correct_friction(model, w, gamma, delta, shear, y, joints);
+}
+
+void two_half_begin(const Model *model, double h, const StepFrom *from, const double film[2][3],
+                    const double *middle, double *y, HalvesStep *step, Work *w)
+{
+    halves_move(model, h, from, middle, y, step, w);
+    for (int k = 0; k < LANES; k++)
+        step->joints.way_y[k] = h * w->v_jy[k], step->joints.way_z[k] = h * w->v_jz[k];
+    memcpy(step->joints.before, &y[Y_JOINT_PLATE_Y], sizeof step->joints.before);
+    cage_joint_follow(h, w->v_jy, w->v_jz, y);
+    halves_predict(model, from, film, y, step);
+}
+
+void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const StepTo *to,
+                  double film[2][3], Work *w)
+{
+    const double gamma = step->gamma;
+    double change[N_STATES];
+    halves_residual(step, from, to);
+    const double shear = two_half_shear(model, w, gamma, to->residual);
+    memcpy(&to->delta[Y_CAGE_V_X], &to->residual[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *change);
+    const double axial = two_half_solve(model, w, gamma, to->delta);
+    halves_correct(step, to, change);
+    correct_halves(model, w, gamma, axial, shear, change, to->y, &step->joints);
+    two_half_slide(model, to->y, &step->joints, w);
+    halves_remember(model, w, step, from, change, to, film);
+}
+
+void two_half_slide(const Model *model, double *y, JointStep *joints, Work *w)
+{
+    const JointStiffness k = two_half_stiffness(model->d);
+    halves_slide(model, &k, w->cage.two_half.rivet[0], w->cage.two_half.N_plate, y, joints, w);
 }
 #endif

@@ -4,6 +4,7 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/common/films.h"
+#include "cage/common/halves_step.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
@@ -22,17 +23,25 @@ void two_half_joints(const Model *model, const scalar *y, Work *w);
 #define two_half_loads FOR_ISA(two_half_loads)
 void two_half_loads(const Model *model, const Work *w, JointLoads *load);
 
-// Holds back the relative motion across the axis of the velocities v; returns the weight of the position correction.
+// Motion and predicted velocities of a step of the default method (cage_begin).
+#define two_half_begin FOR_ISA(two_half_begin)
+void two_half_begin(const Model *model, double h, const StepFrom *from, const double film[2][3],
+                    const double *middle, double *y, HalvesStep *step, Work *w);
+
+// Solution, corrections and history (cage_end).
+#define two_half_end FOR_ISA(two_half_end)
+void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const StepTo *to,
+                  double film[2][3], Work *w);
+
+// v = (1 + gamma^2 K)^-1 v of the halves' velocities with the joints' stiffness across the axis; returns the weight of the
+// position correction.
 #define two_half_shear FOR_ISA(two_half_shear)
 double two_half_shear(const Model *model, const Work *w, double gamma, double *v);
 
-// Holds back the axial motion and the tilts of half 1 against half 0, both already held back by their films f.  Returns
-// the weight of the position correction.
+// v = (1 + gamma A + gamma^2 K)^-1 v with the films and the joints along the axis; likewise.
 #define two_half_solve FOR_ISA(two_half_solve)
-double two_half_solve(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
-                      HalfVelocity half[2]);
+double two_half_solve(const Model *model, const Work *w, double gamma, double *v);
 
-// Positions and trial deflections in y follow the corrections delta of the velocities.
-#define two_half_correct FOR_ISA(two_half_correct)
-void two_half_correct(const Model *model, const Work *w, double gamma, double axial, double shear,
-                      const double *delta, double *y, JointStep *joints);
+// Maps the friction states in y back under the loads in w.
+#define two_half_slide FOR_ISA(two_half_slide)
+void two_half_slide(const Model *model, double *y, JointStep *joints, Work *w);

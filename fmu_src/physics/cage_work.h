@@ -1,8 +1,10 @@
-// Results of one evaluation that elastic halves alone have.
+// Results of one evaluation that the cage has: rigid halves (written by two_half.c), elastic halves.
 #pragma once
 
 #include "numbers/lanes.h"
 #include "variables.h"
+
+typedef struct ElasticHalf ElasticHalf;  // elastic_half.h
 
 enum { N_MODES = Y_MODE_D - Y_MODE_S };  // room for the modes of a half
 
@@ -19,6 +21,15 @@ typedef struct {
     mode_array shape;
 } PressedWall;
 
+// Contacts of balls with the walls of each half, and those that may come in the next step: direction (x, t) from the pocket's
+// axis to the ball; Hertz's constant by the half's share [N/m1.5], 0 without contact; approach beside the part that the wall's
+// residual contributes, negative before the contact [m]; load [N].  Of a ribbon's walls also direction r, the place's angle chi,
+// negative on the side t < 0, and radius [m].  Carried to the next step: no member is aligned beyond a scalar.
+typedef struct {
+    scalar x[2][LANES], t[2][LANES], K[2][LANES], delta[2][LANES], Q[2][LANES];
+    scalar r[2][LANES], chi[2][LANES], radius[2][LANES];
+} WallTouch;
+
 // The joints between both halves, in the frame of half 0.  At an evaluation they are written by cage_elastic.c; in the
 // substeps, which have their own, by cage_substeps.c.
 typedef struct {
@@ -34,6 +45,7 @@ typedef struct {
     mode_array pull_S, pull_D;
 } ElasticJoints;
 
+// Of elastic halves.
 typedef struct {
     // coordinates of the modes and their rates, by half [m, m/s]; how far a wall can have moved [m], and without the modes that
     // move all pockets alike; moment of inertia that the modes add [kg.m2] and its rate (cage_elastic.c)
@@ -47,14 +59,10 @@ typedef struct {
     // modal forces on the walls [N] (cleared in cage_elastic.c, added in pocket.c and pocket_spheres.c) and on the rims
     mode_array wall_force[2];
 
-    // contacts with the walls (pocket.c, pocket_spheres.c), and those that may come in the next step: direction (x, t) from the pocket's
-    // axis to the ball; Hertz's constant by the half's share [N/m1.5], 0 without contact; approach beside what the wall's residual takes,
-    // negative before the contact [m]; load [N]
-    ball_array touch_x[2], touch_t[2], touch_K[2], touch_delta[2], touch_Q[2];
-
-    // of a ribbon's walls (pocket_spheres.c) also: direction r, the place's angle chi, negative on the side t < 0, and radius
-    // [m]; elastic energy of contact and wall beside the modes [J]
-    ball_array touch_r[2], touch_chi[2], touch_radius[2], wall_energy[2];
+    // contacts with the walls, and elastic energy of contact and wall beside the modes, of a ribbon [J] (pocket.c,
+    // pocket_spheres.c)
+    WallTouch touch __attribute__((aligned(8 * sizeof(scalar))));
+    ball_array wall_energy[2];
     PressedWall pressed[2][Z];
 
     // films of oil before the walls (pocket_squeeze.h): damping, 0 where there is none [N.s/m], speed at which the gap closes [m/s], direction
@@ -65,3 +73,22 @@ typedef struct {
     ElasticJoints joints;
     scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
 } ElasticWork;
+
+// Of rigid halves.
+typedef struct {
+    // of the springs between the halves: pull of the rivet's, push of the plates' [N]
+    ball_array pull, push;
+    scalar dissipated;  // by their damping [W]
+
+    // what bonded joints of halves that bend would carry in the plane (r, t) [N]
+    ball_array bonded_V[2];
+
+    // joints that open: (N, M_r, M_t) of the joint and (T, m_r, m_t) of its rivet, force between the plates
+    ball_array load[3], rivet[3], N_plate;
+} TwoHalfWork;
+
+// Those of the kind of cage that runs; the others are not written.
+typedef struct {
+    TwoHalfWork two_half;
+    ElasticWork elastic;
+} CageWork;

@@ -1,0 +1,46 @@
+// Elastic halves in a step of the default method.  Equations in elastic_step.c.
+#pragma once
+
+#include "cage/common/halves_step.h"
+#include "cage/elastic/cage_substeps.h"
+#include "cage/elastic/pocket_films.h"
+#include "cage/elastic/rim_films.h"
+#include "numbers/isa.h"
+#include "physics/model.h"
+
+// Carried from an evaluation to the next step.  Part of the saved state: no member is aligned beyond a double, so that nothing
+// lies between them.
+typedef struct {
+    FastState fast;
+    RimFilms films;
+    double squeeze[2][SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s]
+    PocketFilms pockets;
+} ElasticMemory;
+
+// Between the two halves of a step: slow accelerations at the end as the substeps foresee them; forces on bent rims that are
+// constant over the step, and those at its start that their impulses so far amount to [N]; films in pockets.
+typedef struct {
+    Foreseen foreseen;
+    double rim_held[2][RIM], rim_before[2][RIM];
+    PocketFilmsStep pockets;
+} ElasticStep;
+
+// Separates the part that the halves advance by themselves from the rates f at the state y, where w was evaluated.
+#define elastic_split FOR_ISA(elastic_split)
+void elastic_split(const Model *model, const double *y, const Work *w, double *f, ElasticMemory *memory);
+
+// Motion and predicted velocities (cage_begin).
+#define elastic_begin FOR_ISA(elastic_begin)
+void elastic_begin(const Model *model, double h, const StepFrom *from, const ElasticMemory *memory,
+                   const double film[2][3], const double *middle, double *y, HalvesStep *halves,
+                   ElasticStep *step, Work *w);
+
+// Solution, corrections and history (cage_end).
+#define elastic_end FOR_ISA(elastic_end)
+double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *step, const StepFrom *from,
+                   const ElasticMemory *before, const StepTo *to, ElasticMemory *memory, double film[2][3],
+                   Work *w);
+
+// Maps the friction states in y back under the loads in w.
+#define elastic_slide FOR_ISA(elastic_slide)
+void elastic_slide(const Model *model, double *y, JointStep *joints, Work *w);
