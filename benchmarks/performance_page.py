@@ -143,10 +143,9 @@ def blind(data):
     ]
     return f"""{origin(data)}.
 
-Scenes drawn from the whole design space (`benchmarks/blind.py {data["scene_seeds"]} ...`), the default against tolerance 1e-4 in steps of 3 µs at
-most on common seeds: {data["scenes"]} scenes,
-{data["beyond"]} with a bias beyond its limit and its 95 % interval, {data["beyond_twice"]} beyond twice the limit,
-{data["undecided"]} beyond the limit but within the interval, {data["failed"]} failed. Median RTF {data["rtf"]:.2f}.
+{data["scenes"]} scenes from the whole design space (`benchmarks/blind.py {data["scene_seeds"]} ...`); the default against tolerance 1e-4 in steps
+of 3 µs on common seeds. A bias is beyond its limit and its 95 % interval in {data["beyond"]}, beyond twice the limit in
+{data["beyond_twice"]}; {data["undecided"]} are undecided, {data["failed"]} failed. Median RTF {data["rtf"]:.2f}.
 
 {table(["absolute bias, %", "limit", "median", "95 %", "worst", "scenes beyond"], cells)}
 
@@ -268,16 +267,6 @@ def costs_table(data):
     return table(["method", *[SHORT[name] for name in scenes]], rows)
 
 
-def statistics_table(data):
-    """Errors of the default's means and quantiles."""
-    rows, shown = [], [figure for figure in FIGURES if not figure.endswith("rms")]
-    for name, scene in data["scenes"].items():
-        row = row_of(scene["statistics"]["rows"], **data["default"])
-        errors = [percent(row["figures"][figure]) for figure in shown]
-        rows.append([SHORT[name], *errors])
-    return table(["scene", *[FIGURES[figure] for figure in shown]], rows)
-
-
 def python_text(data):
     """Costs of SciPy's solvers on the Python twin, beside the default's over the same horizon."""
     scene = next(scene for scene in data["scenes"].values() if scene["states"]["python"])
@@ -294,8 +283,6 @@ def work_precision(data):
     draw_work_precision(data)
     first = next(iter(data["scenes"].values()))
     doubt = max(scene["states"]["reference_doubt"] for scene in data["scenes"].values())
-    tight = number(first["statistics"]["truth_cost"]["rtf"])
-    most = min(scene["statistics"]["seeds"][2] for scene in data["scenes"].values())
     default = data["default"]
     return f"""{origin(data)}.
 
@@ -317,15 +304,6 @@ bordered block diagonal.
 Cost at the default's error over the default's cost:
 
 {costs_table(data)}
-
-### Statistics
-
-Trajectories are chaotic, so long runs are compared by statistics: {most} seeds or more of
-{first["statistics"]["length"]:g} s, pooled, against as many of Dormand–Prince at 1e-6 (RTF {tight}).
-Error ± 95 % half-width in %, the larger one by seeds and by a bootstrap over 20 ms blocks.
-[method.md](method.md#accuracy-at-the-default-tolerance) has longer runs.
-
-{statistics_table(data)}
 
 {python_text(data)}
 """
@@ -569,7 +547,7 @@ def main():
 
 `benchmarks/performance_page.py` writes this page from the newest records in `benchmarks/results/`.
 `make bench` measures in minutes (short form), `make bench FORM=` in an hour (full form).
-Times are processor times of one core and scatter by some per cent; counts do not.
+Times are processor times of one core; they scatter by some per cent.
 Unless elastic halves (the default) are named, figures are of rigid halves (`two_half`), which every solver can run.
 
 {section("Error over the whole design space", "blind", blind)}

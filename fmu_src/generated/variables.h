@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{7e609359-7a28-8584-8a29-48edbd319935}"  // digest of the table
+#define MODEL_GUID "{ac254ec3-88bc-0dbd-c92d-1f8d86c46f13}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
