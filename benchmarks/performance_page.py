@@ -294,7 +294,7 @@ each. In brackets: inside the FMU. Goals: statistical error ≤ 1 %, BDF ≥ 10�
 ![Run time against error of every solver](performance/work_precision.svg)
 
 Ring: the default, {default["family"].partition(", ")[2]} at {default["tolerance"]:g}.
-All solvers start from the same settled states (mean of {first["states"]["starts"]}), without stress and statistics.
+All solvers start from the same settled states (mean of {first["states"]["starts"]}), without stress.
 The error after 2 ms is the RMS over all states of error/(tolerance scale)
 ([method.md](method.md#error-norm-and-step-size)).
 The reference is Dormand–Prince at 1e-10; Verner 6(5) at 1e-10 deviates by {doubt:.0e}.
@@ -548,7 +548,7 @@ def main():
 `benchmarks/performance_page.py` writes this page from the newest records in `benchmarks/results/`.
 `make bench` measures in minutes (short form), `make bench FORM=` in an hour (full form).
 Times are processor times of one core; they scatter by some per cent.
-Unless elastic halves (the default) are named, figures are of rigid halves (`two_half`), which every solver can run.
+Unless elastic halves (the default) are named, figures are of rigid halves (`two_half`), which all solvers run.
 
 {section("Error over the whole design space", "blind", blind)}
 {section("Run time against error", "work_precision", work_precision)}
