@@ -128,6 +128,9 @@ def draw_blind(rows):
     axis.axhline(1.0, color="#c0271f", linewidth=1.2)
     axis.set(xscale="log", yscale="log", xlabel="processor time / simulated time")
     axis.set_ylabel("largest bias / its limit")
+    axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.xaxis.set_minor_formatter("")
     axis.legend(frameon=False)
     save(figure, "blind")
 
