@@ -46,7 +46,8 @@ def film_before_wall(film, v, axes, shape, near):
 
 @dataclass
 class PocketFilms:
-    """Those of both halves at an evaluation: D, u, F [2, Z], m [2, 3, Z], shape [2, Z, n]; the largest rate at the end of a step [1/s]."""
+    """Those of both halves at an evaluation: D, u, F [2, Z], m [2, 3, Z], shape [2, Z, n]; the largest D over the mass of its wall at the end
+    of a step, over the least mass of any wall where lands guide the cage [1/s]."""
 
     D: np.ndarray = field(default_factory=lambda: np.zeros((2, Z)))
     u: np.ndarray = field(default_factory=lambda: np.zeros((2, Z)))

@@ -43,7 +43,7 @@ void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
         }
 }
 
-// Rate and acceleration of one lane's approach, motion along m by velocities of the half.
+// Motion along m by velocities of the half, of one lane.
 static void take_lane(const RigidApproach *approach, int lane, double along[RELATIVE_MOTIONS])
 {
     for (int i = 0; i < RELATIVE_MOTIONS; i++) along[i] = approach->along[i][lane];

@@ -10,8 +10,8 @@
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
 // and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The halves' bodies feel what the loads have changed by since the
-// start too: a load that moved the modes alone within the step would do work on a ribbon's light halves that it does not
-// do on the balls, and feed vibrations of 20 kHz in steps of 12 us.  So after the step x is where the evaluation finds it.  x_0 < 0
+// start too: where loads moved the modes within the step and the bodies at its ends alone, vibrations of a ribbon's light
+// halves grew, of 20 kHz in steps of 12 us.  So after the step x is where the evaluation finds it.  x_0 < 0
 // before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
