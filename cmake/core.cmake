@@ -6,9 +6,10 @@ include(CheckCCompilerFlag)
 set(kernel_files
     physics/rhs.c physics/ball.c physics/race_contact.c physics/drag.c physics/land_film.c physics/land_bent.c physics/ring.c
     cage/cage.c cage/common/halves.c cage/common/halves_step.c cage/common/pocket.c cage/common/pocket_spheres.c cage/common/cage_joint.c cage/common/joint_slip.c
+    cage/common/rigid_approach.c cage/common/pocket_films.c
     cage/two_half/two_half.c cage/two_half/half_path.c cage/two_half/joint_open.c
     cage/elastic/cage_elastic.c cage/elastic/cage_substeps.c cage/elastic/wall_loads.c cage/elastic/elastic_wall.c cage/elastic/elastic_lands.c
-    cage/elastic/elastic_step.c cage/elastic/rim_films.c cage/elastic/pocket_films.c
+    cage/elastic/elastic_step.c cage/elastic/rim_films.c
     rivet/rivet_rom.c
     solver/vector_ops.c solver/implicit.c solver/verlet.c)
 

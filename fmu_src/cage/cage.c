@@ -55,6 +55,7 @@ void cage_loads(const Model *model, const Work *w, JointLoads *load)
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory)
 {
     memory->elastic.fast.omega_2 = cage_elastic_speed_2(w);
+    pocket_films_split(model, w, &memory->halves.pockets);
     if (model->modes) elastic_split(model, y, w, f, &memory->elastic);
 }
 
@@ -62,20 +63,21 @@ void cage_begin(const Model *model, double h, const StepFrom *from, const CageMe
                 const double *middle, double *y, CageStep *step, Work *w)
 {
     if (model->modes)
-        elastic_begin(model, h, from, &memory->elastic, memory->film, middle, y, &step->halves,
+        elastic_begin(model, h, from, &memory->halves, &memory->elastic, middle, y, &step->halves,
                       &step->elastic, w);
     else
-        two_half_begin(model, h, from, memory->film, middle, y, &step->halves, w);
+        two_half_begin(model, h, from, &memory->halves, middle, y, &step->halves, w);
 }
 
 double cage_end(const Model *model, CageStep *step, const StepFrom *from, const CageMemory *before,
                 const StepTo *to, CageMemory *memory, Work *w)
 {
     memory->elastic.fast.omega_2 = cage_elastic_speed_2(w);
+    pocket_films_split(model, w, &memory->halves.pockets);
     if (model->modes)
-        return elastic_end(model, &step->halves, &step->elastic, from, &before->elastic, to, &memory->elastic,
-                           memory->film, w);
-    two_half_end(model, &step->halves, from, to, memory->film, w);
+        return elastic_end(model, &step->halves, &step->elastic, from, &before->halves, &before->elastic, to,
+                           &memory->halves, &memory->elastic, w);
+    two_half_end(model, &step->halves, from, &before->halves, to, &memory->halves, w);
     return 0.0;
 }
 

@@ -18,10 +18,10 @@
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Carried from an evaluation to the next step: -dF/dv of each land's film yy, yz, zz [N.s/m]; of the kind of cage that runs, of
-// the other 0.  Part of the saved state: no member is aligned beyond a double, so that nothing lies between them.
+// Carried from an evaluation to the next step; of rigid halves what is elastic is 0.  Part of the saved state: no member is aligned beyond a
+// double, so that nothing lies between them.
 typedef struct {
-    double film[2][3];
+    HalvesMemory halves;
     ElasticMemory elastic;
 } CageMemory;
 

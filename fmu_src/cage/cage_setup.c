@@ -90,11 +90,11 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {
         const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
-        if (!bent) rate = fmax(rate, memory->film[h][0] + memory->film[h][2]);
+        if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
     }
     const double most = part * elastic_longest_step(model->modes);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
-    const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->elastic.pockets.rate);
+    const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
     return fmin(most, fmin(lands, pockets));
 }
 
@@ -115,7 +115,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
     const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
                  acceleration = elastic ? 1e15 : 0.0;
     const FastState *fast = &memory->elastic.fast;
-    return values_are_within(memory->film[0], 6, LARGEST_FILM) &&
+    return values_are_within(memory->halves.film[0], 6, LARGEST_FILM) &&
            values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
            values_are_within(fast->u_z, LANES, motion) &&
            values_are_within(fast->touch.x[0], 2 * LANES, motion) &&
@@ -133,10 +133,10 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(memory->elastic.films.rates[0][0], 2 * SQUEEZE * SQUEEZE,
                              elastic ? 1e30 : 0.0) &&
            values_are_within(memory->elastic.squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
-           values_are_within(memory->elastic.pockets.D[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-           values_are_within(&memory->elastic.pockets.rate, 1, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->elastic.pockets.u[0], 2 * LANES, elastic ? 1e6 : 0.0) &&
-           values_are_within(memory->elastic.pockets.F[0], 2 * LANES, load) &&
-           values_are_within(memory->elastic.pockets.m_x[0], 6 * LANES, 2.0 * motion) &&
-           values_are_within(memory->elastic.pockets.shape[0][0], 2 * Z * N_MODES, elastic ? 1e3 : 0.0);
+           values_are_within(memory->halves.pockets.D[0], 2 * LANES, 1e15) &&
+           values_are_within(&memory->halves.pockets.rate, 1, elastic ? 1e30 : 0.0) &&
+           values_are_within(memory->halves.pockets.u[0], 2 * LANES, 1e6) &&
+           values_are_within(memory->halves.pockets.F[0], 2 * LANES, 1e9) &&
+           values_are_within(memory->halves.pockets.m_x[0], 6 * LANES, 2.0) &&
+           values_are_within(memory->halves.pockets.shape[0][0], 2 * Z * N_MODES, elastic ? 1e3 : 0.0);
 }

@@ -65,11 +65,6 @@ typedef struct {
     ball_array wall_energy[2];
     PressedWall pressed[2][Z];
 
-    // films of oil before the walls (pocket_squeeze.h): damping, 0 where there is none [N.s/m], speed at which the gap closes [m/s], direction
-    // (x, r, t), motion of the wall along it by each mode; not written in dry pockets
-    ball_array film_D[2], film_u[2], film_m[3][2];
-    mode_array film_shape[2][Z];
-
     ElasticJoints joints;
     scalar energy, dissipated;  // energy of the modes [J] and power that they lose [W] (cage_elastic.c)
 } ElasticWork;
@@ -87,8 +82,16 @@ typedef struct {
     ball_array load[3], rivet[3], N_plate;
 } TwoHalfWork;
 
+// Films of oil between balls and both halves (pocket_squeeze.h): damping, 0 where there is none [N.s/m], speed at which the gap
+// closes [m/s], direction (x, r, t), motion of the wall of an elastic half along it by each mode.  Not written in dry pockets.
+typedef struct {
+    ball_array D[2], u[2], m[3][2];
+    mode_array shape[2][Z];
+} FilmWork;
+
 // Those of the kind of cage that runs; the others are not written.
 typedef struct {
+    FilmWork films;
     TwoHalfWork two_half;
     ElasticWork elastic;
 } CageWork;

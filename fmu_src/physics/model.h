@@ -329,10 +329,6 @@ typedef struct {
     // race_contact_force, added by cage_pockets)
     ball_array D_x, D_r, D_t, D_omega_x, D_omega_r, D_omega_t;
 
-    // sum over the halves of D m m^T of the pockets' films, xx, rx, rr, tx, tr, tt [N.s/m]; not written in dry pockets
-    // (pocket.c)
-    ball_array squeeze[6];
-
     // wrench of the race contacts on the inner ring about its centre, global frame
     ball_array ring_F_x, ring_F_y, ring_F_z, ring_M_x, ring_M_y, ring_M_z;
 

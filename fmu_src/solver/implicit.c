@@ -9,7 +9,6 @@
 //   race, spin (sliced)     omega.n                                      g_spin = 1.4 moment/spin
 //   race, normal            v.n                                          lambda Q; stiffness 3 Q/(2 delta)
 //   pocket, friction        each velocity of the ball by itself          D_x ... D_omega_t
-//   pocket, oil             v.m of the ball by itself; rigid halves      D
 //   ring support            each velocity of the ring by itself          c; tilts: c_tilt, k_tilt or filter
 //
 // C is symmetric and not negative, so every block is symmetric positive definite and needs no pivoting.
@@ -156,11 +155,6 @@ INLINE void packet_matrix(const Model *model, const Work *w, int j, double gamma
         add_spin(g * wide_load(&w->g_spin_i[j]), n_i, W);
         add_spin(g * wide_load(&w->g_spin_e[j]), n_e, W);
     }
-
-    // Films in the pockets.
-    if (d->squeeze.filled && normal_forces && !model->modes)
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k <= i; k++) W[AT(i, k)] += gamma * wide_load(&w->squeeze[AT(i, k)][j]);
 
     // Inertia, and the diagonal of the pockets' friction.
     for (int i = 0; i < BLOCK; i++) {

@@ -3,8 +3,16 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
+#include "cage/common/pocket_films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
+
+// Carried from an evaluation to the next step: -dF/dv of each land's film yy, yz, zz [N.s/m]; films in pockets.  Part of the saved
+// state: no member is aligned beyond a double, so that nothing lies between them.
+typedef struct {
+    double film[2][3];
+    PocketFilms pockets;
+} HalvesMemory;
 
 // Start of a step: state, rates, their change over the step before / its length h [s].
 typedef struct {

@@ -90,7 +90,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         film = pocket_squeeze(d, h, j, gap, v);
         F_n = vec_axpy(-film.F, film.m, F_n);
         pressed |= wide_above(film.F, 0.0);
-        squeeze_rate(&film, w, j);
+        squeeze_leave(&film, v, a, gap->b, e_t, h, j, w);
     }
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
@@ -117,7 +117,6 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         if (d->squeeze.filled) {
             wide_store(&on_wall[0][j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&on_wall[0][j])));
             wide_store(&on_wall[2][j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&on_wall[2][j])));
-            squeeze_leave(&film, v, a, gap->b, e_t, h, j, w);
         }
 
         wide_store(&w->cage.elastic.touch.Q[h][j], Q);
@@ -252,7 +251,7 @@ static void press_walls(const Model *model, Work *w, const TouchedPacket *at, co
     pocket_contacts(model, w, h, j, &at->gap, at->pressed, mixed, &wall, on_wall);
     for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
         if (!(at->touched >> i & 1)) {
-            w->cage.elastic.film_D[h][j + i] = 0.0;
+            w->cage.films.D[h][j + i] = 0.0;
             continue;
         }
         if (model->d->squeeze.filled) squeeze_wall(model, h, j + i, &shape[i], w);

@@ -113,7 +113,7 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
         push = vec_scale(1.0 / wide_sqrt(vec_dot(push, push) + 1e-60), push);
         lost += film.F * vec_dot(film.m, v);
         pressed |= wide_above(film.F, 0.0);
-        squeeze_rate(&film, w, j);
+        squeeze_leave(&film, v, gap->a, gap->b, gap->e_t, h, j, w);
     }
 
     // A pocket without contact beside others in its packet adds -0, as in pocket.c.
@@ -132,7 +132,6 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
             for (int i = 0; i < 3; i++)
                 wide_store(&on_wall[i][j],
                            wide_fma(film.F, vec_dot(film.m, axis[i]), wide_load(&on_wall[i][j])));
-            squeeze_leave(&film, v, gap->a, gap->b, gap->e_t, h, j, w);
         }
         *load = Q;
     }
@@ -380,7 +379,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         const int b = j + lane;
         if (!(mask >> lane & 1)) {
-            e->film_D[h][b] = 0.0;
+            w->cage.films.D[h][b] = 0.0;
             continue;
         }
         if (model->d->squeeze.filled) squeeze_wall(model, h, b, &shape[lane], w);

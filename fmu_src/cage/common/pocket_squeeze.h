@@ -53,39 +53,28 @@ typedef struct {
 INLINE void squeeze_clear(const Model *model, Work *w)
 {
     if (!model->d->squeeze.filled) return;
-    memset(w->squeeze, 0, sizeof w->squeeze);
-    if (model->modes) memset(w->cage.elastic.film_D, 0, sizeof w->cage.elastic.film_D);
+    memset(w->cage.films.D, 0, sizeof w->cage.films.D);
 }
 
-// Adds a film's D m m^T to the matrix that the integrator solves (implicit.c), where it acts.
-INLINE void squeeze_rate(const SqueezeFilm *film, Work *w, int j)
-{
-    const wide D = wide_select(wide_above(film->F, 0.0), film->D, wide_set(0.0));
-    const wide m[3] = {film->m.x, film->m.r, film->m.t};
-    for (int i = 0, place = 0; i < 3; i++)
-        for (int k = 0; k <= i; k++, place++)
-            wide_store(&w->squeeze[place][j], wide_fma(D * m[i], m[k], wide_load(&w->squeeze[place][j])));
-}
-
-// Leaves a film to the substeps of elastic halves (pocket_films.c).
+// Leaves a film to the step (pocket_films.c).
 INLINE void squeeze_leave(const SqueezeFilm *film, vec v, vec a, vec b, vec e_t, int h, int j, Work *w)
 {
-    ElasticWork *e = &w->cage.elastic;
-    wide_store(&e->film_D[h][j], film->D);
-    wide_store(&e->film_u[h][j], vec_dot(film->m, v));
-    wide_store(&e->film_m[0][h][j], vec_dot(film->m, a));
-    wide_store(&e->film_m[1][h][j], vec_dot(film->m, b));
-    wide_store(&e->film_m[2][h][j], vec_dot(film->m, e_t));
+    FilmWork *to = &w->cage.films;
+    wide_store(&to->D[h][j], film->D);
+    wide_store(&to->u[h][j], vec_dot(film->m, v));
+    wide_store(&to->m[0][h][j], vec_dot(film->m, a));
+    wide_store(&to->m[1][h][j], vec_dot(film->m, b));
+    wide_store(&to->m[2][h][j], vec_dot(film->m, e_t));
 }
 
 // The motion of wall k by each mode along its film; a wall that is not near has none.
 INLINE void squeeze_wall(const Model *model, int h, int k, const WallShape *shape, Work *w)
 {
 #ifndef DUAL
-    const ElasticWork *e = &w->cage.elastic;
-    if (!(e->film_D[h][k] > model->modes->weak_film)) return;
-    const double m[3] = {e->film_m[0][h][k], e->film_m[1][h][k], e->film_m[2][h][k]};
-    elastic_wall_along(model->modes, k, shape, m, w->cage.elastic.film_shape[h][k]);
+    FilmWork *films = &w->cage.films;
+    if (!(films->D[h][k] > model->modes->weak_film)) return;
+    const double m[3] = {films->m[0][h][k], films->m[1][h][k], films->m[2][h][k]};
+    elastic_wall_along(model->modes, k, shape, m, films->shape[h][k]);
 #else
     (void)model, (void)h, (void)k, (void)shape, (void)w;
 #endif

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
-#include "cage/elastic/pocket_films.h"
+#include "cage/common/pocket_films.h"
 #include "cage/elastic/rim_films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"

@@ -19,7 +19,6 @@
 void elastic_split(const Model *model, const double *y, const Work *w, double *f, ElasticMemory *memory)
 {
     cage_substeps_split(model, y, w, f, &memory->fast);
-    pocket_films_split(model, w, &memory->pockets);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
     for (int h = 0; h < 2; h++)
         for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];
@@ -36,8 +35,8 @@ static void foresee_films(const Model *model, double gamma, Work *w)
     }
 }
 
-void elastic_begin(const Model *model, double h, const StepFrom *from, const ElasticMemory *memory,
-                   const double film[2][3], const double *middle, double *y, HalvesStep *halves,
+void elastic_begin(const Model *model, double h, const StepFrom *from, const HalvesMemory *at,
+                   const ElasticMemory *memory, const double *middle, double *y, HalvesStep *halves,
                    ElasticStep *step, Work *w)
 {
     halves_move(model, h, from, middle, y, halves, w);
@@ -49,7 +48,7 @@ void elastic_begin(const Model *model, double h, const StepFrom *from, const Ela
     RimFilmsStep films;
     const bool follow = rim_films_begin(model, h, &memory->films, &films);
     rim_push(model, gamma, films.held, &y[Y_MODE_S_DOT]);
-    pocket_films_find(model, h, &memory->pockets, from->f, middle, y, w, &step->pockets);
+    pocket_films_find(model, h, &at->pockets, from->f, middle, y, w, &step->pockets);
     cage_substeps_advance(model, h, &memory->fast, from->f, middle, y, &step->foreseen, &halves->joints,
                           follow ? &films : NULL, &step->pockets, w);
     memcpy(step->rim_held, films.held, sizeof step->rim_held);
@@ -60,7 +59,7 @@ void elastic_begin(const Model *model, double h, const StepFrom *from, const Ela
         }
 
     // Predicted velocities.
-    halves_predict(model, from, film, y, halves);
+    halves_predict(model, from, at->film, y, halves);
     rim_push(model, gamma, step->rim_held, &y[Y_MODE_S_DOT]);
 }
 
@@ -156,8 +155,8 @@ static void remember_modes(double h, double h_0, const double *restrict f, const
 }
 
 double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *step, const StepFrom *from,
-                   const ElasticMemory *before, const StepTo *to, ElasticMemory *memory, double film[2][3],
-                   Work *w)
+                   const HalvesMemory *at, const ElasticMemory *before, const StepTo *to, HalvesMemory *at_end,
+                   ElasticMemory *memory, Work *w)
 {
     const double gamma = halves->gamma;
     double *y = to->y, *f = to->f, change[N_STATES], lack[2][RIM], power = 0.0;
@@ -169,7 +168,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     elastic_split(model, y, w, f, memory);
     follow_places(&before->fast, &memory->fast, &halves->joints, y);
     f[Y_WORK] +=
-        pocket_films_arrive(model, gamma, &step->pockets, &before->pockets, y, w, f, &memory->pockets);
+        pocket_films_arrive(model, gamma, &step->pockets, &at->pockets, y, w, f, &at_end->pockets);
     if (lands_bend(model)) {
         rim_lacks(model, step, f, &memory->films, lack);
         memcpy(memory->squeeze, before->squeeze, sizeof memory->squeeze);
@@ -190,7 +189,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
 
     // History and errors; the evaluations behind foresee no films.
     memset(w->squeeze_by, 0, sizeof w->squeeze_by);
-    halves_remember(model, w, halves, from, change, to, film);
+    halves_remember(model, w, halves, from, change, to, at_end->film);
     remember_modes(halves->h, from->h, from->f, from->jerk, y, f, to->jerk, to->error);
     return power;
 }

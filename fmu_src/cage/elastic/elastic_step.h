@@ -3,7 +3,6 @@
 
 #include "cage/common/halves_step.h"
 #include "cage/elastic/cage_substeps.h"
-#include "cage/elastic/pocket_films.h"
 #include "cage/elastic/rim_films.h"
 #include "numbers/isa.h"
 #include "physics/model.h"
@@ -14,7 +13,6 @@ typedef struct {
     FastState fast;
     RimFilms films;
     double squeeze[2][SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s]
-    PocketFilms pockets;
 } ElasticMemory;
 
 // Between the two halves of a step: slow accelerations at the end as the substeps foresee them; forces on bent rims that are
@@ -31,15 +29,15 @@ void elastic_split(const Model *model, const double *y, const Work *w, double *f
 
 // Motion and predicted velocities (cage_begin).
 #define elastic_begin FOR_ISA(elastic_begin)
-void elastic_begin(const Model *model, double h, const StepFrom *from, const ElasticMemory *memory,
-                   const double film[2][3], const double *middle, double *y, HalvesStep *halves,
+void elastic_begin(const Model *model, double h, const StepFrom *from, const HalvesMemory *at,
+                   const ElasticMemory *memory, const double *middle, double *y, HalvesStep *halves,
                    ElasticStep *step, Work *w);
 
 // Solution, corrections and history (cage_end).
 #define elastic_end FOR_ISA(elastic_end)
 double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *step, const StepFrom *from,
-                   const ElasticMemory *before, const StepTo *to, ElasticMemory *memory, double film[2][3],
-                   Work *w);
+                   const HalvesMemory *at, const ElasticMemory *before, const StepTo *to, HalvesMemory *at_end,
+                   ElasticMemory *memory, Work *w);
 
 // Maps the friction states in y back under the loads in w.
 #define elastic_slide FOR_ISA(elastic_slide)

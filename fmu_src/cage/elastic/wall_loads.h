@@ -2,6 +2,7 @@
 // bearing_model/cage/elastic/wall_loads.py.
 #pragma once
 
+#include "cage/common/rigid_approach.h"
 #include "cage/elastic/cage_substeps.h"
 
 enum { WALL_LOADS = (2 * Z + 7) / 8 * 8 };  // room for packets
@@ -21,21 +22,6 @@ typedef struct {
     wall_load_array along[CAGE_MOTIONS];  // motion along the normal by those of the halves
     mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
-
-// Rates and accelerations of the balls of a packet against half h along given directions, both as rigid bodies.
-typedef struct {
-    scalar rate[LANE_WIDTH], acceleration[LANE_WIDTH];
-    scalar direction[3][LANE_WIDTH];  // along x, r, t of the ball
-    scalar
-        along[RELATIVE_MOTIONS]
-             [LANE_WIDTH];  // motion along the direction by velocities of the half: x, y, z, beta, gamma, s
-} RigidApproach;
-
-// Of the balls from j on, at the time gamma before the positions y; direction: (x, r, t) along the pockets' axes; f: slow rates;
-// state: velocities there; w: kinematics of the halves there.
-#define rigid_approach FOR_ISA(rigid_approach)
-void rigid_approach(const Model *model, double gamma, const double *const direction[3], const double *f,
-                    const double *state, const double *y, const Work *w, int h, int j, RigidApproach *to);
 
 // Those of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
 // end, coordinates of the modes at its start; w: kinematics of the halves in the middle.

@@ -153,7 +153,8 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
 // ---- a step -------------------------------------------------------------------------------------------------
 //
 //   two_half_begin   halves and joints in the middle; friction states follow; predicted velocities v^
-//   two_half_end     S (1 + gamma A + gamma^2 K) delta = residual     S = 1 + gamma^2 K_shear, across the axis, a factor of
+//   two_half_end     films in pockets at the end's velocities (pocket_films.c)
+//                    S (1 + gamma A + gamma^2 K) delta = residual     S = 1 + gamma^2 K_shear, across the axis, a factor of
 //                    its own (two_half_shear); A, K of films and joints along the axis (two_half_solve)
 //                    v_{n+1} = v^ + delta; positions and friction states follow with weights; history and errors
 //
@@ -354,7 +355,7 @@ static void correct_halves(const Model *model, const Work *w, double gamma, doub
     correct_friction(model, w, gamma, delta, shear, y, joints);
 }
 
-void two_half_begin(const Model *model, double h, const StepFrom *from, const double film[2][3],
+void two_half_begin(const Model *model, double h, const StepFrom *from, const HalvesMemory *at,
                     const double *middle, double *y, HalvesStep *step, Work *w)
 {
     halves_move(model, h, from, middle, y, step, w);
@@ -362,14 +363,16 @@ void two_half_begin(const Model *model, double h, const StepFrom *from, const do
         step->joints.way_y[k] = h * w->v_jy[k], step->joints.way_z[k] = h * w->v_jz[k];
     memcpy(step->joints.before, &y[Y_JOINT_PLATE_Y], sizeof step->joints.before);
     cage_joint_follow(h, w->v_jy, w->v_jz, y);
-    halves_predict(model, from, film, y, step);
+    halves_predict(model, from, at->film, y, step);
 }
 
-void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const StepTo *to,
-                  double film[2][3], Work *w)
+void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const HalvesMemory *at,
+                  const StepTo *to, HalvesMemory *at_end, Work *w)
 {
     const double gamma = step->gamma;
     double change[N_STATES];
+    to->f[Y_WORK] +=
+        pocket_films_arrive(model, gamma, NULL, &at->pockets, to->y, w, to->f, &at_end->pockets);
     halves_residual(step, from, to);
     const double shear = two_half_shear(model, w, gamma, to->residual);
     memcpy(&to->delta[Y_CAGE_V_X], &to->residual[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *change);
@@ -377,7 +380,7 @@ void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, co
     halves_correct(step, to, change);
     correct_halves(model, w, gamma, axial, shear, change, to->y, &step->joints);
     two_half_slide(model, to->y, &step->joints, w);
-    halves_remember(model, w, step, from, change, to, film);
+    halves_remember(model, w, step, from, change, to, at_end->film);
 }
 
 void two_half_slide(const Model *model, double *y, JointStep *joints, Work *w)

@@ -25,13 +25,13 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load);
 
 // Motion and predicted velocities of a step of the default method (cage_begin).
 #define two_half_begin FOR_ISA(two_half_begin)
-void two_half_begin(const Model *model, double h, const StepFrom *from, const double film[2][3],
+void two_half_begin(const Model *model, double h, const StepFrom *from, const HalvesMemory *at,
                     const double *middle, double *y, HalvesStep *step, Work *w);
 
 // Solution, corrections and history (cage_end).
 #define two_half_end FOR_ISA(two_half_end)
-void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const StepTo *to,
-                  double film[2][3], Work *w);
+void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const HalvesMemory *at,
+                  const StepTo *to, HalvesMemory *at_end, Work *w);
 
 // v = (1 + gamma^2 K)^-1 v of the halves' velocities with the joints' stiffness across the axis; returns the weight of the
 // position correction.

@@ -1,5 +1,5 @@
-// Films of oil between balls and the walls of elastic halves within a step.  Equations in pocket_films.c; twin:
-// bearing_model/cage/elastic/pocket_films.py.
+// Films of oil between balls and both halves within a step.  Equations in pocket_films.c; twin:
+// bearing_model/cage/common/pocket_films.py.
 #pragma once
 
 #include "numbers/isa.h"
@@ -50,9 +50,8 @@ void pocket_films_follow(const Model *model, double t, double d, double *v,
 void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
                            double halves[2 * RELATIVE_MOTIONS]);
 
-// At the step's end y, w, behind the evaluation: takes from the rates f what the films there have too much at the predicted velocities, and returns the power
-// that this saves [W].
+// At the step's end y, w, behind the evaluation: takes from the rates f and the pockets' forces what the films there have too much at the
+// predicted velocities, and returns the power that this saves [W].  step: those that followed in substeps, NULL without.
 #define pocket_films_arrive FOR_ISA(pocket_films_arrive)
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
-                           const PocketFilms *before, const double *y, const Work *w, double *f,
-                           PocketFilms *films);
+                           const PocketFilms *before, const double *y, Work *w, double *f, PocketFilms *films);

@@ -1,13 +1,15 @@
-// Films of oil between balls and the walls of elastic halves within a step: forces F = D u, u > 0 the speed at which a gap closes.
+// Films of oil between balls and both halves within a step: forces F = D u, u > 0 the speed at which a gap closes.
 //
-// D is up to 1000 N.s/m, and a wall weighs some grams for what happens in a step, so that D over that mass is up to 30 times 1/h.
-// Held over a step, such forces feed the walls' vibrations.  So they follow in the substeps, implicit, one by one:
+// D is up to 1000 N.s/m, and an elastic wall weighs some grams for what happens in a step, so that D over that mass is up to 30 times
+// 1/h.  Held over a step, such forces feed the walls' vibrations.  So they follow in the substeps, implicit, one by one:
 //
 //     u = r + b (t - h/2) - U.v - g.V       r, b: rate in the middle of the step and acceleration of the rigid approach by slow
 //                                           forces; v, V: velocities of the wall's modes and of the half by all others
 //     F = D (u + Y d F_0)/(1 + d Y D)       at the end of a substep of length d, not below 0: the film cavitates; F_0: at the
 //                                           step's start, which the slow forces have
 //     v += (U/m) d (F - F_0),   V += g d (F - F_0)/inertia,   Y = U.U/m + g.g/inertia
+//
+// Rigid halves have no substeps, and nothing of the modes: F = F_0 so far.
 //
 // At the end of the step the evaluation has F = D u of the predicted velocities.  Wall, half and ball get the same impulse there,
 // gamma (F_n + F_{n+1}) by the trapezoidal rule, with F_{n+1} implicit in the velocities of all three:
@@ -16,30 +18,36 @@
 //
 // F_f: force at the end that with F_n makes the impulses of the substeps.  The evaluation's rates lose what F = D u has too much.  D and
 // direction are those of the step's start in the substeps.  Films whose D is small for the longest step stay slow forces.
-#include "cage/elastic/pocket_films.h"
+#include "cage/common/pocket_films.h"
 
+#include "cage/common/rigid_approach.h"
 #include "cage/elastic/elastic_half.h"
-#include "cage/elastic/wall_loads.h"
 #include "physics/rotor.h"
 
 static const double ROOT_HALF = 0.70710678118654752;
 
+// Damping below which a film stays a slow force [N.s/m].
+static double weak_film(const Model *model)
+{
+    return model->modes ? model->modes->weak_film : 0.0;
+}
+
 void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
 {
+    const FilmWork *at = &w->cage.films;
     memset(films->D, 0, sizeof films->D);
     memset(films->F, 0, sizeof films->F);
     films->rate = 0.0;
     if (!model->d->squeeze.filled) return;
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < Z; k++) {
-            const double D = w->cage.elastic.film_D[h][k], u = w->cage.elastic.film_u[h][k];
+            const double D = at->D[h][k], u = at->u[h][k];
             films->F[h][k] = D * fmax(u, 0.0);
-            if (!(D > model->modes->weak_film)) continue;
+            if (!(D > weak_film(model))) continue;
             films->D[h][k] = D, films->u[h][k] = u;
-            films->m_x[h][k] = w->cage.elastic.film_m[0][h][k];
-            films->m_r[h][k] = w->cage.elastic.film_m[1][h][k];
-            films->m_t[h][k] = w->cage.elastic.film_m[2][h][k];
-            memcpy(films->shape[h][k], w->cage.elastic.film_shape[h][k], sizeof films->shape[h][k]);
+            films->m_x[h][k] = at->m[0][h][k], films->m_r[h][k] = at->m[1][h][k],
+            films->m_t[h][k] = at->m[2][h][k];
+            if (model->modes) memcpy(films->shape[h][k], at->shape[h][k], sizeof films->shape[h][k]);
         }
 }
 
@@ -55,7 +63,7 @@ static double mobility_of(const Model *model, int h, const double *shape,
 {
     const double *inertia = &model->d->inertia[Y_CAGE_V_X + h];
     double by_modes = 0.0, by_half = 0.0;
-    for (int i = 0; i < N_MODES; i++) by_modes += shape[i] * shape[i];
+    for (int i = 0; model->modes && i < N_MODES; i++) by_modes += shape[i] * shape[i];
     for (int i = 0; i < RELATIVE_MOTIONS; i++) by_half += along[i] * along[i] / inertia[2 * i];
     return by_modes / model->p->cage.m + by_half;
 }
@@ -107,10 +115,10 @@ static void add_half_modes(mode_array half[2], double *v)
 }
 
 // Velocity of a wall by velocities of its half's modes and of the half.
-static double wall_speed(const double *shape, const double *modes, const double along[RELATIVE_MOTIONS],
-                         const double *rows)
+static double wall_speed(const Model *model, const double *shape, const double *modes,
+                         const double along[RELATIVE_MOTIONS], const double *rows)
 {
-    double sum = elastic_sum(shape, modes);
+    double sum = model->modes ? elastic_sum(shape, modes) : 0.0;
     for (int i = 0; i < RELATIVE_MOTIONS; i++) sum += along[i] * rows[2 * i];
     return sum;
 }
@@ -120,7 +128,7 @@ static void push_wall(const Model *model, int h, double impulse, const double *s
                       const double along[RELATIVE_MOTIONS], double *modes, double *rows)
 {
     const double *inertia = &model->d->inertia[Y_CAGE_V_X + h], part = impulse / model->p->cage.m;
-    for (int i = 0; i < N_MODES; i++) modes[i] += part * shape[i];
+    for (int i = 0; model->modes && i < N_MODES; i++) modes[i] += part * shape[i];
     for (int i = 0; i < RELATIVE_MOTIONS; i++) rows[2 * i] += impulse * along[i] / inertia[2 * i];
 }
 
@@ -142,8 +150,8 @@ void pocket_films_follow(const Model *model, double t, double d, double *v,
     for (int i = 0; i < step->count; i++) {
         const int h = step->half[i];
         double u = step->rate[i] + step->acceleration[i] * (t - step->middle);
-        u -= wall_speed(step->shape[i], modes[h], step->along[i], &halves[h]);
-        u -= wall_speed(step->shape[i], change[h], step->along[i], &rows[h]);
+        u -= wall_speed(model, step->shape[i], modes[h], step->along[i], &halves[h]);
+        u -= wall_speed(model, step->shape[i], change[h], step->along[i], &rows[h]);
         step->F[i] =
             implicit_force(step->D[i], u + step->mobility[i] * d * step->F_0[i], d * step->mobility[i]);
         step->impulse[i] += d * step->F[i];
@@ -180,17 +188,73 @@ typedef struct {
     double halves[2 * RELATIVE_MOTIONS], balls[Z][3];
 } FilmChange;
 
+// A film at the end of a step: motion of the wall along m by its modes and by velocities of the half, m along (x, r, t) of the ball.
+typedef struct {
+    int h, k;
+    mode_array shape;
+    double along[RELATIVE_MOTIONS], direction[3];
+} EndFilm;
+
 // Adds an impulse on a wall, and another one against it on the ball.
-static void push_both(const Model *model, int h, int k, double on_wall, double on_ball, const double *shape,
-                      const double along[RELATIVE_MOTIONS], const double direction[3], FilmChange *to)
+static void push_both(const Model *model, const EndFilm *film, double on_wall, double on_ball, FilmChange *to)
 {
-    push_wall(model, h, on_wall, shape, along, to->modes[h], &to->halves[h]);
-    for (int i = 0; i < 3; i++) to->balls[k][i] -= on_ball / model->d->m * direction[i];
+    push_wall(model, film->h, on_wall, film->shape, film->along, to->modes[film->h], &to->halves[film->h]);
+    for (int i = 0; i < 3; i++) to->balls[film->k][i] -= on_ball / model->d->m * film->direction[i];
+}
+
+static void film_of_lane(const PocketFilms *films, const RigidApproach *approach, int lane, EndFilm *film)
+{
+    take_lane(approach, lane, film->along);
+    for (int i = 0; i < 3; i++) film->direction[i] = approach->direction[i][lane];
+    memset(film->shape, 0, sizeof film->shape);
+    memcpy(film->shape, films->shape[film->h][film->k], sizeof films->shape[film->h][film->k]);
+}
+
+// The force that a ball's pocket has too little at the predicted velocities.
+static void correct_pocket(const PocketFilms *films, int h, int k, double more, Work *w)
+{
+    Pockets *pocket = &w->pocket[h];
+    pocket->Q[k] += more;
+    pocket->F_x[k] += more * films->m_x[h][k];
+    pocket->F_r[k] += more * films->m_r[h][k];
+    pocket->F_t[k] += more * films->m_t[h][k];
+}
+
+// Solves for the force of one film, which both changes get; returns the power that it saves [W].
+static double solve_film(const Model *model, double gamma, const EndFilm *film, double F_0, double F_f,
+                         FilmChange *solved, FilmChange *rates, PocketFilms *films, Work *w)
+{
+    const int h = film->h, k = film->k;
+    const double D = films->D[h][k], F = films->F[h][k];
+    const double of_wall = mobility_of(model, h, film->shape, film->along);
+    const double of_ball = dot3(film->direction, film->direction) / model->d->m;
+    double u = films->u[h][k] + dot3(film->direction, solved->balls[k]);
+    u -= wall_speed(model, film->shape, solved->modes[h], film->along, &solved->halves[h]);
+    const double push = gamma * (of_wall * F_f + of_ball * F_0);
+    const double F_new = implicit_force(D, u + push, gamma * (of_wall + of_ball));
+    push_both(model, film, gamma * (F_new - F_f), gamma * (F_new - F_0), solved);
+    push_both(model, film, F_new - F, F_new - F, rates);
+    correct_pocket(films, h, k, F_new - F, w);
+    u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
+    films->F[h][k] = F_new;
+    if (model->modes)
+        films->rate = fmax(films->rate, D * (model->d->guided ? model->modes->wall_mobility : of_wall));
+    return F * films->u[h][k] - F_new * u;
+}
+
+static void add_rates(const Model *model, FilmChange *rates, const double *y, double *f)
+{
+    if (model->modes) add_half_modes(rates->modes, &f[Y_MODE_S_DOT]);
+    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) f[Y_CAGE_V_X + i] += rates->halves[i];
+    for (int k = 0; k < Z; k++) {
+        f[Y_BALL_V_X + k] += rates->balls[k][0];
+        f[Y_BALL_V_R + k] += rates->balls[k][1];
+        f[Y_BALL_OMEGA_M + k] += rates->balls[k][2] / y[Y_BALL_R + k];
+    }
 }
 
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
-                           const PocketFilms *before, const double *y, const Work *w, double *f,
-                           PocketFilms *films)
+                           const PocketFilms *before, const double *y, Work *w, double *f, PocketFilms *films)
 {
     FilmChange solved, rates;
     double foreseen[2][LANES], saved = 0.0;
@@ -198,7 +262,8 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
     memset(&solved, 0, sizeof solved);
     memset(&rates, 0, sizeof rates);
     memcpy(foreseen, before->F, sizeof foreseen);
-    for (int i = 0; i < step->count; i++) foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
+    for (int i = 0; step && i < step->count; i++)
+        foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             const int mask = wide_mask(wide_above(wide_load(&films->D[h][j]), 0.0));
@@ -208,38 +273,12 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
             rigid_approach(model, 0.0, m, f, y, y, w, h, j, &approach);
             for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
                 const int k = j + lane;
-                double along[RELATIVE_MOTIONS], direction[3];
-                mode_array shape;
+                EndFilm film = {.h = h, .k = k};
                 if (!(mask >> lane & 1)) continue;
-                take_lane(&approach, lane, along);
-                for (int i = 0; i < 3; i++) direction[i] = approach.direction[i][lane];
-                memset(shape, 0, sizeof shape);
-                memcpy(shape, films->shape[h][k], sizeof films->shape[h][k]);
-
-                const double D = films->D[h][k], F = films->F[h][k], F_0 = before->F[h][k],
-                             F_f = foreseen[h][k];
-                const double of_wall = mobility_of(model, h, shape, along),
-                             of_ball = dot3(direction, direction) / model->d->m;
-                double u = films->u[h][k] - wall_speed(shape, solved.modes[h], along, &solved.halves[h]);
-                u += dot3(direction, solved.balls[k]);
-                const double give = gamma * (of_wall + of_ball);
-                const double F_new = implicit_force(D, u + gamma * (of_wall * F_f + of_ball * F_0), give);
-                push_both(model, h, k, gamma * (F_new - F_f), gamma * (F_new - F_0), shape, along, direction,
-                          &solved);
-                push_both(model, h, k, F_new - F, F_new - F, shape, along, direction, &rates);
-                u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
-                saved += F * films->u[h][k] - F_new * u;
-                films->F[h][k] = F_new;
-                films->rate =
-                    fmax(films->rate, D * (model->d->guided ? model->modes->wall_mobility : of_wall));
+                film_of_lane(films, &approach, lane, &film);
+                saved += solve_film(model, gamma, &film, before->F[h][k], foreseen[h][k], &solved, &rates, films, w);
             }
         }
-    add_half_modes(rates.modes, &f[Y_MODE_S_DOT]);
-    for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) f[Y_CAGE_V_X + i] += rates.halves[i];
-    for (int k = 0; k < Z; k++) {
-        f[Y_BALL_V_X + k] += rates.balls[k][0];
-        f[Y_BALL_V_R + k] += rates.balls[k][1];
-        f[Y_BALL_OMEGA_M + k] += rates.balls[k][2] / y[Y_BALL_R + k];
-    }
+    add_rates(model, &rates, y, f);
     return saved;
 }
