@@ -137,6 +137,18 @@ def pocket_loads(model):
     return np.array([list(model.work.pocket[h].Q)[:Z] for h in range(2)])
 
 
+def film_rates(w, j):
+    """Sum over the halves of D m m^T [3, 3] of the films before ball j in a work of the twin or a View of the core's, along the
+    pocket's axes.
+    """
+    if isinstance(w, PythonWork):
+        films = [(film["D"][j], film["m"][:, j]) for film in w.films]
+    else:
+        of = w.cage.films
+        films = [(of.D[h][j], np.array([of.m[i][h][j] for i in range(3)])) for h in range(2)]
+    return sum(D * np.outer(m, m) for D, m in films)
+
+
 def running_state(model, rng, *, pockets=True, slip=1.0, stuck=False):
     """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted,
     joints offset; their friction holds.

@@ -17,9 +17,9 @@ GROUPS = {  # from the bottom up
     "laws and tables": "ball_spall ball_turn elastic_half elastic_wall frame hertz land_bent model outer_ring ring_fit rivet_joint rivet_rom "
     "race_surface rivet_splines rotor temperature traction centrifugal spin_preload",
     "elements": "ball drag land_film race_contact ring ring_load",
-    "both cages": "cage_joint films halves halves_step joint_slip pocket pocket_forces pocket_spheres pocket_spheres_setup pocket_squeeze "
-    "spheres_squeeze",
-    "one cage": "cage_elastic cage_substeps elastic_lands elastic_step joint_open pocket_films rim_films two_half wall_loads",
+    "both cages": "cage_joint films halves halves_step joint_slip pocket pocket_films pocket_forces pocket_spheres pocket_spheres_setup "
+    "pocket_squeeze rigid_approach spheres_squeeze",
+    "one cage": "cage_elastic cage_substeps elastic_lands elastic_step joint_open rim_films two_half wall_loads",
     "door of the cage": "cage cage_read cage_setup",
     "constants, powers": "derived powers housing",
     "right-hand side": "rhs",

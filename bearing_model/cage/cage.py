@@ -21,6 +21,7 @@ from bearing_model.cage.common.cage_joint import (
 from bearing_model.cage.common.halves import halves_acceleration, halves_kinematics
 from bearing_model.cage.common.halves_step import HalvesStep
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
+from bearing_model.cage.common.pocket_films import PocketFilms, pocket_films_split
 from bearing_model.cage.common.pocket_spheres import spheres_elastic, spheres_energy, spheres_rigid
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.elastic.cage_elastic import (
@@ -42,7 +43,6 @@ from bearing_model.cage.elastic.elastic_step import (
     elastic_slide,
     elastic_split,
 )
-from bearing_model.cage.elastic.pocket_films import PocketFilms
 from bearing_model.cage.elastic.rim_films import RimFilms
 from bearing_model.cage.two_half.two_half import (
     two_half_begin,
@@ -180,7 +180,7 @@ def cage_split(model, y, w, f):
     """Separates the part that the cage advances by itself from the rates f at the state y, where w was evaluated; returns
     it as CageMemory.
     """
-    memory = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))))
+    memory = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))), pockets=pocket_films_split(model, w))
     if model.modes:
         elastic_split(model, y, w, f, memory)
     return memory
@@ -201,7 +201,7 @@ def cage_end(model, step, start, end, error, w):
     rates of the evaluation the share of films that are implicit.  Returns residual and delta of the halves' velocities [12]
     and the power of films beyond theirs [W].
     """
-    end.cage = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))))
+    end.cage = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))), pockets=pocket_films_split(model, w))
     if model.modes:
         return elastic_end(model, step.halves, step.elastic, start, end, error, w)
     return *two_half_end(model, step.halves, start, end, error, w), 0.0

@@ -153,7 +153,7 @@ def ball_blocks(model, w, gamma):
 
     A contact's traction is -g P u, u the slip, P = 1 - n n^T, with g = TRACTION_MARGIN times the secant |traction|/|slip|:
     symmetric, and never below the tangent of a concave law. Its normal force has the rate lambda Q and the stiffness 3 Q/(2 delta).
-    Pockets: the diagonal of their friction, and D m m^T of their films on the ball by itself.
+    Pockets: the diagonal of their friction.
     """
     d, sliced, coupled = model.d, model.p.scene.traction == Traction.SLICED, ring_coupled(model, w, gamma)
     # half the trace of A: two tangents share it
@@ -173,9 +173,6 @@ def ball_blocks(model, w, gamma):
             A[ball] += model.p.bearing.lambda_ * Q * normal
             K[ball] += 1.5 * Q / max(delta, APPROACH_FLOOR) * (delta > 0.0) * normal
         A[ball] += friction
-        to_v = np.diag([1.0, 1.0, w.r[j]])  # v_t = r omega_m
-        if not model.modes:  # those of elastic halves: pocket_films.py
-            A[np.ix_(rows[:3], rows[:3])] += to_v @ w.squeeze[:, :, j] @ to_v
         A_stiff[ball] += friction * (gamma * rate[j] > STIFF_LIMIT)
         if coupled:
             n, g = w.n_i[:, j], TRACTION_MARGIN * w.g_i[j]

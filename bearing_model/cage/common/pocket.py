@@ -28,9 +28,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.cage.common.pocket_squeeze import pocket_squeeze, squeeze_rate
+from bearing_model.cage.common.pocket_films import RIGID, film_before_wall
+from bearing_model.cage.common.pocket_squeeze import pocket_squeeze
 from bearing_model.cage.elastic.elastic_wall import elastic_wall
-from bearing_model.cage.elastic.pocket_films import film_before_wall
 from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -119,7 +119,6 @@ def pocket_contacts(model, w, h, gap, wall=None):
     if film:
         F_n = F_n - film.F * film.m
         by_film = film.F * vec_dot(film.m, a), film.F * vec_dot(film.m, e_t)
-        w.squeeze = w.squeeze + squeeze_rate(film)
 
     # friction at the contact point (F_s), film force through the ball's centre (F_c)
     arm = d.R * n
@@ -161,7 +160,7 @@ def pocket_clear(w):
     """No contacts yet."""
     w.pocket, w.delta_c, w.pocket_dissipated = [None, None], [None, None], 0.0
     w.D, w.D_omega = 0.0 * w.F, 0.0 * w.F
-    w.squeeze = 0.0 * w.F[:, None] * w.F[None, :]
+    w.films = [None, None]
 
 
 def elastic_clear(e):
@@ -169,7 +168,6 @@ def elastic_clear(e):
     touch = ("x", "r", "t", "K", "delta", "Q", "chi", "radius")
     for name in ("wall_force", *(f"touch_{part}" for part in touch)):
         setattr(e, name, [None, None])
-    e.films = [None, None]
 
 
 def pocket_rigid(model, w):
@@ -179,13 +177,15 @@ def pocket_rigid(model, w):
     pocket[h]: load Q, force F on the half in the pocket's frame (x, r, t) and its normal part push (x, t); half_F, half_M:
     force and moment about the half's centre, global.
     D, D_omega: rates at which friction slows each velocity of a ball by itself, -d(acceleration)/d(velocity) [1/s], for
-    the integrator's Jacobian.  squeeze: sum over the halves of D m m^T of the films [N.s/m].
+    the integrator's Jacobian.  films: those of each half (film_before_wall).
     """
     pocket_clear(w)
     for h in range(2):
         gap = pocket_gap(model, w, h)
         w.delta_c[h] = gap.delta
-        pocket_contacts(model, w, h, gap)
+        _, _, _, (film, v) = pocket_contacts(model, w, h, gap)
+        if film:
+            w.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), RIGID, True)
 
 
 def pocket_elastic(model, w):
@@ -205,7 +205,7 @@ def pocket_elastic(model, w):
         on_wall, delta_dot, e.touch_Q[h], (film, v) = pocket_contacts(model, w, h, gap, wall)
         if film:
             near = np.real(gap.delta) > -model.d.squeeze.reach
-            e.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), shape, near)
+            w.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), shape, near)
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )

@@ -1,4 +1,4 @@
-"""Films of oil between balls and the walls of elastic halves within a step: the readable twin of pocket_films.c, which has the equations.
+"""Films of oil between balls and both halves within a step: the readable twin of pocket_films.c, which has the equations.
 
     F = D (u + Y d F_0)/(1 + d Y D),  v += (U/m) d (F - F_0),  V += g d (F - F_0)/inertia,  Y = U.U/m + g.g/inertia
 
@@ -10,8 +10,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from bearing_model.cage.common.rigid_approach import rigid_approach
 from bearing_model.cage.elastic.elastic_half import ROOT
-from bearing_model.cage.elastic.wall_loads import rigid_approach
 from bearing_model.generated.variables import (
     BALL_OMEGA_M,
     BALL_R,
@@ -36,12 +36,15 @@ def film_before_wall(film, v, axes, shape, near):
     """What an evaluation leaves of the films of one half: damping D [N.s/m], 0 where there is none, speed u at which the gap
     closes [m/s], direction m (x, r, t), motion of the wall along it by each mode.
 
-    v: velocity of the ball against the wall; axes: the pocket's; shape [3, ..., Z, n]: motions of the wall; near: walls before which there
-    may be a film.
+    v: velocity of the ball against the wall; axes: the pocket's; shape [3, ..., Z, n]: motions of the wall, n = 0 of rigid halves; near: walls
+    before which there may be a film.
     """
     m = np.array([vec_dot(film.m, axis) for axis in axes])
     along = sum(part[..., None] * motion for part, motion in zip(m, shape, strict=True))
     return {"D": np.where(near, film.D, 0.0), "u": vec_dot(film.m, v), "m": m, "shape": along}
+
+
+RIGID = np.zeros((3, Z, 0))  # motions of a rigid wall by no mode
 
 
 @dataclass
@@ -61,9 +64,9 @@ def pocket_films_split(model, w):
     """Takes the films of an evaluation; weak ones have a force alone."""
     if not model.d.squeeze:
         return PocketFilms()
-    D, u, m, shape = (np.array([film[name] for film in w.cage.elastic.films]) for name in ("D", "u", "m", "shape"))
+    D, u, m, shape = (np.array([film[name] for film in w.films]) for name in ("D", "u", "m", "shape"))
     F = D * np.maximum(u, 0.0)
-    strong = model.modes.weak_film < D
+    strong = (model.modes.weak_film if model.modes else 0.0) < D
     return PocketFilms(np.where(strong, D, 0.0), np.where(strong, u, 0.0), F, m, shape)
 
 
@@ -83,24 +86,29 @@ class PocketFilm:
     impulse: float = 0.0
 
 
+def inertia_of(model):
+    """Of the velocities of a half [6]."""
+    return np.array(3 * [model.p.cage.m] + 2 * [model.d.J_t] + [model.d.J_p])
+
+
+def mobility_of(model, shape, along):
+    """Velocity of a wall by an impulse on it [m/s/(N.s)]."""
+    return shape @ shape / model.p.cage.m + np.sum(along**2 / inertia_of(model))
+
+
 class PocketFilmsStep:
     """The films of a step of length h [s]; arguments as of WallLoads."""
 
     def __init__(self, model, h, films, f, state, y, w):
-        self.m, self.middle, self.films = model.p.cage.m, 0.5 * h, []
-        self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
+        self.m, self.inertia, self.middle, self.films = model.p.cage.m, inertia_of(model), 0.5 * h, []
         for i, k in np.argwhere(films.D > 0.0):
             n = films.m[i][:, k]
             rate, acceleration, along, _ = rigid_approach(model, self.middle, n, f, state, y, w.half[i], i, k)
             shape = films.shape[i][k]
-            mobility = self.mobility(shape, along)
+            mobility = mobility_of(model, shape, along)
             self.films.append(
                 PocketFilm(i, k, films.D[i, k], films.F[i, k], rate, acceleration, along, shape, mobility)
             )
-
-    def mobility(self, shape, along):
-        """Velocity of a wall by an impulse on it [m/s/(N.s)]."""
-        return shape @ shape / self.m + np.sum(along**2 / self.inertia)
 
     def follow(self, t, d, v, halves):
         """Velocities that the films of a substep of length d add at its end, the time t of the step: to modes [2, n] at v, to halves
@@ -132,40 +140,50 @@ class PocketFilmsStep:
             rows[:, film.half] += more * film.along / self.inertia
         return np.array([modes[1] + modes[0], modes[1] - modes[0]]) / ROOT, rows
 
-    def arrive(self, model, before, y, w, f, films):
-        """At the step's end y, w, behind the evaluation: takes from the rates f what the films there have too much at the predicted
-        velocities; returns the power that this saves [W].
-        """
-        if not model.d.squeeze:
-            return 0.0
-        n, gamma, saved, foreseen = model.modes.n, self.middle, 0.0, before.F.copy()
-        for film in self.films:
-            foreseen[film.half, film.ball] = self.foreseen(film)
-        (modes, more_modes), (rows, more_rows) = np.zeros((2, 2, n)), np.zeros((2, 6, 2))
-        balls, more_balls = np.zeros((2, Z, 3))
-        for i, k in np.argwhere(films.D > 0.0):
-            _, _, along, m = rigid_approach(model, 0.0, films.m[i][:, k], f, y, y, w.half[i], i, k)
-            shape, D, F, F_0, F_f = films.shape[i][k], films.D[i, k], films.F[i, k], before.F[i, k], foreseen[i, k]
-            of_wall, of_ball = self.mobility(shape, along), m @ m / model.d.m
-            u = films.u[i, k] - shape @ modes[i] - along @ rows[:, i] + m @ balls[k]
-            push = gamma * (of_wall * F_f + of_ball * F_0)
-            new = D * max(u + push, 0.0) / (1.0 + gamma * (of_wall + of_ball) * D)
-            for on_wall, on_ball, to_modes, to_rows, to_balls in (
-                (gamma * (new - F_f), gamma * (new - F_0), modes, rows, balls),
-                (new - F, new - F, more_modes, more_rows, more_balls),
-            ):
-                to_modes[i] += on_wall / self.m * shape
-                to_rows[:, i] += on_wall * along / self.inertia
-                to_balls[k] -= on_ball / model.d.m * m
-            u -= gamma * (of_wall * (new - F_f) + of_ball * (new - F_0))
-            saved += F * films.u[i, k] - new * u
-            films.F[i, k] = new
+
+def correct_pocket(film, i, k, more, w):
+    """The force that a ball's pocket has too little at the predicted velocities."""
+    w.pocket[i].Q[k] += more
+    w.pocket[i].F[:, k] += more * film
+
+
+def pocket_films_arrive(model, gamma, step, before, y, w, f, films):
+    """At the step's end y, w, behind the evaluation: takes from the rates f and the pockets' forces what the films there have too much at
+    the predicted velocities; returns the power that this saves [W].  step: those that followed in substeps, None without.
+    """
+    if not model.d.squeeze:
+        return 0.0
+    n, saved, foreseen = model.modes.n if model.modes else 0, 0.0, before.F.copy()
+    for film in step.films if step else ():
+        foreseen[film.half, film.ball] = step.foreseen(film)
+    m, inertia = model.p.cage.m, inertia_of(model)
+    (modes, more_modes), (rows, more_rows) = np.zeros((2, 2, n)), np.zeros((2, 6, 2))
+    balls, more_balls = np.zeros((2, Z, 3))
+    for i, k in np.argwhere(films.D > 0.0):
+        _, _, along, direction = rigid_approach(model, 0.0, films.m[i][:, k], f, y, y, w.half[i], i, k)
+        shape, D, F, F_0, F_f = films.shape[i][k], films.D[i, k], films.F[i, k], before.F[i, k], foreseen[i, k]
+        of_wall, of_ball = mobility_of(model, shape, along), direction @ direction / model.d.m
+        u = films.u[i, k] - shape @ modes[i] - along @ rows[:, i] + direction @ balls[k]
+        push = gamma * (of_wall * F_f + of_ball * F_0)
+        new = D * max(u + push, 0.0) / (1.0 + gamma * (of_wall + of_ball) * D)
+        for on_wall, on_ball, to_modes, to_rows, to_balls in (
+            (gamma * (new - F_f), gamma * (new - F_0), modes, rows, balls),
+            (new - F, new - F, more_modes, more_rows, more_balls),
+        ):
+            to_modes[i] += on_wall / m * shape
+            to_rows[:, i] += on_wall * along / inertia
+            to_balls[k] -= on_ball / model.d.m * direction
+        correct_pocket(films.m[i][:, k], i, k, new - F, w)
+        u -= gamma * (of_wall * (new - F_f) + of_ball * (new - F_0))
+        saved += F * films.u[i, k] - new * u
+        films.F[i, k] = new
+        if model.modes:
             films.rate = max(films.rate, D * (model.modes.wall_mobility if model.d.guided else of_wall))
-        f[MODE_S_DOT][:n] += (more_modes[1] + more_modes[0]) / ROOT
-        f[MODE_D_DOT][:n] += (more_modes[1] - more_modes[0]) / ROOT
-        for block, change in zip(HALVES, more_rows, strict=True):
-            f[block] += change
-        f[BALL_V_X] += more_balls[:, 0]
-        f[BALL_V_R] += more_balls[:, 1]
-        f[BALL_OMEGA_M] += more_balls[:, 2] / y[BALL_R]
-        return saved
+    f[MODE_S_DOT][:n] += (more_modes[1] + more_modes[0]) / ROOT
+    f[MODE_D_DOT][:n] += (more_modes[1] - more_modes[0]) / ROOT
+    for block, change in zip(HALVES, more_rows, strict=True):
+        f[block] += change
+    f[BALL_V_X] += more_balls[:, 0]
+    f[BALL_V_R] += more_balls[:, 1]
+    f[BALL_OMEGA_M] += more_balls[:, 2] / y[BALL_R]
+    return saved

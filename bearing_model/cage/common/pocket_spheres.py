@@ -39,10 +39,9 @@ from types import SimpleNamespace
 import numpy as np
 
 from bearing_model.cage.common.pocket import elastic_clear, pocket_clear, pocket_mu
-from bearing_model.cage.common.pocket_squeeze import squeeze_rate
+from bearing_model.cage.common.pocket_films import RIGID, film_before_wall
 from bearing_model.cage.common.spheres_squeeze import spheres_squeeze
 from bearing_model.cage.elastic.elastic_wall import ribbon_wall_shapes
-from bearing_model.cage.elastic.pocket_films import film_before_wall
 from bearing_model.generated.variables import Lubrication
 from bearing_model.numbers.lanes import absolute, ball_array_sum, maximum, minimum
 from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_local, vec_to_global
@@ -304,10 +303,8 @@ def spheres_forces(model, w, h, gap, wall=None):
         push = [Q * n_i + f_i for n_i, f_i in zip(push, by_film, strict=True)]
         size = np.sqrt(sum(x * x for x in push) + 1e-60)
         push = [x / size for x in push]
-        w.squeeze = w.squeeze + squeeze_rate(film)
-        if wall:
-            wet = pressed | (wall.near & sphere_wet(d, gap.q, 0.0))
-            w.cage.elastic.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), wall.shape, wet)
+        wet = pressed | (wall.near & sphere_wet(d, gap.q, 0.0)) if wall else True
+        w.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), wall.shape if wall else RIGID, wet)
     if wall:  # the wall's place moves with the ball
         tilt = [Q_0 * sum(n_i * u_i for n_i, u_i in zip(n_q, slope, strict=True)) for slope in wall.slopes]
         F = F + (gap.side * tilt[0] * gap.a + tilt[1] * gap.b + tilt[2] * gap.e_t)

@@ -117,11 +117,6 @@ def pocket_squeeze_derive(p, d):
     )
 
 
-def squeeze_rate(film):
-    """D m m^T [3, 3, ...] of a film that acts, for the matrix that the integrator solves."""
-    return np.where(np.real(film.F) > 0.0, film.D, 0.0) * film.m[:, None] * film.m[None, :]
-
-
 def squeeze_shape(film, h):
     """Damping of a whole film / (c/h_eff), by the gap."""
     z = np.sqrt(minimum(h * film.inv_reach, 1.0) + 1e-30)

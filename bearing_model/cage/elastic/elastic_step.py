@@ -25,9 +25,9 @@ from bearing_model.cage.common.halves_step import (
     halves_residual,
     halves_slide,
 )
+from bearing_model.cage.common.pocket_films import PocketFilmsStep, pocket_films_arrive
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_stiffness
 from bearing_model.cage.elastic.cage_substeps import add_rates, cage_substeps_advance, cage_substeps_split
-from bearing_model.cage.elastic.pocket_films import PocketFilmsStep, pocket_films_split
 from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
 from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, WORK
 from bearing_model.numbers.trapezoid import SMOOTHING, trapezoid_error
@@ -52,7 +52,7 @@ class ElasticStep:
 
 def elastic_split(model, y, w, f, memory):
     """Separates the part that the halves advance by themselves from the rates f at the state y, where w was evaluated."""
-    memory.fast, memory.pockets = cage_substeps_split(model, y, w, f), pocket_films_split(model, w)
+    memory.fast = cage_substeps_split(model, y, w, f)
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
         add_rates(model, -rim_modes(model, memory.films.force), f)
@@ -129,7 +129,7 @@ def elastic_end(model, halves, step, start, end, error, w):
     # The rates of the evaluation without the part of the substeps; films in pockets at the end's velocities.
     elastic_split(model, y, w, f, memory)
     follow_places(before.fast, memory.fast, halves.joints, y)
-    f[WORK] += step.pockets.arrive(model, before.pockets, y, w, f, memory.pockets)
+    f[WORK] += pocket_films_arrive(model, gamma, step.pockets, before.pockets, y, w, f, memory.pockets)
     lack = rim_motions(model, slow_rates(model, f) - step.modes)
     lack += model.modes.mobility * (memory.films.force - step.rim_before)
     memory.squeeze = before.squeeze.copy()

@@ -49,6 +49,7 @@ from bearing_model.cage.common.halves_step import (
     halves_slide,
 )
 from bearing_model.cage.common.joint_slip import joint_slip_add
+from bearing_model.cage.common.pocket_films import pocket_films_arrive
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.two_half.half_path import half_path_rows, land_rows
 from bearing_model.cage.two_half.joint_open import joints_open
@@ -59,6 +60,7 @@ from bearing_model.generated.variables import (
     CAGE_X,
     CAGE_Y,
     CAGE_Z,
+    WORK,
     Z,
 )
 from bearing_model.numbers.lanes import ball_array_sum, maximum
@@ -223,6 +225,8 @@ def two_half_end(model, step, start, end, error, w):
     S (1 + gamma A + gamma^2 K) delta = residual; S = 1 + gamma^2 K_shear, across the axis, is a factor of its own.
     """
     gamma, one, films = step.gamma, np.eye(N_HALVES), halves_films(model, w)
+    before, pockets = start.cage.pockets, end.cage.pockets
+    end.f[WORK] += pocket_films_arrive(model, gamma, None, before, end.y, w, end.f, pockets)
     A, K, K_shear, axial, shear = two_half_matrices(model, w, gamma)
     residual = np.linalg.solve(one + gamma**2 * K_shear, halves_residual(step, start, end))
     delta = np.linalg.solve(one + gamma * (films + A) + gamma**2 * K, residual)
