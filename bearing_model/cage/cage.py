@@ -79,6 +79,7 @@ class CageMemory:
     films: RimFilms = field(default_factory=RimFilms)
     # squeeze velocities of the lands and shapes of bent rims [2, 6]
     squeeze: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))
+    force: np.ndarray = field(default_factory=lambda: np.zeros((2, 6)))  # of the films on them
     pockets: PocketFilms = field(default_factory=PocketFilms)
     omega_2: float = 0.0  # square of the halves' speed in space
 

@@ -113,6 +113,7 @@ def bent_sums(model, on):
         N=np.sum(N, axis=-1),
         along=np.sum((N + rough) * b[:2], axis=-1),
         rubbing=np.sum(N + rough, axis=-1),
+        rough=np.sum(rough, axis=-1),
         stored=np.sum(0.5 * bed * pen, axis=-1),
         stored_rate=np.sum(bed * rate, axis=-1),
     )
@@ -124,6 +125,7 @@ MISSED = 1e-2  # load that a linear law may miss / its largest force
 MOST_HALVINGS = 50
 LEVEL = 0.1  # slope of the merit at the end of a step / at its start
 STIFF = 100.0  # change of the velocities by a film / velocities
+ROUGH = 1e-3  # part of a film's load on asperities whose friction counts
 
 
 def squeeze_slope(on, grid, by, free, V, step):
@@ -178,14 +180,15 @@ def squeeze_find(p, on, by, free, V, grid):
     return V, F, D
 
 
-def bent_foresee(p, on, by, film):
-    """Whether the film [6] of a half at the predicted velocities would change them a hundred times over in the step, by: change per
-    force [6]; then on.V and on.rim_V become the velocities that it leaves of them.
+def bent_foresee(p, on, by, before, film, rough):
+    """Whether the film [6] of a half at the predicted velocities has to be foreseen: it would change them a hundred times over in the step,
+    by: change per force [6], or asperities bear a part of it, rough [N]; then on.V and on.rim_V become the velocities at the step's end by
+    the film, which had the forces `before` at its start.
     """
     start = np.concatenate([on.V, on.rim_V])
-    if np.max(np.abs(by * film)) <= STIFF * np.max(np.abs(start)):
+    if np.max(np.abs(by * film)) <= STIFF * np.max(np.abs(start)) and rough <= ROUGH * np.max(np.abs(film)):
         return False
-    V, _, _ = squeeze_find(p, on, by, start, start, bent_grid(p, on))
+    V, _, _ = squeeze_find(p, on, by, start - by * before, start, bent_grid(p, on))
     on.V, on.rim_V = V[:2], V[2:]
     return True
 

@@ -207,12 +207,14 @@ def turn_rates(T, D):
     return np.einsum("ik...,ij...,jl...->kl...", T, D, T)
 
 
-def foreseen(p, w, on, film):
-    """The pressure with the velocities that films leave of predicted ones, where they are too stiff for these; None where no film is."""
+def foreseen(p, w, on, film, rough):
+    """The pressure with the velocities of the step's end, where films have to be foreseen; None where no film has."""
     seen = None
     for h in range(2) if w.squeeze_by is not None else ():
         half = on.of(h)
-        if not bent_foresee(p, half, w.squeeze_by[h], np.squeeze(film[..., h])):
+        if not bent_foresee(
+            p, half, w.squeeze_by[h], w.squeeze_from[h], np.squeeze(film[..., h]), np.squeeze(rough[..., h])
+        ):
             continue
         seen = seen or replace(on, V=on.V.copy(), rim_V=on.rim_V.copy())
         seen.V[..., h], seen.rim_V[..., h] = (
@@ -227,7 +229,7 @@ def bent_lands(model, w, on, back, motion, heated):
     """
     p, d, (v_y, v_z, omega) = model.p, model.d, motion
     sums = bent_sums(model, on)
-    seen = foreseen(p, w, on, sums.film) or on
+    seen = foreseen(p, w, on, sums.film, sums.rough) or on
     if seen is not on:
         sums = bent_sums(model, seen)
     on.at = np.concatenate([seen.V, seen.rim_V])

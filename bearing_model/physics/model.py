@@ -27,13 +27,13 @@ from bearing_model.physics.temperature import check_temperatures, temperature_ap
 
 class Work(SimpleNamespace):
     """Results of one evaluation, named as in fmu_src/physics/model.h; vectors have their components on axis 0, pocket
-    results are kept by half.  cage.elastic: of halves that vibrate; rigid ones add no inertia and lose nothing by modes.  squeeze_by: of a
-    step's evaluation (cage_begin).
+    results are kept by half.  cage.elastic: of halves that vibrate; rigid ones add no inertia and lose nothing by modes.  squeeze_by,
+    squeeze_from: of a step's evaluation (cage_begin).
     """
 
     def __init__(self, **results):
         still = SimpleNamespace(more_J=(0.0, 0.0), more_J_dot=(0.0, 0.0), energy=0.0, dissipated=0.0)
-        super().__init__(cage=SimpleNamespace(elastic=still), squeeze_by=None, **results)
+        super().__init__(cage=SimpleNamespace(elastic=still), squeeze_by=None, squeeze_from=None, **results)
 
 
 @dataclass

@@ -133,6 +133,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(memory->elastic.films.rates[0][0], 2 * SQUEEZE * SQUEEZE,
                              elastic ? 1e30 : 0.0) &&
            values_are_within(memory->elastic.squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
+           values_are_within(memory->elastic.force[0], 2 * SQUEEZE, elastic ? 1e30 : 0.0) &&
            values_are_within(memory->halves.pockets.D[0], 2 * LANES, 1e15) &&
            values_are_within(&memory->halves.pockets.rate, 1, elastic ? 1e30 : 0.0) &&
            values_are_within(memory->halves.pockets.u[0], 2 * LANES, 1e6) &&

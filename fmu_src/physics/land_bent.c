@@ -10,7 +10,9 @@
 // the sum falls.
 //
 // There F(V^) would be a thousand kilonewtons too.  Y omits second-order tilt terms (1e-5 of F), which would remain as an error.
-// The evaluation has therefore the film at the velocities that it leaves of V^, those with r = 0 and F^ = 0.
+// And asperities bear a part of F, whose friction is no part of the solution: with that of F(V^), land losses of slow cages in mixed
+// lubrication erred by up to 35 %.  In both cases the evaluation has therefore the film at the V of the end, as far as it alone decides
+// that: V = V^ + gamma Y (F(V) - F_n), because V^ has felt the force F_n of the step's start twice as long.
 #include "physics/land_bent.h"
 
 enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH, ROW = 8 };
@@ -243,18 +245,20 @@ static void squeeze_find(const Squeeze *of, double V[SQUEEZE], SqueezeLaw *law)
 }
 
 static const double STIFF = 100.0;  // change of the velocities by the film / velocities
+static const double ROUGH = 1e-3;   // part of the film's load on asperities whose friction counts
 
-bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], LandPressure *seen)
+bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], scalar rough, LandPressure *seen)
 {
     Squeeze of = squeeze_of(w, h);
     SqueezeLaw law;
-    double V[SQUEEZE], most = 0.0, size = 0.0;
+    double V[SQUEEZE], most = 0.0, size = 0.0, load = 0.0;
     for (int i = 0; i < SQUEEZE; i++) {
         most = scalar_max(most, fabs(of.by[i] * film[i]));
         size = scalar_max(size, fabs(of.start[i]));
+        load = scalar_max(load, fabs(film[i]));
     }
-    if (most <= STIFF * size) return false;
-    memcpy(of.free, of.start, sizeof of.free);
+    if (most <= STIFF * size && rough <= ROUGH * load) return false;
+    for (int i = 0; i < SQUEEZE; i++) of.free[i] = of.start[i] - of.by[i] * w->squeeze_from[h][i];
     memcpy(V, of.start, sizeof V);
     squeeze_find(&of, V, &law);
     *seen = w->pressure[h];

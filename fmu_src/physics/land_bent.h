@@ -231,10 +231,10 @@ typedef struct {
 } BentSolution;
 
 #ifndef DUAL
-// Whether the film at the predicted velocities of half h would change them a hundred times over in the step; then `seen` has the velocities
-// that it leaves of them.
+// Whether the film at the predicted velocities of half h, in part borne by asperities, `rough` [N], has to be foreseen; then `seen` has the
+// velocities at the step's end by it.
 #define bent_foresee FOR_ISA(bent_foresee)
-bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], LandPressure *seen);
+bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], scalar rough, LandPressure *seen);
 
 // Solves the implicit step of half h for its land and bent rim: the velocities change by the residual with the film's force at the
 // evaluation, and by w->squeeze_by times what the law has at the end beyond it.  V: squeeze velocities to begin with, then those of

@@ -352,7 +352,7 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     memcpy(&on->at[2], on->rim_V, sizeof on->rim_V);
 #ifndef DUAL
     LandPressure seen;
-    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], &seen)) {
+    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], sum[BENT_ROUGH], &seen)) {
         bent_sums(model, &seen, &w->bent[h], sum);
         memcpy(on->at, seen.at, sizeof on->at);
     }

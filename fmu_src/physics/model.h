@@ -363,8 +363,9 @@ typedef struct {
     LandFilm film[2];
     LandPressure pressure[2];
     BentGrid bent[2];  // of rims that are bent
-    // from a step's evaluation to its end: change of a film's squeeze velocities by its own force, per force [m/s/N], else 0
-    scalar squeeze_by[2][SQUEEZE];
+    // from a step's evaluation to its end, else 0: change of a film's squeeze velocities by its own force, per force [m/s/N]; its
+    // forces at the step's start [N], which the predicted velocities have felt all the step
+    scalar squeeze_by[2][SQUEEZE], squeeze_from[2][SQUEEZE];
     LandLoad land[2];  // of rigid halves
 
     CageWork cage;  // of the kind of cage that runs

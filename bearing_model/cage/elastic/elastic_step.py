@@ -55,6 +55,7 @@ def elastic_split(model, y, w, f, memory):
     memory.fast = cage_substeps_split(model, y, w, f)
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
+        memory.force = np.array([w.pressure.of(h).film for h in range(2)])
         add_rates(model, -rim_modes(model, memory.films.force), f)
 
 
@@ -68,7 +69,7 @@ def elastic_begin(model, h, start, middle, y, w):
     modes, foreseen, halves.joints = cage_substeps_advance(model, h, memory, start.f, middle, y, films, pockets, w)
     halves_predict(model, start, y, halves)
     add_rates(model, gamma * rim_modes(model, films.held), y)
-    w.squeeze_by = gamma * mobilities(model)
+    w.squeeze_by, w.squeeze_from = gamma * mobilities(model), memory.force
     return halves, ElasticStep(modes, foreseen.ravel(), pockets, films.held, films.before(gamma))
 
 
@@ -89,10 +90,10 @@ def solve_bent_halves(model, gamma, w, lack, squeeze, residual, delta):
     """The velocities of halves with bent rims in delta [12] by the residual: land and rim together, the law at the step's end.
 
     lack: end minus predicted acceleration of each rim shape [2, 4]; squeeze: squeeze velocities [2, 6], which become those of the
-    end.  The films in w become those of the end.  Returns impulses [2, 6] and rates [2, 6, 6] of the films, and what the power that
-    they take is less there, without the part of the second order on the halves' bodies.
+    end.  The films in w become those of the end.  Returns impulses [2, 6], rates [2, 6, 6] and forces [2, 6] of the films, and what the power
+    that they take is less there, without the part of the second order on the halves' bodies.
     """
-    p, d, less, impulses, all_rates = model.p, model.d, 0.0, np.zeros((2, 6)), np.zeros((2, 6, 6))
+    p, d, less, impulses, forces, all_rates = model.p, model.d, 0.0, *np.zeros((2, 2, 6)), np.zeros((2, 6, 6))
     for h in range(2) if w.pressure else ():
         on, half, spin, x = w.pressure.of(h), w.half[h], float(w.film[h].spin[0]), land_lever(model, h)
         B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
@@ -104,13 +105,13 @@ def solve_bent_halves(model, gamma, w, lack, squeeze, residual, delta):
         change[5] -= solved.impulse @ on.by_spin / d.J_p
         change[5] /= 1.0 + gamma * spin / d.J_p
         delta[HALF[:, h]] = change
-        squeeze[h], impulses[h], all_rates[h] = solved.V, solved.impulse, solved.rates
+        squeeze[h], impulses[h], forces[h], all_rates[h] = solved.V, solved.impulse, solved.film, solved.rates
         V = np.concatenate([on.V, on.rim_V])
         less += solved.film @ (V + solved.change) - on.film @ V
         less -= solved.change[:2] @ solved.impulse[:2] / gamma
         rates = axes.T @ solved.rates[:2, :2] @ axes
         w.film[h].yy, w.film[h].yz, w.film[h].zz = (np.array([rates[i]]) for i in ((0, 0), (1, 0), (1, 1)))
-    return impulses, all_rates, less
+    return impulses, all_rates, forces, less
 
 
 def remember_modes(h, start, end, error):
@@ -137,7 +138,7 @@ def elastic_end(model, halves, step, start, end, error, w):
     # The linear solve, and that of bent rims.
     residual = halves_residual(halves, start, end) - gamma * step.halves
     delta = np.linalg.solve(np.eye(N_HALVES) + gamma * halves_films(model, w), residual)
-    impulse, rates, power = solve_bent_halves(model, gamma, w, lack, memory.squeeze, residual, delta)
+    impulse, rates, memory.force, power = solve_bent_halves(model, gamma, w, lack, memory.squeeze, residual, delta)
 
     # Velocities of halves and modes; friction.
     change = halves_correct(halves, delta, y) + gamma * step.halves

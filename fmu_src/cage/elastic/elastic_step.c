@@ -20,14 +20,17 @@ void elastic_split(const Model *model, const double *y, const Work *w, double *f
 {
     cage_substeps_split(model, y, w, f, &memory->fast);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
-    for (int h = 0; h < 2; h++)
+    for (int h = 0; h < 2; h++) {
+        memcpy(memory->force[h], w->pressure[h].film, sizeof memory->force[h]);
         for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];
+    }
     rim_push(model, -1.0, memory->films.force, &f[Y_MODE_S_DOT]);
 }
 
 // The evaluation at the end foresees by how much a film's own force changes its squeeze velocities in half a step.
-static void foresee_films(const Model *model, double gamma, Work *w)
+static void foresee_films(const Model *model, double gamma, const ElasticMemory *memory, Work *w)
 {
+    memcpy(w->squeeze_from, memory->force, sizeof w->squeeze_from);
     for (int i = 0; i < 2; i++) {
         double *by = w->squeeze_by[i];
         by[0] = by[1] = gamma * land_mobility(model, land_lever(model, i));
@@ -42,7 +45,7 @@ void elastic_begin(const Model *model, double h, const StepFrom *from, const Hal
     halves_move(model, h, from, middle, y, halves, w);
     const double gamma = halves->gamma;
     memcpy(&y[Y_MODE_S], &from->y[Y_MODE_S], (N_ALL_STATES - Y_MODE_S) * sizeof *y);
-    foresee_films(model, gamma, w);
+    foresee_films(model, gamma, memory, w);
 
     // Substeps; films on rims that do not follow in them act by impulses at both ends.
     RimFilmsStep films;
@@ -180,6 +183,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     memcpy(&to->delta[Y_CAGE_V_X], &to->residual[Y_CAGE_V_X], CAGE_MOTIONS * sizeof *y);
     solve_halves(model, w, gamma, lack, memory->squeeze, bent, to->delta);
     if (lands_bend(model)) power = bent_arrive(gamma, bent, w);
+    for (int h = 0; h < 2; h++) memcpy(memory->force[h], bent[h].film, sizeof memory->force[h]);
 
     // Velocities of halves and modes; friction.
     halves_correct(halves, to, change);
@@ -189,6 +193,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
 
     // History and errors; the evaluations behind foresee no films.
     memset(w->squeeze_by, 0, sizeof w->squeeze_by);
+    memset(w->squeeze_from, 0, sizeof w->squeeze_from);
     halves_remember(model, w, halves, from, change, to, at_end->film);
     remember_modes(halves->h, from->h, from->f, from->jerk, y, f, to->jerk, to->error);
     return power;

@@ -12,7 +12,7 @@
 typedef struct {
     FastState fast;
     RimFilms films;
-    double squeeze[2][SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s]
+    double squeeze[2][SQUEEZE], force[2][SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s], the films' forces [N]
 } ElasticMemory;
 
 // Between the two halves of a step: slow accelerations at the end as the substeps foresee them; forces on bent rims that are
