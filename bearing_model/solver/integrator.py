@@ -24,7 +24,7 @@ from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
 from bearing_model.physics.hertz import hertz_energy
 from bearing_model.physics.model import Model, Work
-from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters, check_guidance
+from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters, check_run
 from bearing_model.physics.rhs import jacobian, rhs
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.physics.ring_load import (
@@ -302,7 +302,7 @@ def simulate(
         raise ValueError(
             f"ball[{spalled[0] + 1}].spall_length: the FMU alone follows the turn of a ball; 0 m is allowed"
         )
-    check_guidance(Parameters(parameters))
+    check_run(Parameters(parameters))
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     here = input_trajectory_update(
