@@ -357,7 +357,7 @@ def simulate(
             run.y = ring_follow(model.ring_load, run.y)
         model, further = at_temperature(record.standing, model, given[0], here.u[0], run, table)
         energy_start += expansion + further
-        if record.loosening.update(p):
+        if record.loosening.update(model.p.joint.preload, model.d.P):
             model, jump = rederive(record, model, here.u[0], run, table, ledger)
             energy_change += jump
         if record.break_rivets(run.t):

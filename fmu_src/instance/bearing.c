@@ -358,7 +358,8 @@ static void change_parameters(Bearing *b, const Inputs *u)
 static void loosen(Bearing *b)
 {
     InstanceState *s = &b->s;
-    if (loosening_update(&s->p, &s->loosening)) rederive(b, &s->u_now, present_energy(b));
+    if (loosening_update(b->hot.joint.preload, b->d.P, &s->loosening))
+        rederive(b, &s->u_now, present_energy(b));
 }
 
 // Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
