@@ -36,7 +36,7 @@ if(NOT SANITIZE)
 endif()
 
 set(fmu_src ${PROJECT_SOURCE_DIR}/fmu_src)
-set(generated ${fmu_src}/generated)  # folder of variables.h and variables.c
+set(generated ${fmu_src}/generated)  # folder of variables.h, variables.c and limits.c
 if(GENERATED_DIR)
     set(generated ${GENERATED_DIR})
 endif()
@@ -56,8 +56,9 @@ endif()
 list(TRANSFORM kernel_files PREPEND ${fmu_src}/)
 file(GLOB_RECURSE core_files CONFIGURE_DEPENDS ${fmu_src}/*.c)
 list(FILTER core_files EXCLUDE REGEX /generated/)
-list(REMOVE_ITEM core_files ${kernel_files} ${fmu_src}/host/fmi2_wrapper.c)
-list(APPEND core_files ${generated}/variables.c)
+file(GLOB wrapper_files CONFIGURE_DEPENDS ${fmu_src}/host/fmi2_*.c)
+list(REMOVE_ITEM core_files ${kernel_files} ${wrapper_files})
+list(APPEND core_files ${generated}/variables.c ${generated}/limits.c)
 
 add_library(core OBJECT ${core_files} ${rivet_table})
 target_include_directories(core PUBLIC ${core_includes})

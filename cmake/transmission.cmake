@@ -15,7 +15,7 @@ add_custom_command(OUTPUT ${generated}
     COMMAND ${CMAKE_COMMAND} -E touch ${generated}
     DEPENDS ${transmission}/shaft.toml ${tools}/generate.py ${templates} VERBATIM)
 set(shaft_core ${transmission}/shaft.c ${fmu_src}/numbers/variable_table.c ${shaft}/variables.c)
-set(shaft_sources ${shaft_core} ${fmu_src}/host/fmi2_wrapper.c)
+set(shaft_sources ${shaft_core} ${wrapper_files})
 add_build_info(${shaft}/build_info.c "${shaft_sources}" "${fmu_src};${shaft}")
 add_fmu_binary(Shaft ${shaft_sources} ${shaft}/build_info.c ${shaft}/variables.h)
 target_include_directories(Shaft PRIVATE ${fmu_src} ${shaft})

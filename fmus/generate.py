@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import jinja2
+from limits import read_limits
 from lxml import etree
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -26,8 +27,10 @@ TABLE = ROOT / "fmus" / "variables.toml"
 OUTPUTS = (
     "fmu_src/generated/variables.h",
     "fmu_src/generated/variables.c",
+    "fmu_src/generated/limits.c",
     "fmus/modelDescription.xml",
     "bearing_model/generated/variables.py",
+    "bearing_model/generated/limits.py",
     "docs/parameters.md",
 )
 TEMPLATES = ROOT / "fmus" / "templates"
@@ -149,6 +152,7 @@ class Table:
     essentials: dict  # names by question
     retired_items: dict  # of enumerations: number and reason, by name
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
+    limits: tuple = ()  # between parameters
 
     def named(self, name):
         """The variable of this name."""
@@ -160,7 +164,8 @@ class Table:
     @property
     def guid(self):
         """Digest of all that description and binary must agree on."""
-        content = {name: value for name, value in asdict(self).items() if name != "numbers" or value}
+        content = {n: value for n, value in asdict(replace(self, limits=())).items() if n != "numbers" or value}
+        del content["limits"]
         digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
         return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
 
@@ -205,6 +210,7 @@ def load_table(bearing=None, path=None):
         raw.get("essentials", {}),
         raw.get("retired_items", {}),
         tuple(states[n_plain:]),
+        read_limits(raw.get("limits", {}).get("list", ()), variables),
     )
     check_table(table, path, raw.get("retired", ()))
     return table

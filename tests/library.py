@@ -29,8 +29,16 @@ LANE_TYPES = {"wide", "bits", "words", "vec"}  # depend on the lane width: no pl
 # What a test of the core runs unless it says otherwise: rigid halves, which take half the time.  Elastic ones are named
 # where they matter.
 TWO_HALF = {"scene.cage": variables.CageModel.TWO_HALF}
-# of the wrapper and of SUNDIALS: macros and instructions, no physics
-AROUND_THE_CORE = {"float_environment.h", "fmi2_calls.h", "reserved_memory.h", "bearing_step.h", "state_vector.h"}
+# of the wrapper, of SUNDIALS and with packets: no physics for Python
+AROUND_THE_CORE = {
+    "float_environment.h",
+    "fmi2_calls.h",
+    "fmi2_instance.h",
+    "race_traction.h",
+    "reserved_memory.h",
+    "bearing_step.h",
+    "state_vector.h",
+}
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 
 

@@ -42,8 +42,8 @@ def test_it_needs_damage(folder):
     slave.check("SetupExperiment", 0, 0.0, 0.0, 0, 0.0)
     slave.check("EnterInitializationMode")
     assert slave.call("ExitInitializationMode") == ERROR
-    assert "scene.breakage = on" in slave.messages[-1][2] and "scene.stress = fatigue" in slave.messages[-1][2]
-    with pytest.raises(ValueError, match="scene.breakage = on"):
+    assert "scene.breakage = 2" in slave.messages[-1][2] and "scene.stress = fatigue" in slave.messages[-1][2]
+    with pytest.raises(ValueError, match="scene.breakage = 2"):
         Parameters({"scene.breakage": "on"})
 
 

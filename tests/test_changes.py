@@ -175,7 +175,7 @@ def test_contradictions_are_refused_at_the_step(folder):
         ({"fatigue.k_1": 20.0}, "fatigue.k_2"),
         ({"oil.T_1": 400.0}, "oil.T_1"),
         ({"scene.breakage": int(Switch.ON)}, "scene.stress = fatigue"),
-        ({"oil.expansion": 1.5e-3, "oil.nu_1": 1.0, "oil.nu_2": 0.9, "oil.T_0": 200.0}, "viscosity"),
+        ({"oil.expansion": 1.5e-3, "oil.nu_1": 1.0, "oil.nu_2": 0.9, "oil.T_0": 200.0}, "there oil.eta = "),
     ):
         slave = Slave(folder).initialize(**named(TWO_HALF)).step(1e-6)
         for name, value in values.items():

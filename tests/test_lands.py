@@ -31,7 +31,7 @@ from bearing_model.generated.variables import (
     Z,
 )
 from bearing_model.physics.derived import default_table
-from bearing_model.physics.land_bent import bent_grid, bent_law, bent_solve, bent_sums, film_part
+from bearing_model.physics.land_bent import bent_grid, bent_law, bent_solve, bent_sums, film_share
 from bearing_model.physics.land_film import LAND_HIGHEST, journal_film, land_film_force, land_film_gap
 from bearing_model.physics.model import Model, Work
 from bearing_model.physics.rhs import rhs
@@ -270,11 +270,11 @@ def test_faint_films_are_left_out():
     P = np.full(Z, 40.0)
 
     def part(percent):
-        return float(film_part(SimpleNamespace(P=P), percent * 1e-2 * P.sum()))
+        return float(film_share(SimpleNamespace(P=P), percent * 1e-2 * P.sum()))
 
     assert [part(x) for x in (0.0, 1.98, 2.0, 3.0, 4.0, 30.0)] == pytest.approx([0, 0, 0, 0.5, 1, 1], abs=1e-12)
     assert part(2.0 + 2e-4) < 1e-7 and 1.0 - part(4.0 - 2e-4) < 1e-7
-    assert film_part(SimpleNamespace(P=0.0 * P), 1.0) == 1.0  # loose joints
+    assert film_share(SimpleNamespace(P=0.0 * P), 1.0) == 1.0  # loose joints
 
 
 def film_on_spinning_joints(part):

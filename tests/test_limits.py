@@ -4,8 +4,14 @@ pass.
 
 import re
 
+import numpy as np
 import pytest
+from mechanics import Instance
+from ribbon import RIBBON
 
+from bearing_model.generated import variables
+from bearing_model.generated.limits import LIMITS
+from bearing_model.physics.parameters import Parameters, in_force, place
 from riveted_bearing import UserError
 from riveted_bearing.base.units import to_si
 from riveted_bearing.bearing.bearing_file import bearing_case
@@ -161,3 +167,58 @@ def test_a_standards_head_is_refused_by_its_name(tmp_path):
     path.write_text('designation = "6205"\n[rivet]\nhead = "DIN 660"\nshank_diameter = "1.6 mm"\n')
     text = complaint(path)
     assert text.startswith(f"{path}: rivet.head = 'DIN 660': rivet.head_diameter is 2.8 mm by it; at most 2."), text
+
+
+# ------------------------------------------------------------------------------------------------ between parameters
+
+SPALL = {
+    f"{body}.spall_{size}": 1e-4 for body in ("inner", "outer", "ball[j]") for size in ("length", "width", "depth")
+}
+SCENES = (  # in one of which each limit counts and can be passed
+    {},
+    RIBBON,
+    {"ring.tilt_mode": 2, "scene.stress": 1, "pulse.count": 2},
+    {"solver.method": 2, **SPALL},
+    {"ball[j].dD": 1e-6, "pocket[j].dD": -1.8e-4},
+    {"bearing.D": 14.5e-3},
+    {"bearing.D": 4e-3},
+)
+OF_ONE = [limit for limit in LIMITS if limit.at != "build" and limit.quantity in variables.PARAMETERS]
+
+
+def with_value(scene, limit, value):
+    """Parameters of a scene with a value of the limit's quantity, of its first element; their values for C too."""
+    values = {name: [x] * variables.PARAMETERS[name].count if "[" in name else x for name, x in scene.items()}
+    p = Parameters(values)
+    group, member = place(limit.quantity)
+    whole = getattr(getattr(p, group), member)
+    whole = [value, *whole[1:]] if limit.is_array else value
+    setattr(getattr(p, group), member, np.array(whole) if limit.is_array else whole)
+    return in_force(p), values | {limit.quantity: whole}
+
+
+def broken(limit):
+    """Values just beyond a limit, by name, and the message on them."""
+    v, j = variables.PARAMETERS[limit.quantity], 0 if limit.is_array else None
+    allowed = list(getattr(variables, v.type, ()))
+    for scene in SCENES:
+        bound = limit.bound(in_force(Parameters(scene)), variables.Z, j)
+        size = abs(bound) or 1e-3
+        for value in allowed or [bound, bound + 0.03 * size, bound - 0.03 * size]:
+            p, values = with_value(scene, limit, value)
+            inside = allowed or (v.min or -np.inf) <= value <= (v.max or np.inf)
+            if inside and not limit.holds(p, variables.Z, j):
+                return values, limit.message(p, variables.Z, j)
+    return None, None
+
+
+@pytest.mark.parametrize("limit", OF_ONE, ids=lambda limit: f"{limit.quantity} {limit.sign} for {limit.reason}"[:60])
+def test_both_twins_refuse_what_lies_beyond_a_limit(core, limit):
+    """In the same words, which name variable, value and bound."""
+    values, message = broken(limit)
+    with pytest.raises(ValueError) as refusal:
+        Instance(core, values)
+    assert message in str(refusal.value)
+    if limit.at == "everywhere":
+        with pytest.raises(ValueError, match=" is allowed for "):
+            Parameters(values)

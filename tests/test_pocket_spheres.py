@@ -363,17 +363,23 @@ def test_damping(core):
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"cage.sheet": 0.0}, "cage.sheet = 0.0 m: more than 0"),
+        ({"cage.sheet": 0.0}, "cage.sheet = 0 m: more than 0"),
         ({"cage.pocket_fillet": 0.0}, "cage.pocket_fillet"),
-        ({"cage.pocket_depth": 0.9 * R}, "no room for the ball; more than bearing.D/2"),
-        ({"cage.pocket_depth": RADIUS + 1e-6}, "deeper than a sphere; at most"),
-        ({"cage.pocket_radius": RADIUS + 1e-6}, "cage.pocket_radius = .*: 0 or"),
+        (
+            {"cage.pocket_depth": 0.9 * R, "cage.sheet": RIBBON["cage.sheet"] + 0.1 * R},
+            "more than bearing.D/2 = .* room for the ball",
+        ),
+        (
+            {"cage.pocket_depth": RADIUS + 1e-6},
+            "at most .bearing.D . cage.pocket_clearance./2 = .* no deeper than a sphere",
+        ),
+        ({"cage.pocket_radius": RADIUS + 1e-6}, "cage.pocket_radius = .*: 0, .*, or .bearing.D"),
         ({"cage.width": 0.014}, "cage.width = 0.014 m: 2 .cage.pocket_depth . cage.sheet. = "),
-        ({"cage.guidance": 1}, "cage.guidance = outer: .*; balls .2. is allowed"),
-        ({"cage.D_o": RIBBON["cage.D_o"] * 0.977}, "puts the pockets beside the balls"),
-        ({"cage.pocket_edge": 1.3e-3}, "no sphere between the pocket's edges"),
-        ({"cage.pocket_fillet": 0.08}, "leave no sphere"),
-        ({"cage.shape": 1}, "0 is allowed, a machined cage"),
+        ({"cage.guidance": 1}, "cage.guidance = 1: balls .2. is allowed for a ribbon cage"),
+        ({"cage.D_o": RIBBON["cage.D_o"] * 0.977}, "cage.D_o . cage.D_i = .* at least .* for pockets around the balls"),
+        ({"cage.pocket_edge": 1.3e-3}, "cage.D_o - cage.D_i = .* for a sphere between the pocket's edges"),
+        ({"cage.pocket_fillet": 0.08}, "cage.pocket_fillet, .* less than 0.95 is allowed"),
+        ({"cage.shape": 1}, "0 m is allowed for a machined cage"),
     ],
 )
 def test_sizes_that_make_no_ribbon(changes, message):

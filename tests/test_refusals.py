@@ -94,6 +94,84 @@ CHANGED = {  # old message: new one
         'FILE: target 1: unknown key "weight"; allowed: point, over, minus, uncertainty, held_out, measure, line, frequency, width, value'
     ),
     "FILE: tolerance.share = 2.0: above 0 and up to 1 is allowed": "FILE: tolerance.share = 2: above 0 and up to 1 is allowed",
+    # Bounds name all values that they follow from, and moments of inertia may miss theirs by 1 %, as in the FMU.
+    "FILE: cage.D_i = '50 mm': at least 55.95 mm is allowed for a cage that passes over the inner ring's shoulder, "
+    "with bearing.d_m = 65 mm, bearing.D = 15.08 mm, bearing.h_i = 0.2": (
+        "FILE: cage.D_i = '50 mm': at least 55.95 mm is allowed for a cage that passes over the inner ring's shoulder, "
+        "with bearing.d_m = 65 mm, bearing.D = 15.08 mm, bearing.P_d = 0.013 mm, bearing.h_i = 0.2"
+    ),
+    "FILE: cage.D_o = '85 mm': at most 79.81 mm is allowed for a cage that, with its guide clearance, fits inside "
+    "the outer groove's bottom, with bearing.d_m = 65 mm, bearing.D = 15.08 mm, cage.guide_clearance = 0.2714 mm": (
+        "FILE: cage.D_o = '85 mm': at most 79.81 mm is allowed for a cage that, with its guide clearance, fits inside "
+        "the outer groove's bottom, with bearing.d_m = 65 mm, bearing.D = 15.08 mm, bearing.P_d = 0.013 mm, "
+        "cage.guide_clearance = 0.2714 mm"
+    ),
+    "FILE: cage.D_o = 0.0802: at most 0.07981 m is allowed for a cage that, with its guide clearance, fits inside "
+    "the outer groove's bottom, with bearing.d_m = 65 mm, bearing.D = 15.08 mm, cage.guide_clearance = 0.2714 mm": (
+        "FILE: cage.D_o = 0.0802: at most 0.07981 m is allowed for a cage that, with its guide clearance, fits inside "
+        "the outer groove's bottom, with bearing.d_m = 65 mm, bearing.D = 15.08 mm, bearing.P_d = 0.013 mm, "
+        "cage.guide_clearance = 0.2714 mm"
+    ),
+    "FILE: cage.J_p = 0.001: at most 8.448e-05 kg.m2 is allowed for a half with its mass inside cage.D_o, with "
+    "cage.m = 63.17 g, cage.D_o = 73.14 mm": (
+        "FILE: cage.J_p = 0.001: at most 8.533e-05 kg.m2 is allowed for a half with its mass inside cage.D_o, with "
+        "cage.m = 63.17 g, cage.D_o = 73.14 mm"
+    ),
+    "FILE: cage.J_p = 1e-05: at least 5.656e-05 kg.m2 is allowed for a half with its mass outside cage.D_i, with "
+    "cage.m = 63.17 g, cage.D_i = 59.84 mm": (
+        "FILE: cage.J_p = 1e-05: at least 5.599e-05 kg.m2 is allowed for a half with its mass outside cage.D_i, with "
+        "cage.m = 63.17 g, cage.D_i = 59.84 mm"
+    ),
+    "FILE: cage.J_p = 8.448e-05: at most 7.226e-05 kg.m2 is allowed for moments of inertia of a body, with cage.J_t "
+    "= 3.606e-05 kg.m2": (
+        "FILE: cage.J_p = 8.448e-05: at most 7.284e-05 kg.m2 is allowed for moments of inertia of a body, with cage.J_t "
+        "= 3.606e-05 kg.m2"
+    ),
+    "FILE: cage.J_t = 1e-05: at least 3.553e-05 kg.m2 is allowed for moments of inertia of a body, with cage.J_p = "
+    "7.12e-05 kg.m2": (
+        "FILE: cage.J_t = 1e-05: at least 3.525e-05 kg.m2 is allowed for moments of inertia of a body, with cage.J_p = "
+        "7.12e-05 kg.m2"
+    ),
+    "FILE: cage.land_width = 0.009228: at most 0.00353 m is allowed for a land that does not reach over the cage's "
+    "edge, with cage.land_x = 7.464 mm, cage.width = 18.46 mm": (
+        "FILE: cage.land_width = 0.009228: at most 0.003543 m is allowed for a land that does not reach over the cage's "
+        "edge, with cage.land_x = 7.464 mm, cage.width = 18.46 mm"
+    ),
+    "FILE: cage.land_x = '9 mm': at most 7.533 mm is allowed for a land that does not reach over the cage's edge, "
+    "with cage.land_width = 3.393 mm, cage.width = 18.46 mm": (
+        "FILE: cage.land_x = '9 mm': at most 7.539 mm is allowed for a land that does not reach over the cage's edge, "
+        "with cage.width = 18.46 mm, cage.land_width = 3.393 mm"
+    ),
+    "FILE: cage.width = 0.01613: at least 0.01832 m is allowed for a land that does not reach over the cage's edge, "
+    "with cage.land_x = 7.464 mm, cage.land_width = 3.393 mm": (
+        "FILE: cage.width = 0.01613: at least 0.01831 m is allowed for a land that does not reach over the cage's edge, "
+        "with cage.land_x = 7.464 mm, cage.land_width = 3.393 mm"
+    ),
+    "FILE: ring.J_t = 0.0001: at least 0.0002074 kg.m2 is allowed for moments of inertia of a body, with ring.J_p = "
+    "0.0004154 kg.m2": (
+        "FILE: ring.J_t = 0.0001: at least 0.0002057 kg.m2 is allowed for moments of inertia of a body, with ring.J_p = "
+        "0.0004154 kg.m2"
+    ),
+    "FILE: catalogue.bore = '55 mm': at most 49.51 mm is allowed for an inner ring below its groove, with "
+    "bearing.d_m = 65 mm, bearing.D = 15.08 mm": (
+        "FILE: catalogue.bore = '55 mm': at most 49.51 mm is allowed for an inner ring below its groove, with "
+        "bearing.d_m = 65 mm, bearing.D = 15.08 mm, bearing.P_d = 0.018 mm"
+    ),
+    "FILE: catalogue.outside_diameter = '79 mm': at least 80.49 mm is allowed for an outer ring above its groove, "
+    "with bearing.d_m = 65 mm, bearing.D = 15.08 mm": (
+        "FILE: catalogue.outside_diameter = '79 mm': at least 80.49 mm is allowed for an outer ring above its groove, "
+        "with bearing.d_m = 65 mm, bearing.D = 15.08 mm, bearing.P_d = 0.015 mm"
+    ),
+    "FILE: bearing.d_m = '75 mm': at most 74.51 mm is allowed for an outer ring above its groove, with "
+    "catalogue.outside_diameter = 90 mm, bearing.D = 15.08 mm": (
+        "FILE: bearing.d_m = '75 mm': at most 74.51 mm is allowed for an outer ring above its groove, with "
+        "catalogue.outside_diameter = 90 mm, bearing.D = 15.08 mm, bearing.P_d = 0.013 mm"
+    ),
+    "FILE: joint.preload = '900 N': at most 783.1 N is allowed for a shank that does not yield by its preload, with "
+    "rivet.shank_diameter = 1.3 mm": (
+        "FILE: joint.preload = '900 N': at most 783.1 N is allowed for a shank that does not yield by its preload, with "
+        "rivet.yield_rivet = 590 MPa, rivet.shank_diameter = 1.3 mm"
+    ),
 }
 
 

@@ -2,6 +2,7 @@
 inputs that change during a run.
 """
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -219,12 +220,12 @@ def started(folder, **changes):
     ("inputs", "reason"),
     [
         ({"oil.T": 610.0}, "oil.T = 610 K is not allowed"),
-        ({"oil.T": 205.0}, "oil.T = 205 K: the oil's viscosity is"),
-        ({"cage.T": 600.0}, "cage.T = 600 K, ring.T_e = 293.15 K: the cage's guide clearance is"),
-        ({"cage.T": 151.0, "ball.T": 560.0}, "cage.T = 151 K, ball.T = 560 K: the pockets' clearance is"),
+        ({"oil.T": 205.0}, "oil.T = 205 K, .*: there oil.eta = "),
+        ({"cage.T": 600.0}, "ring.T_e = 293.15 K, .*, cage.T = 600 K: there cage.guide_clearance = "),
+        ({"cage.T": 151.0, "ball.T": 560.0}, "ball.T = 560 K, cage.T = 151 K: there cage.pocket_clearance = "),
         (
             {"ring.T_i": 600.0, "ring.T_e": 250.0, "ball.T": 400.0},
-            "ring.T_i = 600 K, ring.T_e = 250 K, ball.T = 400 K: the bearing's clearance is",
+            "ring.T_i = 600 K, ring.T_e = 250 K, ball.T = 400 K, .*: there bearing.P_d = ",
         ),
     ],
 )
@@ -237,10 +238,10 @@ def test_temperatures_that_the_bearing_does_not_bear(folder, inputs, reason):
     statuses = [slave.try_set(name, value) for name, value in inputs.items()]
     statuses.append(slave.call("EnterInitializationMode"))
     statuses.append(slave.call("ExitInitializationMode"))
-    assert ERROR in statuses and any(reason in message for _, _, message in slave.messages), slave.messages
+    assert ERROR in statuses and any(re.search(reason, message) for _, _, message in slave.messages), slave.messages
     running = started(folder, **tight)
     statuses = [running.try_set(name, value) for name, value in inputs.items()] + [running.call("DoStep", 0.0, H, 1)]
-    assert ERROR in statuses and any(reason in message for _, _, message in running.messages)
+    assert ERROR in statuses and any(re.search(reason, message) for _, _, message in running.messages)
     with pytest.raises(ValueError, match=reason.split(" ")[0]):
         Model.of(tight, inputs)
 

@@ -1,6 +1,5 @@
 """The variable table and the files that follow from it."""
 
-import importlib.util
 import re
 import subprocess
 import sys
@@ -16,10 +15,8 @@ from bearing_model.cage.elastic.half_modes import HalfModes
 from bearing_model.generated import variables
 from bearing_model.rivet import rivet_table
 
-spec = importlib.util.spec_from_file_location("generate", ROOT / "fmus" / "generate.py")
-generate = importlib.util.module_from_spec(spec)
-sys.modules["generate"] = generate  # dataclasses look their module up
-spec.loader.exec_module(generate)
+sys.path.insert(0, str(ROOT / "fmus"))
+import generate
 
 DESCRIPTION = ROOT / "fmus" / "modelDescription.xml"
 TABLE = generate.load_table()

@@ -31,12 +31,11 @@ class Loosening:
         p.rivet.preload_factor = np.maximum(p.rivet.preload_factor - self.in_force / p.joint.preload, 0.0)
         return p
 
-    def update(self, p):
-        """Put the loss in force if that is worth it; returns whether it has been."""
-        off = np.any(
-            (self.loss - self.in_force > PRELOAD_SHARE * p.joint.preload)
-            & (self.in_force < p.joint.preload * p.rivet.preload_factor)
-        )
+    def update(self, preload, P):
+        """Put the loss in force if that is worth it; returns whether it has been.  preload: joint.preload at temperature [N], P: what
+        each rivet has of it.
+        """
+        off = np.any((self.loss - self.in_force > PRELOAD_SHARE * preload) & (P > 0.0))
         if off:
             self.in_force = self.loss.copy()
         return bool(off)

@@ -18,7 +18,6 @@ from bearing_model.generated.variables import (
     ELASTIC_SCALES,
     N_ALL_STATES,
     N_STATES,
-    PARAMETERS,
     STATE_SCALES,
     CageGuidance,
     CageShape,
@@ -29,6 +28,7 @@ from bearing_model.generated.variables import (
     Z,
 )
 from bearing_model.physics.hertz import Hertz, hertz_contact
+from bearing_model.physics.parameters import follows_mass
 from bearing_model.physics.race_surface import (
     RaceSurface,
     Spall,
@@ -195,12 +195,6 @@ def derive_pockets(p, d):
     d.pocket_cos, d.pocket_sin = np.cos(phi), np.sin(phi)
     (spheres_squeeze_derive if ribbon else pocket_squeeze_derive)(p, d)
     d.rivet_y, d.rivet_z = 0.5 * d.table.joint["d_m"] * np.cos(phi_r), 0.5 * d.table.joint["d_m"] * np.sin(phi_r)
-
-
-def follows_mass(p, name):
-    """A moment of inertia of the half: left at its start value it follows the mass, which scales the density."""
-    J, mass_ratio = getattr(p.cage, name), p.cage.m / PARAMETERS["cage.m"].start
-    return mass_ratio * J if PARAMETERS[f"cage.{name}"].start == J else J
 
 
 def derive_cage(p, d):

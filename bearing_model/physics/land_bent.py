@@ -31,7 +31,7 @@ from bearing_model.physics.hertz import hertz_damped
 from bearing_model.physics.traction import traction_asperity_share
 
 BENT_EPS = 0.9  # largest eps of the points
-FAINT = 0.02  # load on a rim over the sum of the preloads up to which its waves do not load the rivets
+FAINT_LOAD = 0.02  # load on a rim over the sum of the preloads up to which its waves do not load the rivets
 BENT_POINTS = 48
 PSI = 2.0 * np.pi * np.arange(BENT_POINTS) / BENT_POINTS
 
@@ -42,9 +42,9 @@ def smooth_part(x):
     return x * x * (3.0 - 2.0 * x)
 
 
-def film_part(d, load):
-    """Part of films of these loads [N] that are not faint: none up to FAINT times the sum of the preloads, all from twice that on."""
-    return smooth_part(load / (FAINT * np.sum(d.P) + 1e-30) - 1.0)
+def film_share(d, load):
+    """Part of films of these loads [N] that are not faint: none up to FAINT_LOAD times the sum of the preloads, all from twice that on."""
+    return smooth_part(load / (FAINT_LOAD * np.sum(d.P) + 1e-30) - 1.0)
 
 
 def bent_shapes(e, C):
@@ -70,18 +70,18 @@ def bent_dot(x, b):
     return sum(part[..., None] * shape for part, shape in zip(x, b, strict=True))
 
 
-def bent_grid(p, on):
+def bent_grid(p, pressure):
     """Shapes b, weights dtheta, gap over the clearance x, and its film's."""
-    e = np.concatenate([on.e, on.rim])
-    b, weight = bent_shapes(on.e, on.C)
-    x = (on.C[..., None] - bent_dot(e, b)) / on.C[..., None]
+    e = np.concatenate([pressure.e, pressure.rim])
+    b, weight = bent_shapes(pressure.e, pressure.C)
+    x = (pressure.C[..., None] - bent_dot(e, b)) / pressure.C[..., None]
     return b, 2.0 * np.pi / BENT_POINTS * weight, x, bent_gap(x, p.cage.g_0)
 
 
-def bent_law(p, on, V, grid):
+def bent_law(p, pressure, V, grid):
     """Forces of the film [6, ...] and rates [6, 6, ...] at the squeeze velocities V [6, ...]; load at the points."""
     b, weight, _, gap = grid
-    stiff = weight * (on.kappa_C3 / on.C**3)[..., None] / gap**3
+    stiff = weight * (pressure.kappa_C3 / pressure.C**3)[..., None] / gap**3
     W = bent_dot(V, b)
     rate = np.where(np.real(W) > 0.0, stiff, 0.0)
     load = rate * W
@@ -89,20 +89,20 @@ def bent_law(p, on, V, grid):
     return -np.sum(load * b, axis=-1), rates, load
 
 
-def bent_sums(model, on):
+def bent_sums(model, pressure):
     """Forces of film and dry contact, film's rates, int C dtheta/h, load of asperities and of all friction with n, loads,
     stored energy and its rate of the dry contact.
     """
-    p, grid = model.p, bent_grid(model.p, on)
+    p, grid = model.p, bent_grid(model.p, pressure)
     b, weight, x, gap = grid
-    film, rates, load = bent_law(p, on, np.concatenate([on.V, on.rim_V]), grid)
+    film, rates, load = bent_law(p, pressure, np.concatenate([pressure.V, pressure.rim_V]), grid)
     rough = 0.0 * load
     if p.scene.lubrication == Lubrication.MIXED:
-        thin = gap * (on.C / model.d.C_land)[..., None]
+        thin = gap * (pressure.C / model.d.C_land)[..., None]
         rough = load * traction_asperity_share(model.d.ln_land + np.log(thin))
-    pen = maximum(-x * on.C[..., None], 0.0)
-    bed = 0.75 * p.cage.K_land * np.sqrt(0.5 * on.C)[..., None] * pen * weight
-    rate = bent_dot(np.concatenate([on.v, on.rim_v]), b)
+    pen = maximum(-x * pressure.C[..., None], 0.0)
+    bed = 0.75 * p.cage.K_land * np.sqrt(0.5 * pressure.C)[..., None] * pen * weight
+    rate = bent_dot(np.concatenate([pressure.v, pressure.rim_v]), b)
     N = hertz_damped(bed, p.cage.lambda_, rate)
     return SimpleNamespace(
         film=film,
@@ -128,10 +128,10 @@ STIFF = 100.0  # change of the velocities by a film / velocities
 ROUGH = 1e-3  # part of a film's load on asperities whose friction counts
 
 
-def squeeze_slope(on, grid, by, free, V, step):
+def squeeze_slope(pressure, grid, by, free, V, step):
     """Function of s: slope of the merit sum (V - free)^2/(2 by) + Psi(V), F = -dPsi/dV, at V + s step, and what it rises by with s."""
     b, weight, _, gap = grid
-    stiff = weight * on.kappa_C3 / on.C**3 / gap**3
+    stiff = weight * pressure.kappa_C3 / pressure.C**3 / gap**3
     W, w, held = bent_dot(V, b), bent_dot(step, b), by > 0.0  # a shape that no mode has stays
     slope = np.sum((step * (V - free))[held] / by[held])
     rise = np.sum(step[held] ** 2 / by[held])
@@ -157,51 +157,51 @@ def squeeze_part(slope_at):
     return s
 
 
-def squeeze_step(on, grid, by, free, shorten, V, F, D):
+def squeeze_step(pressure, grid, by, free, shorten, V, F, D):
     """A step of Newton's method from V by the force F and the rates D there, `shorten`: as long as the merit falls.  Returns V, F behind it
     by that law, and whether the law holds there or the step has left the model's range.
     """
     step = np.linalg.solve(np.eye(6) + by[:, None] * D, free + by * F - V)
     fine = np.all(np.isfinite(step))
-    part = squeeze_part(squeeze_slope(on, grid, by, free, V, step)) if shorten and fine else 1.0
+    part = squeeze_part(squeeze_slope(pressure, grid, by, free, V, step)) if shorten and fine else 1.0
     after, F = V + part * step, F - D @ (part * step)
-    W, stiff = bent_dot(after, grid[0]), grid[1] * on.kappa_C3 / on.C**3 / grid[3] ** 3
+    W, stiff = bent_dot(after, grid[0]), grid[1] * pressure.kappa_C3 / pressure.C**3 / grid[3] ** 3
     missed = np.sum(np.where((W > 0.0) != (bent_dot(V, grid[0]) > 0.0), stiff * np.abs(W), 0.0))
     return after, F, not fine or (part == 1.0 and missed <= MISSED * np.max(np.abs(F)))
 
 
-def squeeze_find(p, on, by, free, V, grid):
+def squeeze_find(p, pressure, by, free, V, grid):
     """V = free + by F(V) from a guess V [6]; returns V, the force F and its rates D."""
     for iteration in range(MOST_ITERATIONS):
-        F, D, _ = bent_law(p, on, V, grid)
-        V, F, done = squeeze_step(on, grid, by, free, iteration >= WHOLE, V, F, D)
+        F, D, _ = bent_law(p, pressure, V, grid)
+        V, F, done = squeeze_step(pressure, grid, by, free, iteration >= WHOLE, V, F, D)
         if done:
             break
     return V, F, D
 
 
-def bent_foresee(p, on, by, before, film, rough):
+def bent_foresee(p, pressure, by, before, film, rough):
     """Whether the film [6] of a half at the predicted velocities has to be foreseen: it would change them a hundred times over in the step,
-    by: change per force [6], or asperities bear a part of it, rough [N]; then on.V and on.rim_V become the velocities at the step's end by
+    by: change per force [6], or asperities bear a part of it, rough [N]; then pressure.V and pressure.rim_V become the velocities at the step's end by
     the film, which had the forces `before` at its start.
     """
-    start = np.concatenate([on.V, on.rim_V])
+    start = np.concatenate([pressure.V, pressure.rim_V])
     if np.max(np.abs(by * film)) <= STIFF * np.max(np.abs(start)) and rough <= ROUGH * np.max(np.abs(film)):
         return False
-    V, _, _ = squeeze_find(p, on, by, start - by * before, start, bent_grid(p, on))
-    on.V, on.rim_V = V[:2], V[2:]
+    V, _, _ = squeeze_find(p, pressure, by, start - by * before, start, bent_grid(p, pressure))
+    pressure.V, pressure.rim_V = V[:2], V[2:]
     return True
 
 
-def bent_solve(p, on, gamma, by, residual, V):
+def bent_solve(p, pressure, gamma, by, residual, V):
     """The implicit step of one land and its bent rim: velocities change by the residual [6] with the film's force at the
-    evaluation, and by times what the law has at the end beyond it.  on: of this half; by: change of the velocities per force [6];
+    evaluation, and by times what the law has at the end beyond it.  pressure: of this half; by: change of the velocities per force [6];
     V: squeeze velocities to begin with [6].
 
     Returns squeeze velocities, their change, impulse of the film and its force [6], its rates [6, 6].
     """
-    start, grid = np.concatenate([on.V, on.rim_V]), bent_grid(p, on)
-    free, known = start + residual - by * on.film, bent_law(p, on, on.at, grid)[1]
-    first, film, done = squeeze_step(on, grid, by, free, False, on.at, on.film, known)
-    V, film, D = (first, film, known) if done else squeeze_find(p, on, by, free, V, grid)
-    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (on.film - film), film=film, rates=D)
+    start, grid = np.concatenate([pressure.V, pressure.rim_V]), bent_grid(p, pressure)
+    free, known = start + residual - by * pressure.film, bent_law(p, pressure, pressure.at, grid)[1]
+    first, film, done = squeeze_step(pressure, grid, by, free, False, pressure.at, pressure.film, known)
+    V, film, D = (first, film, known) if done else squeeze_find(p, pressure, by, free, V, grid)
+    return SimpleNamespace(V=V, change=V - start, impulse=gamma * (pressure.film - film), film=film, rates=D)

@@ -52,7 +52,7 @@ from bearing_model.physics.land_bent import (
     bent_foresee,
     bent_grid,
     bent_sums,
-    film_part,
+    film_share,
 )
 from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
@@ -181,7 +181,7 @@ class LandPressure:
     film: np.ndarray = None  # force of the film on land and rim [6, ..., half] [N]
     rim_force: np.ndarray = None  # all force on the rim's shapes [N]
     dry: np.ndarray = None  # load of the dry contact [N]
-    still: np.ndarray = None  # part of the film's other waves
+    felt: np.ndarray = None  # share of the pressure that bends the rim and loads the rivets
 
     def of(self, h):
         """That of one half, of one state."""
@@ -191,14 +191,18 @@ class LandPressure:
 
 def land_film_loads(model, w):
     """Harmonics of the loads on bent rims that are not faint [N], two [..., half, LAND_HIGHEST + 1]: Re and Im G_p."""
-    on = w.pressure
-    b, weight, x, gap = bent_grid(model.p, on)
-    film = weight * maximum(bent_dot(np.concatenate([on.V, on.rim_V]), b), 0.0) / gap**3
+    pressure = w.pressure
+    b, weight, x, gap = bent_grid(model.p, pressure)
+    film = weight * maximum(bent_dot(np.concatenate([pressure.V, pressure.rim_V]), b), 0.0) / gap**3
     dry, waves = weight * maximum(-x, 0.0), harmonics_at(b[0], b[1])
     G, B = ([np.sum(load[..., None] * wave, axis=-2) for wave in waves] for load in (film, dry))
     F_y, F_z = G[0][..., 1], G[1][..., 1]
-    size = -on.still * maximum(-(on.film[0] * F_y + on.film[1] * F_z), 0.0) / (F_y * F_y + F_z * F_z + 1e-30)
-    bed = -on.still * on.dry / (B[0][..., 0] + 1e-30)
+    size = (
+        -pressure.felt
+        * maximum(-(pressure.film[0] * F_y + pressure.film[1] * F_z), 0.0)
+        / (F_y * F_y + F_z * F_z + 1e-30)
+    )
+    bed = -pressure.felt * pressure.dry / (B[0][..., 0] + 1e-30)
     return tuple(size[..., None] * by_film + bed[..., None] * by_dry for by_film, by_dry in zip(G, B, strict=True))
 
 
@@ -207,32 +211,32 @@ def turn_rates(T, D):
     return np.einsum("ik...,ij...,jl...->kl...", T, D, T)
 
 
-def foreseen(p, w, on, film, rough):
+def foreseen(p, w, pressure, film, rough):
     """The pressure with the velocities of the step's end, where films have to be foreseen; None where no film has."""
     seen = None
     for h in range(2) if w.squeeze_by is not None else ():
-        half = on.of(h)
+        half = pressure.of(h)
         if not bent_foresee(
             p, half, w.squeeze_by[h], w.squeeze_from[h], np.squeeze(film[..., h]), np.squeeze(rough[..., h])
         ):
             continue
-        seen = seen or replace(on, V=on.V.copy(), rim_V=on.rim_V.copy())
+        seen = seen or replace(pressure, V=pressure.V.copy(), rim_V=pressure.rim_V.copy())
         seen.V[..., h], seen.rim_V[..., h] = (
-            x.reshape(of.shape) for x, of in ((half.V, on.V[..., h]), (half.rim_V, on.rim_V[..., h]))
+            x.reshape(of.shape) for x, of in ((half.V, pressure.V[..., h]), (half.rim_V, pressure.rim_V[..., h]))
         )
     return seen
 
 
-def bent_lands(model, w, on, back, motion, heated):
-    """What lands whose rims bend do to their halves.  back: from the halves' axes to the outer ring's [2, 2, ..., half]; motion: velocities
+def bent_lands(model, w, pressure, back, motion, heated):
+    """Forces of lands whose rims bend on their halves.  back: from the halves' axes to the outer ring's [2, 2, ..., half]; motion: velocities
     (y, z) and speed of the lands against the outer ring; heated: viscosity of the film / eta.
     """
     p, d, (v_y, v_z, omega) = model.p, model.d, motion
-    sums = bent_sums(model, on)
-    seen = foreseen(p, w, on, sums.film, sums.rough) or on
-    if seen is not on:
+    sums = bent_sums(model, pressure)
+    seen = foreseen(p, w, pressure, sums.film, sums.rough) or pressure
+    if seen is not pressure:
         sums = bent_sums(model, seen)
-    on.at = np.concatenate([seen.V, seen.rim_V])
+    pressure.at = np.concatenate([seen.V, seen.rim_V])
 
     # friction of dry contact and asperities, in a direction as that of a round land
     R = 0.5 * p.cage.D_o
@@ -241,20 +245,20 @@ def bent_lands(model, w, on, back, motion, heated):
     u_y, u_z = along / size
     slip = v_z * u_y - v_y * u_z + omega * R
     g = p.cage.mu_land / np.sqrt(slip * slip + p.cage.v_c**2)
-    torque = heated * d.couette * d.C_land / on.C * (0.5 / np.pi) * sums.couette
+    torque = heated * d.couette * d.C_land / pressure.C * (0.5 / np.pi) * sums.couette
     F = np.einsum("ki...,i...->k...", back, sums.film[:2] + sums.dry[:2]) + g * slip * size * np.array([u_z, -u_y])
-    on.film, on.dry, on.rim_force = sums.film, sums.N, sums.film[2:] + sums.dry[2:]
-    on.still = film_part(d, np.sqrt(sums.film[0] ** 2 + sums.film[1] ** 2 + 1e-30) + sums.N)
+    pressure.film, pressure.dry, pressure.rim_force = sums.film, sums.N, sums.film[2:] + sums.dry[2:]
+    pressure.felt = film_share(d, np.sqrt(sums.film[0] ** 2 + sums.film[1] ** 2 + 1e-30) + sums.N)
     return SimpleNamespace(
         F_y=F[0],
         F_z=F[1],
-        M_x=-R * g * slip * sums.rubbing - torque * omega + np.sum(sums.film * on.by_spin, axis=0),
+        M_x=-R * g * slip * sums.rubbing - torque * omega + np.sum(sums.film * pressure.by_spin, axis=0),
         N_0=sums.N_0,
         spin=R * R * g * sums.rubbing + torque,
         stored=sums.stored,
         stored_rate=sums.stored_rate,
         rates=turn_rates(np.swapaxes(back, 0, 1), sums.rates[:2, :2]),
-        on_rim=np.sum(on.rim_force * on.rim_v, axis=0),
+        on_rim=np.sum(pressure.rim_force * pressure.rim_v, axis=0),
     )
 
 
@@ -270,9 +274,9 @@ def rim_squeeze(model, w, e, omega):
     return rim, rim_v, rim_v + omega * by_spin[2:], by_spin
 
 
-def round_lands(model, e, V, motion, C, heated):
-    """What lands whose rims are round do to their halves; for the loads on the rims gap function and size of the film's force."""
-    p, d, (e_y, e_z), (V_y, V_z), (v_y, v_z, omega) = model.p, model.d, e, V, motion
+def round_film(model, e, V, C, heated):
+    """Film of round lands: distance e, gap function q^2 and the film itself; eps = e/C, and the clearance at rest over C."""
+    p, d, (e_y, e_z), (V_y, V_z) = model.p, model.d, e, V
     e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
     narrow = d.C_land / C
     eps = e / C
@@ -280,36 +284,48 @@ def round_lands(model, e, V, motion, C, heated):
     q2 = land_film_gap(eps, p.cage.g_0)
     film = journal_film((e_y, e_z), (V_y, V_z), cap, q2, d.kappa * heated * narrow**3)
     F_y, F_z = film.force(V_y, V_z)
-    couette = d.couette * heated / np.sqrt(q2) * narrow
-    size = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
+    lands = SimpleNamespace(e=e, u_y=e_y / e, u_z=e_z / e, eps=eps, narrow=narrow, q2=q2, film=film, F_y=F_y, F_z=F_z)
+    lands.couette = d.couette * heated / np.sqrt(q2) * narrow
+    lands.size = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
+    return lands
 
-    # dry contact and friction where the gap is smallest; with mixed lubrication the asperities carry their share of the
-    # film force too
-    u_y, u_z = e_y / e, e_z / e
-    pen, pen_dot = e - C, v_y * u_y + v_z * u_z
-    N_0 = hertz_load(p.cage.K_land, pen)
-    N = hertz_damped(N_0, p.cage.lambda_, pen_dot)
-    N_mu = N
+
+def round_contact(model, motion, C, lands):
+    """Dry contact where the gap is smallest; with mixed lubrication the asperities carry their share of the film force too."""
+    p, (v_y, v_z, _) = model.p, motion
+    lands.pen, lands.pen_dot = lands.e - C, v_y * lands.u_y + v_z * lands.u_z
+    lands.N_0 = hertz_load(p.cage.K_land, lands.pen)
+    lands.N = lands.N_mu = hertz_damped(lands.N_0, p.cage.lambda_, lands.pen_dot)
     if p.scene.lubrication == Lubrication.MIXED:
-        ln_Lambda = d.ln_land + np.log(q2 / (narrow * (1.0 + eps)))
-        N_mu = N + traction_asperity_share(ln_Lambda) * np.sqrt(F_y * F_y + F_z * F_z)
-    R = 0.5 * p.cage.D_o
-    slip = v_z * u_y - v_y * u_z + omega * R  # along t = e_x x u
-    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
+        ln_Lambda = model.d.ln_land + np.log(lands.q2 / (lands.narrow * (1.0 + lands.eps)))
+        by_film = np.sqrt(lands.F_y * lands.F_y + lands.F_z * lands.F_z)
+        lands.N_mu = lands.N + traction_asperity_share(ln_Lambda) * by_film
+
+
+def round_lands(model, e, V, motion, C, heated):
+    """Forces of lands whose rims are round on their halves; for the loads on the rims gap function and size of the film's force."""
+    p, (e_y, e_z), (v_y, v_z, omega) = model.p, e, motion
+    lands = round_film(model, e, V, C, heated)
+    round_contact(model, motion, C, lands)
+
+    # friction along t = e_x x u
+    F_y, F_z, N, u_y, u_z, R = lands.F_y, lands.F_z, lands.N, lands.u_y, lands.u_z, 0.5 * p.cage.D_o
+    slip = v_z * u_y - v_y * u_z + omega * R
+    g = p.cage.mu_land * lands.N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
     F_t = -g * slip
-    yy, yz, zz = (rate + 0.0 * e for rate in film.rates().values())
+    yy, yz, zz = (rate + 0.0 * lands.e for rate in lands.film.rates().values())
     return SimpleNamespace(
         F_y=F_y - N * u_y - F_t * u_z,
         F_z=F_z - N * u_z + F_t * u_y,
-        M_x=R * F_t - couette * omega + 0.5 * (F_y * e_z - F_z * e_y),
-        N_0=N_0,
-        spin=couette + g * R * R,
-        stored=hertz_energy(p.cage.K_land, pen),
-        stored_rate=N_0 * pen_dot,
+        M_x=R * F_t - lands.couette * omega + 0.5 * (F_y * e_z - F_z * e_y),
+        N_0=lands.N_0,
+        spin=lands.couette + g * R * R,
+        stored=hertz_energy(p.cage.K_land, lands.pen),
+        stored_rate=lands.N_0 * lands.pen_dot,
         rates=np.array([[yy, yz], [yz, zz]]),
         on_rim=0.0,
-        q2=q2 + 0.0 * e,
-        size=size,
+        q2=lands.q2 + 0.0 * lands.e,
+        size=lands.size,
         dry=N,
     )
 
@@ -320,6 +336,17 @@ def no_land(w):
     w.land_elastic = w.land_dissipated = w.land_growth = none
     w.film = [SimpleNamespace(yy=none, yz=none, zz=none, spin=none) for _ in range(2)]
     w.land = w.pressure = None
+
+
+def land_motion(outer, h0, h1, x_land):
+    """Position and velocity of the middle of each land, x + a x_land and v + Omega x a x_land = v + a_dot x_land, and its speed, against
+    the outer ring along its axes.
+    """
+    axis, axis_dot = wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
+    arm = wide_pair(h0.x, h1.x) + x_land * axis - outer.x
+    velocity = wide_pair(h0.v, h1.v) + x_land * axis_dot - outer.v - vec_cross(outer.Omega, arm)
+    along = (vec_dot(value, axis_of) for value in (arm, velocity) for axis_of in (outer.b_y, outer.b_z))
+    return (*along, vec_dot(wide_pair(h0.Omega, h1.Omega) - outer.Omega, outer.a))
 
 
 def land_film_force(model, w):
@@ -337,14 +364,8 @@ def land_film_force(model, w):
     h0, h1 = w.half
     x_land = np.array([-p.cage.land_x, p.cage.land_x])
 
-    # position and velocity of the middle of each land, x + a x_land and v + Omega x a x_land = v + a_dot x_land,
-    # against the outer ring along its axes
-    outer, axis, axis_dot = outer_ring(model.ring_load, h0.s), wide_pair(h0.a, h1.a), wide_pair(h0.a_dot, h1.a_dot)
-    arm = wide_pair(h0.x, h1.x) + x_land * axis - outer.x
-    velocity = wide_pair(h0.v, h1.v) + x_land * axis_dot - outer.v - vec_cross(outer.Omega, arm)
-    e_y, e_z, v_y, v_z = (vec_dot(value, axis_of) for value in (arm, velocity) for axis_of in (outer.b_y, outer.b_z))
-    omega = vec_dot(wide_pair(h0.Omega, h1.Omega) - outer.Omega, outer.a)
-
+    outer = outer_ring(model.ring_load, h0.s)
+    e_y, e_z, v_y, v_z, omega = land_motion(outer, h0, h1, x_land)
     V_y, V_z = v_y + 0.5 * omega * e_z, v_z - 0.5 * omega * e_y
     spin = wide_pair(h0.s, h1.s) + w.frame_omega  # in space
     C, none = land_clearance(d, spin), 0.0 * (e_y + V_y)
@@ -359,23 +380,21 @@ def land_film_force(model, w):
     motion, w.land, w.pressure = (v_y, v_z, omega), None, None
     if model.modes:
         kappa_C3 = d.kappa * heated * d.C_land**3
-        w.pressure = on = LandPressure(
-            e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, e_h, omega + none)
-        )
-        does = bent_lands(model, w, on, np.swapaxes(T, 0, 1), motion, heated)
+        w.pressure = LandPressure(e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, e_h, omega + none))
+        force = bent_lands(model, w, w.pressure, np.swapaxes(T, 0, 1), motion, heated)
     else:
-        does = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)
-        w.land = land_load(e_h, V_h, does.q2, does.size, does.dry)
+        force = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)
+        w.land = land_load(e_h, V_h, force.q2, force.size, force.dry)
 
-    power = does.F_y * v_y + does.F_z * v_z + does.M_x * omega + does.on_rim
-    w.land_elastic = ball_array_sum(does.stored)
-    w.land_growth = does.N_0 * land_growth_rate(d, spin)
-    w.land_dissipated = -ball_array_sum(power + does.stored_rate)
-    rates = {"yy": does.rates[0, 0], "yz": does.rates[0, 1], "zz": does.rates[1, 1], "spin": does.spin}
+    power = force.F_y * v_y + force.F_z * v_z + force.M_x * omega + force.on_rim
+    w.land_elastic = ball_array_sum(force.stored)
+    w.land_growth = force.N_0 * land_growth_rate(d, spin)
+    w.land_dissipated = -ball_array_sum(power + force.stored_rate)
+    rates = {"yy": force.rates[0, 0], "yz": force.rates[0, 1], "zz": force.rates[1, 1], "spin": force.spin}
     w.film = [SimpleNamespace(**{name: rate[..., h : h + 1] for name, rate in rates.items()}) for h in range(2)]
 
-    F = does.F_y * outer.b_y + does.F_z * outer.b_z
-    M = does.M_x * outer.a + vec_cross(x_land * axis, F)
+    F = force.F_y * outer.b_y + force.F_z * outer.b_z
+    M = force.M_x * outer.a + vec_cross(x_land * wide_pair(h0.a, h1.a), F)
     for h, half in enumerate(w.half):
         half.F = half.F + F[..., h : h + 1]
         half.M = half.M + M[..., h : h + 1]

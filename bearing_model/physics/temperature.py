@@ -22,8 +22,9 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from bearing_model.generated.variables import PARAMETERS, CageShape
-from bearing_model.physics.parameters import largest_clearance, require
+from bearing_model.generated.limits import LIMITS
+from bearing_model.generated.variables import PARAMETERS
+from bearing_model.physics.parameters import check_limits, require, value_of
 from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_housing, ring_fit_outside
 from bearing_model.physics.viscosity import Oil
 from bearing_model.rivet.rivet_rom import joint_fit, joint_preload
@@ -118,20 +119,10 @@ def check_temperatures(u, hot):
     Viscosity within its limits, cage neither on the outer ring nor on the balls, no interference beyond what parameters
     may have.
     """
-    eta, guide = PARAMETERS["oil.eta"], PARAMETERS["cage.guide_clearance"]
-    clearances, P_d, least, most = hot.cage, hot.bearing.P_d, -0.01 * hot.bearing.D, largest_clearance(hot)
-    there = f"the oil's viscosity is {hot.oil.eta:g} Pa.s there; {eta.min:g} ... {eta.max:g} is allowed"
-    require(eta.min <= hot.oil.eta <= eta.max, f"oil.T = {u.oil.T:g} K: {there}")
-    there = f"the cage's guide clearance is {clearances.guide_clearance:g} m there; at least {guide.min:g} m is allowed"
-    require(clearances.guide_clearance >= guide.min, f"cage.T = {u.cage.T:g} K, ring.T_e = {u.ring.T_e:g} K: {there}")
-    there = f"the pockets' clearance is {clearances.pocket_clearance:g} m there; at least 0 m is allowed"
-    require(clearances.pocket_clearance >= 0.0, f"cage.T = {u.cage.T:g} K, ball.T = {u.ball.T:g} K: {there}")
-    depth, R = clearances.pocket_depth, 0.5 * hot.bearing.D
-    there = f"cage.pocket_depth is {depth:g} m there; more than bearing.D/2 = {R:g} m is allowed"
-    fits = clearances.shape != CageShape.RIBBON or depth > R
-    require(fits, f"cage.T = {u.cage.T:g} K, ball.T = {u.ball.T:g} K: {there}")
-    there = f"the bearing's clearance is {P_d:g} m there; {least:g} ... {most:g} m is allowed"
-    require(
-        least < P_d < most,
-        f"ring.T_i = {u.ring.T_i:g} K, ring.T_e = {u.ring.T_e:g} K, ball.T = {u.ball.T:g} K: {there}",
-    )
+    names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
+    there = ", ".join(f"{name} = {value_of(u, name):g} K" for name in names) + ": there "
+    for name in ("oil.eta", "cage.guide_clearance", "cage.pocket_clearance"):
+        v, value = PARAMETERS[name], value_of(hot, name)
+        limits = f"it must lie in [{v.min:.10g}, {v.max:.10g}]"
+        require(v.min <= value <= v.max, f"{there}{name} = {value:.10g} {v.unit} is not allowed: {limits}")
+    check_limits(hot, [limit for limit in LIMITS if limit.quantity in ("cage.pocket_depth", "bearing.P_d")], there)

@@ -24,7 +24,7 @@ from bearing_model.instance.outputs import outputs, pocket_loads
 from bearing_model.instance.statistics import StatisticsChannel
 from bearing_model.physics.hertz import hertz_energy
 from bearing_model.physics.model import Model, Work
-from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters, check_guidance
+from bearing_model.physics.parameters import InputDerivatives, Inputs, Parameters, check_run
 from bearing_model.physics.rhs import jacobian, rhs
 from bearing_model.physics.ring_fit import ring_fit_growth, ring_fit_speed
 from bearing_model.physics.ring_load import (
@@ -302,7 +302,7 @@ def simulate(
         raise ValueError(
             f"ball[{spalled[0] + 1}].spall_length: the FMU alone follows the turn of a ball; 0 m is allowed"
         )
-    check_guidance(Parameters(parameters))
+    check_run(Parameters(parameters))
     p, held = Parameters(parameters), inputs if callable(inputs) else lambda t: inputs
     slopes = derivatives or (lambda t: ({}, {}))
     here = input_trajectory_update(
@@ -357,7 +357,7 @@ def simulate(
             run.y = ring_follow(model.ring_load, run.y)
         model, further = at_temperature(record.standing, model, given[0], here.u[0], run, table)
         energy_start += expansion + further
-        if record.loosening.update(p):
+        if record.loosening.update(model.p.joint.preload, model.d.P):
             model, jump = rederive(record, model, here.u[0], run, table, ledger)
             energy_change += jump
         if record.break_rivets(run.t):

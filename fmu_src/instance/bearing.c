@@ -132,11 +132,12 @@ static Event energy_event(Bearing *b)
     return event_of_energy(&balance);
 }
 
-// What follows from predicted velocities is no reason to warn.
-void events_here(Bearing *b, Event now[EVENT_COUNT])
+// All kinds of events at the state whose results are w.  An energy that predicted velocities put off is no reason to warn.
+static void events_here(Bearing *b)
 {
     const InstanceState *s = &b->s;
     const IntegratorState *i = &s->integrator;
+    Event *now = b->events;
     events_now(&b->model, &b->w, &s->lag, i->error_mean, s->force_peak, s->head_peak, s->mid_peak, now);
     now[EVENT_RIVET_BREAK].count = s->breakage.latest;
     now[EVENT_ENERGY_OFF] = energy_event(b);
@@ -145,12 +146,13 @@ void events_here(Bearing *b, Event now[EVENT_COUNT])
     now[EVENT_ENERGY_OFF] = energy_event(b);
 }
 
-// Reports the events that begin at the state just reached; w holds the results there.
+// Reports the events that begin at the state just reached; w holds the results there, of predicted velocities.  Outputs are of
+// those at the communication point, by which a count may differ: their events are evaluated again.
 static void report_events(Bearing *b)
 {
     InstanceState *s = &b->s;
-    Event now[EVENT_COUNT];
-    events_here(b, now);
+    const Event *now = b->events;
+    events_here(b);
     for (EventKind kind = 0; kind < EVENT_COUNT; kind++) {
         if (!event_onset(&s->event, kind, &now[kind]) || kind == EVENT_RIVET_BREAK) continue;
         char text[256];
@@ -356,7 +358,8 @@ static void change_parameters(Bearing *b, const Inputs *u)
 static void loosen(Bearing *b)
 {
     InstanceState *s = &b->s;
-    if (loosening_update(&s->p, &s->loosening)) rederive(b, &s->u_now, present_energy(b));
+    if (loosening_update(b->hot.joint.preload, b->d.P, &s->loosening))
+        rederive(b, &s->u_now, present_energy(b));
 }
 
 // Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
@@ -602,6 +605,7 @@ void part_update(Bearing *b, OutputGroup group)
 {
     if (b->current >> group & 1u) return;
     evaluate(b);
+    if (group == GROUP_EVENT) events_here(b);
     outputs_fill(b, group);
     b->current |= 1u << group;
 }

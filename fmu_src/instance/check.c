@@ -13,12 +13,6 @@
 #include <stddef.h>
 #include <stdio.h>
 
-// Clearance at which a ball on one race reaches the other groove's far side.
-static double largest_clearance(const Parameters *p)
-{
-    return 4.0 * (fmin(p->bearing.f_i, p->bearing.f_e) - 0.5) * p->bearing.D;
-}
-
 static void report_error(void *bearing, const char *message)
 {
     bearing_log(bearing, LOG_ERROR, "%s", message);
@@ -85,51 +79,39 @@ static bool check_motions(Bearing *b, double h)
     return check_reached(b, &end);
 }
 
+// Parameters at temperatures: for their refusals.
+typedef struct {
+    Bearing *b;
+    const Inputs *u;
+} Hot;
+
+static void report_hot(void *context, const char *message)
+{
+    const Hot *hot = context;
+    const Inputs *u = hot->u;
+    bearing_log(hot->b, LOG_ERROR,
+                "oil.T = %g K, ring.T_i = %g K, ring.T_e = %g K, ball.T = %g K, cage.T = %g K: there %s",
+                u->oil.T, u->ring.T_i, u->ring.T_e, u->ball.T, u->cage.T, message);
+}
+
 // Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the
 // outer ring nor on the balls, no interference beyond what parameters may have.
 static bool check_temperatures(Bearing *b, const Inputs *u)
 {
-    const Variable *eta = variable_named("oil.eta"), *guide = variable_named("cage.guide_clearance");
+    static const char *const VALUES[] = {"oil.eta", "cage.guide_clearance", "cage.pocket_clearance"};
     Parameters hot;
+    Hot context = {b, u};
     temperature_apply(&b->s.p, u, &hot);
     bool fine = true;
-    if (!(hot.oil.eta >= eta->min && hot.oil.eta <= eta->max)) {
-        bearing_log(b, LOG_ERROR, "oil.T = %g K: the oil's viscosity is %g Pa.s there; %g ... %g is allowed",
-                    u->oil.T, hot.oil.eta, eta->min, eta->max);
+    for (size_t i = 0; i < sizeof VALUES / sizeof *VALUES; i++) {
+        char message[512];
+        const Variable *v = variable_named(VALUES[i]);
+        if (variable_allows(v, 0, variable_value(v, 0, &hot), message, sizeof message)) continue;
+        report_hot(&context, message);
         fine = false;
     }
-    if (!(hot.cage.guide_clearance >= guide->min)) {
-        bearing_log(
-            b, LOG_ERROR,
-            "cage.T = %g K, ring.T_e = %g K: the cage's guide clearance is %g m there; at least %g m is "
-            "allowed",
-            u->cage.T, u->ring.T_e, hot.cage.guide_clearance, guide->min);
-        fine = false;
-    }
-    if (!(hot.cage.pocket_clearance >= 0.0)) {
-        bearing_log(
-            b, LOG_ERROR,
-            "cage.T = %g K, ball.T = %g K: the pockets' clearance is %g m there; at least 0 m is allowed",
-            u->cage.T, u->ball.T, hot.cage.pocket_clearance);
-        fine = false;
-    }
-    if (hot.cage.shape == CAGE_SHAPE_RIBBON && !(hot.cage.pocket_depth > 0.5 * hot.bearing.D)) {
-        bearing_log(b, LOG_ERROR,
-                    "cage.T = %g K, ball.T = %g K: cage.pocket_depth is %g m there; more than bearing.D/2 = "
-                    "%g m is allowed",
-                    u->cage.T, u->ball.T, hot.cage.pocket_depth, 0.5 * hot.bearing.D);
-        fine = false;
-    }
-    const double least = -0.01 * hot.bearing.D, most = largest_clearance(&hot);
-    if (!(hot.bearing.P_d > least && hot.bearing.P_d < most)) {
-        bearing_log(
-            b, LOG_ERROR,
-            "ring.T_i = %g K, ring.T_e = %g K, ball.T = %g K: the bearing's clearance is %g m there; %g ... "
-            "%g m is allowed",
-            u->ring.T_i, u->ring.T_e, u->ball.T, hot.bearing.P_d, least, most);
-        fine = false;
-    }
-    return fine;
+    fine &= limits_hold(&hot, "cage.pocket_depth", report_hot, &context);
+    return limits_hold(&hot, "bearing.P_d", report_hot, &context) && fine;
 }
 
 // Inputs are polynomials of second order: their extremes are at the ends of the step or where their slope
@@ -168,325 +150,39 @@ static bool check_cage(Bearing *b)
     return refusal == NULL;
 }
 
-// Share by which the moments of inertia may miss their bounds: numbers of three digits are rounded.
-static const double ROUNDED = 0.01;
-
-// Mass of the lightest half, as a part of that of a ring which fills its space.
-static const double LIGHTEST_HALF = 0.25;
-
-// Triangle rule, J_p = 2 J_t - 2 m <x^2> with <x^2> the mean square of the axial distance from the centre of mass.
-static bool check_triangle(Bearing *b, const char *part, double J_p, double J_t)
+// Fills in the sizes that 0 leaves to a rule and the moments of inertia that follow the mass.
+static Parameters in_force(const Parameters *given)
 {
-    const double most = (1.0 + ROUNDED) * 2.0 * J_t;
-    if (J_p <= most) return true;
-    bearing_log(b, LOG_ERROR,
-                "%s.J_p = %g kg.m2: no body has this beside %s.J_t = %g kg.m2; at most 2 J_t = %g kg.m2 is "
-                "allowed",
-                part, J_p, part, J_t, most);
-    return false;
+    Parameters p = *given;
+    cage_half_inertia(given, &p.cage.J_p, &p.cage.J_t);
+    p.ring.bore = ring_fit_bore(given);
+    p.ring.outside = ring_fit_outside(given);
+    p.ring.effective_i = ring_fit_effective_i(given);
+    p.ring.effective_e = ring_fit_effective_e(given);
+    if (p.cage.shape == CAGE_SHAPE_RIBBON) p.cage.pocket_edge = spheres_edge(given);
+    return p;
 }
 
-// Checks that bodies can have the moments of inertia.  A body that is too easy to turn would need very short steps.
-//
-//   cage half  no heavier than a ring that fills its space, of the largest cage.rho, no lighter than LIGHTEST_HALF of one
-//              of the smallest;  J_t at most that of a body of twice the size, m (D_o^2 + width^2);
-//              its mass lies between the radii D_i/2 and D_o/2: m D_i^2/4 <= J_p <= m D_o^2/4;  J_p <= 2 J_t.
-//              Values left at their start follow the mass (derived.c).
-//   ring       with its share of the shaft J_p <= 2 J_t.  Where loads tilt it, J_p is at least that of a solid shaft
-//              of half the bore, m (bore/4)^2/2.  A disk on the shaft may have any J_p.
-static bool check_bodies(Bearing *b)
+// Checks that the rims of a ribbon's pocket leave a sphere between them; the angles of the seams follow from the pocket's law.
+static bool check_seams(Bearing *b)
 {
-    const Parameters *p = &b->s.p;
-    const double m = p->cage.m, bore = ring_fit_bore(p);
-    const double least = (1.0 - ROUNDED) * 0.25 * m * p->cage.D_i * p->cage.D_i;
-    const double most = (1.0 + ROUNDED) * 0.25 * m * p->cage.D_o * p->cage.D_o;
-    const double shaft = (1.0 - ROUNDED) * p->ring.m * bore * bore / 32.0;
-    double J_p, J_t;
-    cage_half_inertia(p, &J_p, &J_t);
-    const Variable *rho = variable_named("cage.rho");
-    const double D_o_2 = p->cage.D_o * p->cage.D_o, widest = m * (D_o_2 + p->cage.width * p->cage.width);
-    const double ring = 0.125 * PI * (D_o_2 - p->cage.D_i * p->cage.D_i) * p->cage.width;
-    if (!(m >= LIGHTEST_HALF * rho->min * ring && m <= rho->max * ring)) {
-        bearing_log(b, LOG_ERROR,
-                    "cage.m = %g kg: no half between cage.D_i, cage.D_o and cage.width has this mass; %g ... "
-                    "%g kg is allowed",
-                    m, LIGHTEST_HALF * rho->min * ring, rho->max * ring);
-        return false;
-    }
-    bool fine = J_p >= least && J_p <= most;
-    if (!fine)
-        bearing_log(b, LOG_ERROR,
-                    "cage.J_p = %g kg.m2: not of a half of cage.m = %g kg between cage.D_i and cage.D_o; "
-                    "%g ... %g kg.m2 is allowed",
-                    J_p, m, least, most);
-    fine = fine && check_triangle(b, "cage", J_p, J_t);
-    fine = fine &&
-           require(b, J_t <= widest,
-                   "cage.J_t = %g kg.m2: at most cage.m (cage.D_o^2 + cage.width^2) = %g kg.m2 is allowed",
-                   J_t, widest);
-    fine &= check_triangle(b, "ring", p->ring.J_p, p->ring.J_t);
-    if (p->ring.motion == RING_MOTION_FREE && p->ring.tilt_mode != TILT_MODE_PRESCRIBED)
-        fine &= require(b, p->ring.J_p >= shaft,
-                        "ring.J_p = %g kg.m2: at least %g kg.m2 is allowed, ring.m (ring.bore/4)^2/2 of a "
-                        "solid shaft of half the bore",
-                        p->ring.J_p, shaft);
-    return fine;
-}
-
-// Checks that the cage is guided as its shape can be: pockets with radial axes do not hold a machined cage radially, and a
-// ribbon has no land.
-static bool check_guidance(Bearing *b)
-{
-    const bool ribbon = b->s.p.cage.shape == CAGE_SHAPE_RIBBON;
-    if (ribbon == (b->s.p.cage.guidance == CAGE_GUIDANCE_BALLS)) return true;
-    bearing_log(
-        b, LOG_ERROR, "%s",
-        ribbon ? "cage.guidance = outer: a ribbon cage has no land on the outer ring; balls (2) is allowed"
-               : "cage.guidance = 2 (balls): a machined cage (cage.shape) has no such guidance, its drilled "
-                 "pockets slide along the radius; outer (1) is allowed");
-    return false;
-}
-
-// Checks the sizes of a ribbon half; a machined one has none of them.
-static bool check_ribbon(Bearing *b)
-{
-    const Parameters *p = &b->s.p;
-    const bool ribbon = p->cage.shape == CAGE_SHAPE_RIBBON;
-
-    const struct {
-        const char *name;
-        double value;
-        bool needed;
-    } sizes[] = {{"cage.sheet", p->cage.sheet, true},
-                 {"cage.pocket_depth", p->cage.pocket_depth, true},
-                 {"cage.pocket_fillet", p->cage.pocket_fillet, true},
-                 {"cage.pocket_radius", p->cage.pocket_radius, false},
-                 {"cage.pocket_edge", p->cage.pocket_edge, false}};
-
-    bool fine = true;
-    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-        if (ribbon ? sizes[i].value > 0.0 || !sizes[i].needed : sizes[i].value == 0.0) continue;
-        bearing_log(b, LOG_ERROR, "%s = %g m: %s", sizes[i].name, sizes[i].value,
-                    ribbon ? "more than 0 is allowed of a ribbon cage (cage.shape)"
-                           : "0 is allowed, a machined cage (cage.shape) has no such size");
-        fine = false;
-    }
-    if (!ribbon || !fine) return fine;
-
-    const double radius = 0.5 * (p->bearing.D + p->cage.pocket_clearance), depth = p->cage.pocket_depth;
-    const double width = 2.0 * (depth + p->cage.sheet), edge = spheres_edge(p);
-    double sin_chi, sin_eta;
-    spheres_seams(p, &sin_chi, &sin_eta);
-    fine &= require(b, p->cage.pocket_radius == 0.0 || fabs(p->cage.pocket_radius - radius) <= 1e-6 * radius,
-                    "cage.pocket_radius = %g m: 0 or (bearing.D + cage.pocket_clearance)/2 = %g m is allowed",
-                    p->cage.pocket_radius, radius);
-    fine &= require(b, depth > 0.5 * p->bearing.D,
-                    "cage.pocket_depth = %g m: no room for the ball; more than bearing.D/2 = %g m is allowed",
-                    depth, 0.5 * p->bearing.D);
-    fine &= require(b, depth <= radius,
-                    "cage.pocket_depth = %g m: deeper than a sphere; at most (bearing.D + "
-                    "cage.pocket_clearance)/2 = %g m is allowed",
-                    depth, radius);
-    fine &= require(b, fabs(p->cage.width - width) <= 0.01 * width,
-                    "cage.width = %g m: 2 (cage.pocket_depth + cage.sheet) = %g m is allowed, +- 1 %%",
-                    p->cage.width, width);
-    const double pitch = 0.5 * (p->cage.D_o + p->cage.D_i), off = fabs(pitch - p->bearing.d_m);
-    fine &= require(b, off <= p->cage.pocket_clearance,
-                    "cage.D_o, cage.D_i: (cage.D_o + cage.D_i)/2 = %g m puts the pockets beside the balls; "
-                    "bearing.d_m = %g m is allowed, +- cage.pocket_clearance (change both diameters)",
-                    pitch, p->bearing.d_m);
-    fine &= require(b, 0.25 * (p->cage.D_o - p->cage.D_i) > 2.0 * edge,
-                    "cage.D_o - cage.D_i = %g m: no sphere between the pocket's edges; more than %g m, "
-                    "8 radii of the edges, is allowed",
-                    p->cage.D_o - p->cage.D_i, 8.0 * edge);
+    if (b->s.p.cage.shape != CAGE_SHAPE_RIBBON) return true;
     const double most = 0.95;
-    return fine &&
-           require(b, sin_chi * sin_chi + sin_eta * sin_eta < most,
-                   "cage.pocket_fillet, cage.D_o - cage.D_i: the fillet and the edges leave no sphere; "
-                   "the sum of the squares of the sines of their angles is %g, less than %g is allowed",
-                   sin_chi * sin_chi + sin_eta * sin_eta, most);
-}
-
-// A spall has a length, a width and a depth, or none of them.  It is at most half a turn long and as wide as the ball, and its
-// depth is small beside the ball, which rolls over its edges.
-static bool check_spall(Bearing *b, const char *body, double length, double width, double depth,
-                        double diameter)
-{
-    static const char *const NAME[] = {"length", "width", "depth"};
-    const double D = b->s.p.bearing.D, value[] = {length, width, depth},
-                 most[] = {0.5 * PI * diameter, D, 0.05 * D};
-    static const char *const LIMIT[] = {"half the circumference", "bearing.D", "bearing.D/20"};
-    const bool any = length > 0.0 || width > 0.0 || depth > 0.0;
-    bool fine = true;
-    for (int i = 0; i < 3; i++) {
-        if (value[i] > most[i]) {
-            bearing_log(b, LOG_ERROR, "%s.spall_%s = %g m: at most %s, %g m, is allowed", body, NAME[i],
-                        value[i], LIMIT[i], most[i]);
-            fine = false;
-        } else if (any && value[i] == 0.0) {
-            bearing_log(b, LOG_ERROR,
-                        "%s.spall_%s = 0 m: a spall has %s.spall_length, %s.spall_width and %s.spall_depth; "
-                        "more than 0 m is allowed, or 0 m for all three",
-                        body, NAME[i], body, body, body);
-            fine = false;
-        }
-    }
-    return fine;
-}
-
-// The spalls of the balls, whose turn the default method alone carries.
-static bool check_ball_spalls(Bearing *b)
-{
-    const Parameters *p = &b->s.p;
-    bool fine = true;
-    for (int j = 0; j < Z; j++) {
-        const double length = p->ball.spall_length[j], width = p->ball.spall_width[j],
-                     depth = p->ball.spall_depth[j];
-        char body[24];
-        snprintf(body, sizeof body, "ball[%d]", j + 1);
-        fine &= check_spall(b, body, length, width, depth, p->bearing.D);
-        if (!spall_given(length, width, depth) || p->solver.method != METHOD_EXPLICIT) continue;
-        bearing_log(
-            b, LOG_ERROR,
-            "ball[%d].spall_length = %g m: solver.method = explicit does not follow the turn of a ball; "
-            "allowed is 0 m, or solver.method = verlet or fixed",
-            j + 1, length);
-        fine = false;
-    }
-    return fine;
+    double sin_chi, sin_eta;
+    spheres_seams(&b->s.p, &sin_chi, &sin_eta);
+    const double squares = sin_chi * sin_chi + sin_eta * sin_eta;
+    return require(b, squares < most,
+                   "cage.pocket_fillet, cage.D_o - cage.D_i: the sum of the squares of the sines of the "
+                   "angles of fillet and "
+                   "edges is %g; less than %g is allowed for a sphere between them",
+                   squares, most);
 }
 
 // Checks parameters against each other.
 static bool check_geometry(Bearing *b)
 {
-    const Parameters *p = &b->s.p;
-    const double D = p->bearing.D, d_m = p->bearing.d_m;
-    const double chord = d_m * sin(PI / Z), play = largest_clearance(p);
-    bool fine = true;
-    fine &= require(b, D < chord,
-                    "bearing.D = %g m: the balls overlap; less than bearing.d_m sin(pi/Z) = %g m is allowed",
-                    D, chord);
-    fine &= require(b, D + p->cage.pocket_clearance < chord,
-                    "cage.pocket_clearance = %g m: the pockets overlap; less than bearing.d_m sin(pi/Z) - "
-                    "bearing.D = %g m is allowed",
-                    p->cage.pocket_clearance, chord - D);
-    fine &= require(b, p->bearing.P_d < play,
-                    "bearing.P_d = %g m: a ball on one race would reach the other groove's far side; less "
-                    "than 4 (min(f_i, f_e) - 1/2) D = %g m is allowed",
-                    p->bearing.P_d, play);
-    fine &=
-        require(b, -p->bearing.P_d < 0.01 * D,
-                "bearing.P_d = %g m: the interference exceeds 1 %% of bearing.D; at least %g m is allowed",
-                p->bearing.P_d, -0.01 * D);
-    fine &= require(b, p->ring.bore < d_m - D,
-                    "ring.bore = %g m: less than the diameter of the inner groove's bottom, %g m, is allowed",
-                    p->ring.bore, d_m - D);
-    const double least = 1e-6;     // [m], far below any ring's: squares of bores do not underflow
-    const double shortest = 1e-9;  // [s], a ten-thousandth of a pocket's pulse
-    fine &= require(b, p->solver.step == 0.0 || p->solver.step >= shortest,
-                    "solver.step = %g s: 0, which stands for a derived step, or at least %g s is allowed",
-                    p->solver.step, shortest);
-    fine &= require(b, p->ring.bore == 0.0 || p->ring.bore >= least,
-                    "ring.bore = %g m: 0 or at least %g m is allowed", p->ring.bore, least);
-    fine &= require(
-        b, ring_fit_effective_i(p) >= d_m - D,
-        "ring.effective_i = %g m: at least the diameter of the inner groove's bottom, %g m, is allowed",
-        p->ring.effective_i, d_m - D);
-    fine &= require(
-        b, ring_fit_effective_e(p) <= d_m + D,
-        "ring.effective_e = %g m: at most the diameter of the outer groove's bottom, %g m, is allowed",
-        p->ring.effective_e, d_m + D);
-    fine &=
-        require(b, ring_fit_outside(p) > d_m + D,
-                "ring.outside = %g m: more than the diameter of the outer groove's bottom, %g m, is allowed",
-                p->ring.outside, d_m + D);
-    fine &= require(b, p->shaft.bore < ring_fit_bore(p),
-                    "shaft.bore = %g m: less than the bore of the inner ring, %g m, is allowed",
-                    p->shaft.bore, ring_fit_bore(p));
-    fine &= require(b, p->housing.outside == 0.0 || p->housing.outside > ring_fit_outside(p),
-                    "housing.outside = %g m: 0 or more than the outside diameter of the outer ring, %g m, is "
-                    "allowed",
-                    p->housing.outside, ring_fit_outside(p));
-    const double softest = variable_named("bearing.E")->min;
-    fine &= require(b, p->ball.E == 0.0 || p->ball.E >= softest,
-                    "ball.E = %g Pa: 0, which stands for bearing.E, or at least %g Pa is allowed", p->ball.E,
-                    softest);
-    fine &= require(b, p->cage.D_i < p->cage.D_o, "cage.D_i = %g m: less than cage.D_o = %g m is allowed",
-                    p->cage.D_i, p->cage.D_o);
-    fine &= require(b, p->cage.D_i < d_m, "cage.D_i = %g m: less than bearing.d_m = %g m is allowed",
-                    p->cage.D_i, d_m);
-    fine &= require(b, d_m < p->cage.D_o, "cage.D_o = %g m: more than bearing.d_m = %g m is allowed",
-                    p->cage.D_o, d_m);
-    const double groove = d_m + D + 0.5 * p->bearing.P_d - p->cage.guide_clearance;
-    fine &= require(b, p->cage.D_o <= groove,
-                    "cage.D_o = %g m: with its guide clearance the cage must fit inside the outer groove's "
-                    "bottom; at most bearing.d_m + bearing.D + bearing.P_d/2 - cage.guide_clearance = %g m "
-                    "is allowed",
-                    p->cage.D_o, groove);
-    const bool machined = p->cage.shape == CAGE_SHAPE_MACHINED;
-    const double web = 1.05 * 0.5 * (D + p->cage.pocket_clearance);
-    fine &= require(b, !machined || 0.5 * p->cage.width >= web,
-                    "cage.width = %g m: no web closes the pockets; at least 1.05 (bearing.D + "
-                    "cage.pocket_clearance) = %g m is allowed",
-                    p->cage.width, 2.0 * web);
-    fine &= require(b, p->cage.land_width <= 0.5 * p->cage.width,
-                    "cage.land_width = %g m: at most half of cage.width, %g m, is allowed",
-                    p->cage.land_width, 0.5 * p->cage.width);
-    fine &= require(b, p->cage.guidance == CAGE_GUIDANCE_OUTER || p->cage.pocket_clearance > 0.0,
-                    "cage.pocket_clearance = %g m: more than %g m is allowed of a cage that balls guide",
-                    p->cage.pocket_clearance, 0.0);
-    const double farthest = 2e-4,
-                 unbalance = 2.0 * p->cage.m * farthest;  // cages are true to 0.2 mm at worst
-    fine &= require(b, p->cage.unbalance <= unbalance,
-                    "cage.unbalance = %g kg.m: the cage's centre of mass is more than 0.2 mm off; at most "
-                    "2 cage.m 0.2 mm = %g kg.m is allowed",
-                    p->cage.unbalance, unbalance);
-    fine &= check_guidance(b) && check_ribbon(b);
-    fine &= require(b, p->oil.T_1 < p->oil.T_2, "oil.T_1 = %g K: less than oil.T_2 = %g K is allowed",
-                    p->oil.T_1, p->oil.T_2);
-    fine &=
-        require(b, p->oil.nu_1 > p->oil.nu_2,
-                "oil.nu_1 = %g m2/s: more than oil.nu_2 = %g m2/s is allowed, for the viscosity falls with "
-                "temperature",
-                p->oil.nu_1, p->oil.nu_2);
-    fine &= require(b, p->fatigue.k_2 >= p->fatigue.k_1,
-                    "fatigue.k_2 = %g: at least fatigue.k_1 = %g is allowed", p->fatigue.k_2, p->fatigue.k_1);
-    fine &= require(b, p->pulse.count < 2 || p->pulse.interval >= p->pulse.duration,
-                    "pulse.interval = %g s: at least pulse.duration = %g s is allowed", p->pulse.interval,
-                    p->pulse.duration);
-    for (int j = 0; j < Z; j++) {
-        const double clearance = p->cage.pocket_clearance + p->pocket.dD[j];
-        if (p->pocket.dD[j] < 0.0 && clearance <= 0.0) {
-            bearing_log(b, LOG_ERROR,
-                        "pocket[%d].dD = %g m: more than -cage.pocket_clearance = %g m is allowed", j + 1,
-                        p->pocket.dD[j], -p->cage.pocket_clearance);
-            fine = false;
-        } else if (p->ball.dD[j] > 0.0 && p->ball.dD[j] >= clearance) {
-            bearing_log(
-                b, LOG_ERROR,
-                "ball[%d].dD = %g m: less than cage.pocket_clearance + pocket[%d].dD = %g m is allowed",
-                j + 1, p->ball.dD[j], j + 1, clearance);
-            fine = false;
-        }
-    }
-    fine &=
-        check_spall(b, "inner", p->inner.spall_length, p->inner.spall_width, p->inner.spall_depth, d_m - D);
-    fine &=
-        check_spall(b, "outer", p->outer.spall_length, p->outer.spall_width, p->outer.spall_depth, d_m + D);
-    fine &= check_ball_spalls(b);
-    const bool moved = p->housing.motion != HOUSING_MOTION_SUPPORTED || p->solver.method != METHOD_EXPLICIT;
-    if (!moved)
-        bearing_log(b, LOG_ERROR,
-                    "housing.motion = supported: solver.method = explicit has no housing on springs; allowed "
-                    "is given, or "
-                    "solver.method = verlet or fixed");
-    const bool counted = p->scene.breakage != SWITCH_ON || p->scene.stress == STRESS_FATIGUE;
-    if (!counted)
-        bearing_log(
-            b, LOG_ERROR,
-            "scene.breakage = on: rivets break by their damage, which scene.stress = fatigue alone counts; "
-            "allowed is off, or on with scene.stress = fatigue");
-    return check_cage(b) && fine && counted && moved;
+    const Parameters p = in_force(&b->s.p);
+    return limits_hold(&p, NULL, report_error, b) && check_seams(b) && check_cage(b);
 }
 
 // Checks that the halves have room for the seat of the rivet's head: metal inside and outside of it, a
@@ -560,7 +256,7 @@ static bool check_values(Bearing *b)
 {
     bool fine = check_variables(b, CAUSALITY_PARAMETER, &b->s.p);
     fine &= check_variables(b, CAUSALITY_INPUT, &b->s.u[0]);
-    return fine && check_built(b) && check_geometry(b) && check_table(b) && check_seat(b) && check_bodies(b);
+    return fine && check_built(b) && check_geometry(b) && check_table(b) && check_seat(b);
 }
 
 bool check_all(Bearing *b)

@@ -68,6 +68,7 @@ struct Part {
     Model model;
     void *cage;  // memory that a scene's cage needed, kept for the next one; else NULL
     Work w;
+    Event events[EVENT_COUNT];  // from w, where events_here was called last
     Outputs out;
     Kernels kernels;
     Integrator *integrator;
@@ -80,9 +81,6 @@ struct Part {
 
 // Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
-
-// All kinds of events at the state whose results are w.
-void events_here(Bearing *b, Event now[EVENT_COUNT]);
 
 // Whether parameters and inputs make a bearing; refusals go to the log.
 bool check_all(Bearing *b);

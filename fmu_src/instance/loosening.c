@@ -24,12 +24,11 @@ void loosening_apply(const Loosening *loose, Parameters *p)
     }
 }
 
-bool loosening_update(const Parameters *p, Loosening *loose)
+bool loosening_update(double preload, const double P[Z], Loosening *loose)
 {
     bool off = false;
     for (int k = 0; k < Z; k++)
-        off |= loose->loss[k] - loose->in_force[k] > PRELOAD_SHARE * p->joint.preload &&
-               loose->in_force[k] < p->joint.preload * p->rivet.preload_factor[k];
+        off |= loose->loss[k] - loose->in_force[k] > PRELOAD_SHARE * preload && P[k] > 0.0;
     if (off) memcpy(loose->in_force, loose->loss, sizeof loose->loss);
     return off;
 }

@@ -24,8 +24,9 @@ void loosening_add(const Parameters *p, const double *rubbed, Loosening *loose);
 // Takes the loss in force from the preloads in p.
 void loosening_apply(const Loosening *loose, Parameters *p);
 
-// Puts the loss in force if that is worth it; returns whether it has.
-bool loosening_update(const Parameters *p, Loosening *loose);
+// Puts the loss in force if that is worth it; returns whether it has.  preload: joint.preload at temperature [N], P: what each
+// rivet has of it.
+bool loosening_update(double preload, const double P[Z], Loosening *loose);
 
 // Whether steps can have made it.
 bool loosening_is_valid(const Loosening *loose);

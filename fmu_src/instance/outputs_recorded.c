@@ -83,22 +83,20 @@ static void fill_solver(Bearing *b)
 
 static void fill_event(Bearing *b)
 {
-    Event now[EVENT_COUNT];
     const double *onsets = b->s.event.onsets;
-    events_here(b, now);
-    b->out.event.land_contact = now[EVENT_LAND_CONTACT].count;
-    b->out.event.pocket_exit = now[EVENT_POCKET_EXIT].count;
-    b->out.event.ellipse_cut = now[EVENT_ELLIPSE_CUT].count;
-    b->out.event.overpressure = now[EVENT_OVERPRESSURE].count;
-    b->out.event.joint_open = now[EVENT_JOINT_OPEN].count;
-    b->out.event.rivet_yield = now[EVENT_RIVET_YIELD].count;
-    b->out.event.no_clearance = now[EVENT_NO_CLEARANCE].count;
-    b->out.event.rivet_break = now[EVENT_RIVET_BREAK].count;
-    b->out.event.step_too_long = now[EVENT_STEP_TOO_LONG].count;
-    b->out.event.motion_lag = now[EVENT_MOTION_LAG].count;
-    b->out.event.cage_yield = now[EVENT_CAGE_YIELD].count;
-    b->out.event.rivet_overload = now[EVENT_RIVET_OVERLOAD].count;
-    b->out.event.energy_off = now[EVENT_ENERGY_OFF].count;
+    b->out.event.land_contact = b->events[EVENT_LAND_CONTACT].count;
+    b->out.event.pocket_exit = b->events[EVENT_POCKET_EXIT].count;
+    b->out.event.ellipse_cut = b->events[EVENT_ELLIPSE_CUT].count;
+    b->out.event.overpressure = b->events[EVENT_OVERPRESSURE].count;
+    b->out.event.joint_open = b->events[EVENT_JOINT_OPEN].count;
+    b->out.event.rivet_yield = b->events[EVENT_RIVET_YIELD].count;
+    b->out.event.no_clearance = b->events[EVENT_NO_CLEARANCE].count;
+    b->out.event.rivet_break = b->events[EVENT_RIVET_BREAK].count;
+    b->out.event.step_too_long = b->events[EVENT_STEP_TOO_LONG].count;
+    b->out.event.motion_lag = b->events[EVENT_MOTION_LAG].count;
+    b->out.event.cage_yield = b->events[EVENT_CAGE_YIELD].count;
+    b->out.event.rivet_overload = b->events[EVENT_RIVET_OVERLOAD].count;
+    b->out.event.energy_off = b->events[EVENT_ENERGY_OFF].count;
     b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
     b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
     b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];

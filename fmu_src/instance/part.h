@@ -1,7 +1,7 @@
 // A part of a machine as its users see it: one instance, with its parameters, inputs and outputs, and the
 // functions on it.
 //
-// The wrapper (fmi2_wrapper.c) includes this file only.  Parameters, Inputs and Outputs come from a table of
+// The wrapper (host/) includes this file only.  Parameters, Inputs and Outputs come from a table of
 // variables; the bearing's table is fmus/variables.toml.  bearing.c implements these functions for the
 // bearing, examples/transmission/shaft.c for a shaft behind the same wrapper.
 #pragma once

@@ -65,8 +65,7 @@ static double without_rounding(const Variable *variable, double value, double ro
     return fabs(value - nearest) <= rounding * fabs(nearest) ? nearest : value;
 }
 
-bool variables_allow(Causality causality, const void *values, double rounding,
-                     void (*report)(void *context, const char *message), void *context)
+bool variables_allow(Causality causality, const void *values, double rounding, Report report, void *context)
 {
     bool fine = true;
     for (int v = 0; v < N_VARIABLES; v++) {

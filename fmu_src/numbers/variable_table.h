@@ -45,6 +45,8 @@ extern const Variable VARIABLES[N_VARIABLES];  // in the order of value referenc
 
 extern const double INPUT_LIMITS[N_INPUTS][2];  // least and largest value of each number in Inputs
 
+typedef void (*Report)(void *context, const char *message);
+
 // The variable of a value reference and the index of its element; NULL if there is none.
 const Variable *variable_find(unsigned value_reference, int *element);
 
@@ -56,8 +58,11 @@ int variable_allows(const Variable *variable, int element, double value, char *m
 
 // Whether all variables of one causality may have the values in a Parameters or an Inputs; each that may not
 // is reported with its message. rounding: the relative share of a limit by which a value may lie beyond the limit.
-bool variables_allow(Causality causality, const void *values, double rounding,
-                     void (*report)(void *context, const char *message), void *context);
+bool variables_allow(Causality causality, const void *values, double rounding, Report report, void *context);
+
+// Whether parameters keep the limits between them (generated/limits.c), or those of one quantity if it is not NULL; each
+// that is broken is reported.  Sizes with a rule must be those in force.
+bool limits_hold(const Parameters *p, const char *quantity, Report report, void *context);
 
 // The name of one element, numbered from 1 as FMI does: "ball[3].Q_i".
 void variable_element_name(const Variable *variable, int element, char *name, size_t size);

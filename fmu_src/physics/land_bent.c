@@ -115,10 +115,10 @@ typedef struct {
 
 static Squeeze squeeze_of(const Work *w, int h)
 {
-    const LandPressure *on = &w->pressure[h];
+    const LandPressure *pressure = &w->pressure[h];
     Squeeze of = {.grid = &w->bent[h], .by = w->squeeze_by[h]};
-    memcpy(of.start, on->V, sizeof on->V);
-    memcpy(&of.start[2], on->rim_V, sizeof on->rim_V);
+    memcpy(of.start, pressure->V, sizeof pressure->V);
+    memcpy(&of.start[2], pressure->rim_V, sizeof pressure->rim_V);
     return of;
 }
 
@@ -271,14 +271,14 @@ bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], scalar rough
 void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZE], double V[SQUEEZE],
                 BentSolution *to)
 {
-    const LandPressure *on = &w->pressure[h];
+    const LandPressure *pressure = &w->pressure[h];
     Squeeze of = squeeze_of(w, h);
     SqueezeLaw law;
-    for (int i = 0; i < SQUEEZE; i++) of.free[i] = of.start[i] + residual[i] - of.by[i] * on->film[i];
+    for (int i = 0; i < SQUEEZE; i++) of.free[i] = of.start[i] + residual[i] - of.by[i] * pressure->film[i];
     double known[SQUEEZE];
-    memcpy(known, on->at, sizeof known);
-    memcpy(law.F, on->film, sizeof law.F);
-    rates_of_waves(on->waves, law.rate);
+    memcpy(known, pressure->at, sizeof known);
+    memcpy(law.F, pressure->film, sizeof law.F);
+    rates_of_waves(pressure->waves, law.rate);
     if (squeeze_step(&of, false, known, &law) == DONE)
         memcpy(V, known, sizeof known);
     else
@@ -286,7 +286,7 @@ void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZ
     for (int i = 0; i < SQUEEZE; i++) {
         to->change[i] = V[i] - of.start[i];
         to->film[i] = law.F[i];
-        to->impulse[i] = gamma * (on->film[i] - law.F[i]);
+        to->impulse[i] = gamma * (pressure->film[i] - law.F[i]);
     }
     for (int i = 0; i < SQUEEZE; i++) memcpy(to->rates[i], law.rate[i], sizeof to->rates[i]);
 }
@@ -296,20 +296,20 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
     double power = 0.0;
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];
-        LandPressure *on = &w->pressure[h];
+        LandPressure *pressure = &w->pressure[h];
         LandFilm *film = &w->film[h];
         const double *change = solved[h].change;
         double T[2][2] = {{half->b_y[1], half->b_y[2]}, {half->b_z[1], half->b_z[2]}};
         for (int i = 0; i < SQUEEZE; i++) {
-            const double V = i < 2 ? on->V[i] : on->rim_V[i - 2];
-            power += solved[h].film[i] * (V + change[i]) - on->film[i] * V;
-            on->film[i] = solved[h].film[i];
+            const double V = i < 2 ? pressure->V[i] : pressure->rim_V[i - 2];
+            power += solved[h].film[i] * (V + change[i]) - pressure->film[i] * V;
+            pressure->film[i] = solved[h].film[i];
         }
         for (int i = 0; i < 2; i++) {
             power -= change[i] * solved[h].impulse[i] / gamma;
-            on->V[i] += change[i];
+            pressure->V[i] += change[i];
         }
-        for (int i = 0; i < RIM; i++) on->rim_V[i] += change[2 + i];
+        for (int i = 0; i < RIM; i++) pressure->rim_V[i] += change[2 + i];
         const double (*rates)[SQUEEZE] = solved[h].rates;
         double rate[3];
         turn_rates(T, (double[3]){rates[0][0], rates[1][0], rates[1][1]}, rate);

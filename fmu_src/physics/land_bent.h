@@ -25,12 +25,12 @@
 static const double BENT_EPS = 0.9;  // largest eps of the points
 
 // Load on a rim over the sum of the preloads up to which its waves do not load the rivets.
-static const double FAINT = 0.02;
+static const double FAINT_LOAD = 0.02;
 
 // Whether the other waves of a film load the rivets.
 INLINE bool land_is_felt(const Work *w, int h)
 {
-    return scalar_value(w->pressure[h].still) > 0.0;
+    return scalar_value(w->pressure[h].felt) > 0.0;
 }
 
 // Whether films bend the rims of the halves.
@@ -46,12 +46,12 @@ INLINE scalar smooth_part(scalar x)
     return x * x * (3.0 - 2.0 * x);
 }
 
-// Part of a film that is not faint: none up to FAINT times the sum of the preloads, all from twice that on.
-INLINE scalar film_part(const Derived *d, scalar load)
+// Part of a film that is not faint: none up to FAINT_LOAD times the sum of the preloads, all from twice that on.
+INLINE scalar film_share(const Derived *d, scalar load)
 {
     double preload = 0.0;
     for (int k = 0; k < Z; k++) preload += d->P[k];
-    return smooth_part(load / (FAINT * preload + 1e-30) - 1.0);
+    return smooth_part(load / (FAINT_LOAD * preload + 1e-30) - 1.0);
 }
 
 // Points of the sums: direction of e, eps, q.
@@ -59,11 +59,12 @@ typedef struct {
     wide u_y, u_z, eps, q;
 } BentPoints;
 
-INLINE BentPoints bent_points(const LandPressure *on)
+INLINE BentPoints bent_points(const LandPressure *pressure)
 {
-    const scalar e = scalar_sqrt(on->e[0] * on->e[0] + on->e[1] * on->e[1] + 1e-30), inv_e = 1.0 / e;
-    const scalar eps = scalar_min(e / on->C, BENT_EPS);
-    return (BentPoints){wide_set(on->e[0] * inv_e), wide_set(on->e[1] * inv_e), wide_set(eps),
+    const scalar e = scalar_sqrt(pressure->e[0] * pressure->e[0] + pressure->e[1] * pressure->e[1] + 1e-30),
+                 inv_e = 1.0 / e;
+    const scalar eps = scalar_min(e / pressure->C, BENT_EPS);
+    return (BentPoints){wide_set(pressure->e[0] * inv_e), wide_set(pressure->e[1] * inv_e), wide_set(eps),
                         wide_set(scalar_sqrt(1.0 - eps * eps))};
 }
 
@@ -101,16 +102,16 @@ typedef struct {
     wide b[SQUEEZE], weight, gap, open, narrow, stiff;
 } BentPoint;
 
-INLINE BentPoint bent_point(const Model *model, const LandPressure *on, const BentPoints *points, int m)
+INLINE BentPoint bent_point(const Model *model, const LandPressure *pressure, const BentPoints *points, int m)
 {
     BentPoint at;
-    const wide inv_C = wide_set(1.0 / on->C);
+    const wide inv_C = wide_set(1.0 / pressure->C);
     at.weight = (2.0 * PI / BENT_POINTS) * bent_shapes(model->d, points, m, at.b);
-    at.gap = (wide_set(on->C) - bent_dot(on->e, on->rim, at.b)) * inv_C;
+    at.gap = (wide_set(pressure->C) - bent_dot(pressure->e, pressure->rim, at.b)) * inv_C;
     at.open = bent_gap(at.gap, model->p->cage.g_0);
     const wide inv_open = 1.0 / at.open, inv_h = inv_C * inv_open;
     at.narrow = at.weight * inv_open;
-    at.stiff = wide_set(on->kappa_C3) * at.narrow * inv_C * (inv_h * inv_h);
+    at.stiff = wide_set(pressure->kappa_C3) * at.narrow * inv_C * (inv_h * inv_h);
     return at;
 }
 
@@ -129,11 +130,12 @@ enum {
 };
 
 // Adds those of the dry contact at a packet of points.
-INLINE void bent_dry(const Parameters *p, const LandPressure *on, const BentPoint *at, wide sum[BENT_SUMS])
+INLINE void bent_dry(const Parameters *p, const LandPressure *pressure, const BentPoint *at,
+                     wide sum[BENT_SUMS])
 {
-    const wide pen = wide_max(-at->gap, wide_set(0.0)) * wide_set(on->C);
-    const wide stiffness = wide_set(0.75 * p->cage.K_land * scalar_sqrt(0.5 * on->C));
-    const wide rate = bent_dot(on->v, on->rim_v, at->b), bed = stiffness * pen * at->weight;
+    const wide pen = wide_max(-at->gap, wide_set(0.0)) * wide_set(pressure->C);
+    const wide stiffness = wide_set(0.75 * p->cage.K_land * scalar_sqrt(0.5 * pressure->C));
+    const wide rate = bent_dot(pressure->v, pressure->rim_v, at->b), bed = stiffness * pen * at->weight;
     const wide N = hertz_damped(bed, wide_set(p->cage.lambda), rate);
     for (int i = 0; i < SQUEEZE; i++) sum[BENT_DRY + i] += N * at->b[i];
     sum[BENT_N_0] += bed;
@@ -160,9 +162,10 @@ INLINE void add_waves(wide rate, const wide b[SQUEEZE], wide to[BENT_WAVES])
 }
 
 // Adds those of the film.
-INLINE void bent_film(const Model *model, const LandPressure *on, const BentPoint *at, wide sum[BENT_SUMS])
+INLINE void bent_film(const Model *model, const LandPressure *pressure, const BentPoint *at,
+                      wide sum[BENT_SUMS])
 {
-    const wide *b = at->b, W = bent_dot(on->V, on->rim_V, b);
+    const wide *b = at->b, W = bent_dot(pressure->V, pressure->rim_V, b);
     const bits closing = wide_above(W, 0.0);
     sum[BENT_COUETTE] += at->narrow;
     if (!wide_any(closing)) return;
@@ -170,7 +173,7 @@ INLINE void bent_film(const Model *model, const LandPressure *on, const BentPoin
     for (int i = 0; i < SQUEEZE; i++) sum[BENT_FILM + i] += load * b[i];
     add_waves(rate, b, &sum[BENT_RATES]);
     if (model->p->scene.lubrication != LUBRICATION_MIXED) return;
-    const wide thin = wide_set(on->C / model->d->C_land) * at->open;
+    const wide thin = wide_set(pressure->C / model->d->C_land) * at->open;
     const wide rough = load * traction_asperity_share(model->d->ln_land + wide_log(thin));
     sum[BENT_ROUGH] += rough;
     sum[BENT_ROUGH + 1] += rough * b[0];
@@ -185,27 +188,28 @@ INLINE void bent_keep(const BentPoint *at, int m, BentGrid *grid)
 }
 
 // A packet of kept points: shapes, loads of the film at the velocities of on.
-INLINE wide bent_film_at(const BentGrid *grid, const LandPressure *on, int m, wide b[SQUEEZE])
+INLINE wide bent_film_at(const BentGrid *grid, const LandPressure *pressure, int m, wide b[SQUEEZE])
 {
     for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][m]);
-    return wide_load(&grid->stiff[m]) * wide_max(bent_dot(on->V, on->rim_V, b), wide_set(0.0));
+    return wide_load(&grid->stiff[m]) * wide_max(bent_dot(pressure->V, pressure->rim_V, b), wide_set(0.0));
 }
 
 // Sets all sums of one land and its points.
-INLINE void bent_sums(const Model *model, const LandPressure *on, BentGrid *grid, scalar total[BENT_SUMS])
+INLINE void bent_sums(const Model *model, const LandPressure *pressure, BentGrid *grid,
+                      scalar total[BENT_SUMS])
 {
-    const BentPoints points = bent_points(on);
+    const BentPoints points = bent_points(pressure);
     wide sum[EIGHTHS][BENT_SUMS];
     bool dry = false;
     for (int part = 0; part < EIGHTHS; part++) {
         wide to[BENT_SUMS];
         for (int n = 0; n < BENT_SUMS; n++) to[n] = wide_set(0.0);
         for (int m = part * LANE_WIDTH; m < BENT_POINTS; m += 8) {
-            const BentPoint at = bent_point(model, on, &points, m);
-            bent_film(model, on, &at, to);
+            const BentPoint at = bent_point(model, pressure, &points, m);
+            bent_film(model, pressure, &at, to);
             bent_keep(&at, m, grid);
             if (!wide_any(wide_above(-at.gap, 0.0))) continue;
-            bent_dry(model->p, on, &at, to);
+            bent_dry(model->p, pressure, &at, to);
             dry = true;
         }
         memcpy(sum[part], to, sizeof to);

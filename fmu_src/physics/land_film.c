@@ -206,9 +206,10 @@ typedef struct {
 } RoundPressure;
 
 // Harmonics of the load on a round rim.
-INLINE void land_load(const Derived *d, const RoundPressure *on, LandLoad *load)
+INLINE void land_load(const Derived *d, const RoundPressure *pressure, LandLoad *load)
 {
-    const scalar *e = on->e, *V = on->V, q2 = on->q2, force = on->force, dry = on->dry;
+    const scalar *e = pressure->e, *V = pressure->V, q2 = pressure->q2, force = pressure->force,
+                 dry = pressure->dry;
     const scalar inv_e = 1.0 / scalar_sqrt(e[0] * e[0] + e[1] * e[1] + 1e-30);
     const scalar inv_V = 1.0 / scalar_sqrt(V[0] * V[0] + V[1] * V[1] + 1e-30);
     const scalar u[2] = {e[0] * inv_e, e[1] * inv_e}, n[2] = {V[0] * inv_V, V[1] * inv_V};
@@ -254,12 +255,12 @@ INLINE void add_load(scalar size, const LandLoad *load, LandLoad *to)
 }
 
 // Harmonics of the load on a bent rim: the film's with the size of its force along its direction, the dry contact's by the bedding.
-INLINE void bent_load(const BentGrid *grid, const LandPressure *on, LandLoad *load)
+INLINE void bent_load(const BentGrid *grid, const LandPressure *pressure, LandLoad *load)
 {
     wide film_re[EIGHTHS][LAND_HARMONICS], film_im[EIGHTHS][LAND_HARMONICS];
     wide dry_re[EIGHTHS][LAND_HARMONICS], dry_im[EIGHTHS][LAND_HARMONICS];
     LandLoad by_film, by_dry;
-    const bool dry = scalar_value(on->dry) > 0.0;
+    const bool dry = scalar_value(pressure->dry) > 0.0;
     memset(load, 0, sizeof *load);
     memset(film_re, 0, sizeof film_re);
     memset(film_im, 0, sizeof film_im);
@@ -271,18 +272,18 @@ INLINE void bent_load(const BentGrid *grid, const LandPressure *on, LandLoad *lo
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = first + i * LANE_WIDTH;
             wide b[SQUEEZE];
-            const wide film = bent_film_at(grid, on, m, b);
+            const wide film = bent_film_at(grid, pressure, m, b);
             if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, film_re[i], film_im[i]);
             if (dry) add_harmonics(b[0], b[1], wide_load(&grid->behind[m]), dry_re[i], dry_im[i]);
         }
     sum_load(film_re, film_im, &by_film);
     const scalar F_y = by_film.re[1], F_z = by_film.im[1];
-    add_load(-on->still * scalar_max(-(on->film[0] * F_y + on->film[1] * F_z), 0.0) /
+    add_load(-pressure->felt * scalar_max(-(pressure->film[0] * F_y + pressure->film[1] * F_z), 0.0) /
                  (F_y * F_y + F_z * F_z + 1e-30),
              &by_film, load);
     if (!dry) return;
     sum_load(dry_re, dry_im, &by_dry);
-    add_load(-on->still * on->dry / (by_dry.re[0] + 1e-30), &by_dry, load);
+    add_load(-pressure->felt * pressure->dry / (by_dry.re[0] + 1e-30), &by_dry, load);
 }
 
 // A vector (y, z) across the outer ring's axis along the axes of a half.
@@ -321,42 +322,59 @@ INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar
     force->spin = R * R * g * all;
 }
 
+// What decides the pressure on the bent rim of half h.  e, V: along the outer ring's axes; T: from these to the half's;
+// kappa_C3: of its film.
+INLINE void bent_motion(Work *w, int h, const LandRates *at, const scalar e[2], const scalar V[2],
+                        scalar T[2][2], scalar C, scalar kappa_C3)
+{
+    LandPressure *pressure = &w->pressure[h];
+    for (int i = 0; i < 2; i++) {
+        pressure->e[i] = T[i][0] * e[0] + T[i][1] * e[1];
+        pressure->V[i] = T[i][0] * V[0] + T[i][1] * V[1];
+        pressure->v[i] = T[i][0] * at->v[0] + T[i][1] * at->v[1];
+    }
+    pressure->C = C, pressure->kappa_C3 = kappa_C3;
+    memcpy(pressure->rim, w->rim[h], sizeof pressure->rim);
+    memcpy(pressure->rim_v, w->rim_v[h], sizeof pressure->rim_v);
+    pressure->by_spin[0] = 0.5 * pressure->e[1], pressure->by_spin[1] = -0.5 * pressure->e[0];
+    for (int i = 0; i < RIM; i += 2) {
+        const double waves = 0.5 * (2 + i / 2);
+        pressure->by_spin[2 + i] = -waves * pressure->rim[i + 1],
+                              pressure->by_spin[3 + i] = waves * pressure->rim[i];
+    }
+    for (int i = 0; i < RIM; i++)
+        pressure->rim_V[i] = pressure->rim_v[i] + at->omega * pressure->by_spin[2 + i];
+}
+
+// Film and dry contact on the rim of half h, at the velocities that films leave where they are too stiff for predicted ones.
+INLINE void bent_pressure(const Model *model, Work *w, int h, scalar sum[BENT_SUMS])
+{
+    LandPressure *pressure = &w->pressure[h];
+    bent_sums(model, pressure, &w->bent[h], sum);
+    memcpy(pressure->at, pressure->V, sizeof pressure->V);
+    memcpy(&pressure->at[2], pressure->rim_V, sizeof pressure->rim_V);
+#ifndef DUAL
+    LandPressure seen;
+    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], sum[BENT_ROUGH], &seen)) {
+        bent_sums(model, &seen, &w->bent[h], sum);
+        memcpy(pressure->at, seen.at, sizeof pressure->at);
+    }
+#endif
+}
+
 // The land of half h whose rim bends.  e, V: along the outer ring's axes; heated: viscosity of the film / eta.
 INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *outer, const LandRates *at,
                            const scalar e[2], const scalar V[2], scalar C, scalar heated)
 {
     const Derived *d = model->d;
-    const Rotor *half = &w->half[h];
-    LandPressure *on = &w->pressure[h];
+    LandPressure *pressure = &w->pressure[h];
     scalar T[2][2], column[2], sum[BENT_SUMS];  // T: from the outer ring's axes to the half's
     for (int k = 0; k < 2; k++) {
-        land_turn(outer, half, k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0, column);
+        land_turn(outer, &w->half[h], k == 0 ? 1.0 : 0.0, k == 0 ? 0.0 : 1.0, column);
         T[0][k] = column[0], T[1][k] = column[1];
     }
-    for (int i = 0; i < 2; i++) {
-        on->e[i] = T[i][0] * e[0] + T[i][1] * e[1];
-        on->V[i] = T[i][0] * V[0] + T[i][1] * V[1];
-        on->v[i] = T[i][0] * at->v[0] + T[i][1] * at->v[1];
-    }
-    on->C = C, on->kappa_C3 = d->kappa * heated * (d->C_land * d->C_land * d->C_land);
-    memcpy(on->rim, w->rim[h], sizeof on->rim);
-    memcpy(on->rim_v, w->rim_v[h], sizeof on->rim_v);
-    on->by_spin[0] = 0.5 * on->e[1], on->by_spin[1] = -0.5 * on->e[0];
-    for (int i = 0; i < RIM; i += 2) {
-        const double waves = 0.5 * (2 + i / 2);
-        on->by_spin[2 + i] = -waves * on->rim[i + 1], on->by_spin[3 + i] = waves * on->rim[i];
-    }
-    for (int i = 0; i < RIM; i++) on->rim_V[i] = on->rim_v[i] + at->omega * on->by_spin[2 + i];
-    bent_sums(model, on, &w->bent[h], sum);
-    memcpy(on->at, on->V, sizeof on->V);
-    memcpy(&on->at[2], on->rim_V, sizeof on->rim_V);
-#ifndef DUAL
-    LandPressure seen;
-    if (w->squeeze_by[h][0] > 0.0 && bent_foresee(w, h, &sum[BENT_FILM], sum[BENT_ROUGH], &seen)) {
-        bent_sums(model, &seen, &w->bent[h], sum);
-        memcpy(on->at, seen.at, sizeof on->at);
-    }
-#endif
+    bent_motion(w, h, at, e, V, T, C, d->kappa * heated * (d->C_land * d->C_land * d->C_land));
+    bent_pressure(model, w, h, sum);
 
     // forces and friction
     LandForce force = {
@@ -374,19 +392,64 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     force.M_x -= torque * at->omega;
     force.spin += torque;
     for (int i = 0; i < SQUEEZE; i++) {
-        on->film[i] = -sum[BENT_FILM + i];
-        force.M_x += on->film[i] * on->by_spin[i];
+        pressure->film[i] = -sum[BENT_FILM + i];
+        force.M_x += pressure->film[i] * pressure->by_spin[i];
     }
-    for (int i = 0; i < RIM; i++) on->rim_force[i] = on->film[2 + i] - sum[BENT_DRY + 2 + i];
-    on->dry = sum[BENT_N];
-    on->still =
-        film_part(d, scalar_sqrt(on->film[0] * on->film[0] + on->film[1] * on->film[1] + 1e-30) + on->dry);
-    memcpy(on->waves, &sum[BENT_RATES], sizeof on->waves);
-    const scalar *waves = on->waves, D[3] = {waves[0] + waves[3], waves[4], waves[0] - waves[3]};
+    for (int i = 0; i < RIM; i++) pressure->rim_force[i] = pressure->film[2 + i] - sum[BENT_DRY + 2 + i];
+    pressure->dry = sum[BENT_N];
+    pressure->felt = film_share(d, scalar_sqrt(pressure->film[0] * pressure->film[0] +
+                                               pressure->film[1] * pressure->film[1] + 1e-30) +
+                                       pressure->dry);
+    memcpy(pressure->waves, &sum[BENT_RATES], sizeof pressure->waves);
+    const scalar *waves = pressure->waves, D[3] = {waves[0] + waves[3], waves[4], waves[0] - waves[3]};
     scalar rate[3];
     turn_rates(T, D, rate);
     w->film[h] = (LandFilm){rate[0], rate[1], rate[2], force.spin};
     return force;
+}
+
+// Round lands of HALVES halves: geometry of their gap, force of the film (y, z), its size and Couette's torque per speed, load
+// of the dry contact without and with damping, and of all that rubs.
+typedef struct {
+    wide e, u_y, u_z, eps, narrow, q2;
+    JournalFilm film;
+    JournalForce by_film;
+    wide size, couette, pen, pen_dot, N_0, N, N_mu;
+} RoundLands;
+
+// Film: direction n of V, eccentricity (a, b) along and across V, gap function q^2.
+INLINE void round_film(const Model *model, const LandMotion *land, const wide V[2], wide C, wide heated,
+                       RoundLands *lands)
+{
+    const Derived *d = model->d;
+    const wide e_2 = land->e_y * land->e_y + land->e_z * land->e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2);
+    const wide inv_C = 1.0 / C, cap = wide_min(inv_C, EPS_CAP * inv_e);
+    lands->e = e_2 * inv_e, lands->eps = lands->e * inv_C;
+    lands->u_y = land->e_y * inv_e, lands->u_z = land->e_z * inv_e;
+    lands->narrow = d->C_land * inv_C;
+    lands->q2 = land_film_gap(lands->eps, model->p->cage.g_0);
+    const wide eta = d->kappa * heated * (lands->narrow * lands->narrow * lands->narrow);
+    lands->film = journal_film(land->e_y, land->e_z, V[0], V[1], cap, lands->q2, eta);
+    lands->by_film = journal_force(&lands->film, V[0], V[1]);
+    lands->couette = d->couette * heated * (1.0 / wide_sqrt(lands->q2)) * lands->narrow;
+    lands->size =
+        wide_sqrt(lands->by_film.y * lands->by_film.y + lands->by_film.z * lands->by_film.z + 1e-30);
+}
+
+// Dry contact where the gap is smallest; in mixed lubrication asperities also carry their share of the film force.
+INLINE void round_contact(const Model *model, const LandMotion *land, wide C, RoundLands *lands)
+{
+    const Parameters *p = model->p;
+    const JournalForce *by_film = &lands->by_film;
+    lands->pen = lands->e - C;
+    lands->pen_dot = land->v_y * lands->u_y + land->v_z * lands->u_z;
+    lands->N_0 = hertz_load(wide_set(p->cage.K_land), lands->pen);
+    lands->N = hertz_damped(lands->N_0, wide_set(p->cage.lambda), lands->pen_dot);
+    lands->N_mu = lands->N;
+    if (p->scene.lubrication != LUBRICATION_MIXED) return;
+    const wide ln_Lambda = model->d->ln_land + wide_log(lands->q2 / (lands->narrow * (1.0 + lands->eps)));
+    lands->N_mu +=
+        traction_asperity_share(ln_Lambda) * wide_sqrt(by_film->y * by_film->y + by_film->z * by_film->z);
 }
 
 // The lands of HALVES rigid halves side by side, beginning with half `first`.  e, V: vectors (y, z).
@@ -394,63 +457,64 @@ INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *out
                         const wide V[2], wide C, wide heated, LandForce force[HALVES])
 {
     const Parameters *p = model->p;
-    const Derived *d = model->d;
-    const wide e_y = land->e_y, e_z = land->e_z, v_y = land->v_y, v_z = land->v_z, omega = land->omega;
-
-    // film: direction n of V, eccentricity (a, b) along and across V, gap function q^2
-    const wide e_2 = e_y * e_y + e_z * e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2), e = e_2 * inv_e;
-    const wide inv_C = 1.0 / C, narrow = d->C_land * inv_C;
-    const wide eps = e * inv_C, cap = wide_min(inv_C, EPS_CAP * inv_e);
-    const wide q2 = land_film_gap(eps, p->cage.g_0);
-    const wide eta = d->kappa * heated * (narrow * narrow * narrow);
-    const JournalFilm film = journal_film(e_y, e_z, V[0], V[1], cap, q2, eta);
-    const JournalForce by_film = journal_force(&film, V[0], V[1]);
-    const JournalRates rates = journal_rates(&film);
-    wide F_y = by_film.y, F_z = by_film.z;
-    const wide couette = d->couette * heated * (1.0 / wide_sqrt(q2)) * narrow;
-    const wide size = wide_sqrt(F_y * F_y + F_z * F_z + 1e-30);
-
-    // dry contact and friction where the gap is smallest; in mixed lubrication asperities also carry their
-    // share of the film force
-    const wide u_y = e_y * inv_e, u_z = e_z * inv_e;
-    const wide pen = e - C, pen_dot = v_y * u_y + v_z * u_z;
-    const wide N_0 = hertz_load(wide_set(p->cage.K_land), pen);
-    const wide N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
-    wide N_mu = N;
-    if (p->scene.lubrication == LUBRICATION_MIXED) {
-        const wide ln_Lambda = d->ln_land + wide_log(q2 / (narrow * (1.0 + eps)));
-        N_mu += traction_asperity_share(ln_Lambda) * wide_sqrt(F_y * F_y + F_z * F_z);
-    }
+    RoundLands lands;
+    round_film(model, land, V, C, heated, &lands);
+    round_contact(model, land, C, &lands);
 
     // friction along t = e_x x u
-    const wide R = wide_set(0.5 * p->cage.D_o);
-    const wide slip = v_z * u_y - v_y * u_z + omega * R;
-    const wide g = p->cage.mu_land * N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
+    const wide u_y = lands.u_y, u_z = lands.u_z, R = wide_set(0.5 * p->cage.D_o);
+    const wide slip = land->v_z * u_y - land->v_y * u_z + land->omega * R;
+    const wide g = p->cage.mu_land * lands.N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
     const wide F_t = -g * slip;
-    F_y += -N * u_y - F_t * u_z;
-    F_z += -N * u_z + F_t * u_y;
-    const wide M_x = R * F_t - couette * omega + 0.5 * (by_film.y * e_z - by_film.z * e_y);
+    const wide F_y = lands.by_film.y + (-lands.N * u_y - F_t * u_z);
+    const wide F_z = lands.by_film.z + (-lands.N * u_z + F_t * u_y);
+    const wide M_x = R * F_t - lands.couette * land->omega +
+                     0.5 * (lands.by_film.y * land->e_z - lands.by_film.z * land->e_y);
 
     // the dry contact stores a part of the power
-    const wide stored = hertz_energy(wide_set(p->cage.K_land), pen), stored_rate = N_0 * pen_dot;
+    const wide stored = hertz_energy(wide_set(p->cage.K_land), lands.pen),
+               stored_rate = lands.N_0 * lands.pen_dot;
 
+    const JournalRates rates = journal_rates(&lands.film);
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         const Rotor *half = &w->half[h];
         const scalar R_h = wide_lane(R, i);
         force[i] = (LandForce){{wide_lane(F_y, i), wide_lane(F_z, i)},
                                wide_lane(M_x, i),
-                               wide_lane(N_0, i),
-                               wide_lane(couette, i) + wide_lane(g, i) * R_h * R_h,
+                               wide_lane(lands.N_0, i),
+                               wide_lane(lands.couette, i) + wide_lane(g, i) * R_h * R_h,
                                wide_lane(stored, i),
                                wide_lane(stored_rate, i)};
         w->film[h] =
             (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), force[i].spin};
-        RoundPressure on = {.q2 = wide_lane(q2, i), .force = wide_lane(size, i), .dry = wide_lane(N, i)};
-        land_turn(outer, half, wide_lane(e_y, i), wide_lane(e_z, i), on.e);
-        land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), on.V);
-        land_load(d, &on, &w->land[h]);
+        RoundPressure pressure = {
+            .q2 = wide_lane(lands.q2, i), .force = wide_lane(lands.size, i), .dry = wide_lane(lands.N, i)};
+        land_turn(outer, half, wide_lane(land->e_y, i), wide_lane(land->e_z, i), pressure.e);
+        land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), pressure.V);
+        land_load(model->d, &pressure, &w->land[h]);
     }
+}
+
+// Adds what a land at x from the half's centre does to its half, and its energy and power.  on_rim: power of the rim's bending.
+INLINE void add_land(const Derived *d, Work *w, int h, const Rotor *outer, scalar x, const LandRates *at,
+                     const LandForce *force, scalar on_rim)
+{
+    Rotor *half = &w->half[h];
+    const scalar F_y = force->F[0], F_z = force->F[1];
+    if (outer == NULL) {
+        const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
+        half->F[1] += F_y;
+        half->F[2] += F_z;
+        half->M[0] += force->M_x + arm[1] * F_z - arm[2] * F_y;
+        half->M[1] += -arm[0] * F_z;
+        half->M[2] += arm[0] * F_y;
+    } else
+        add_wrench_along(outer, x, F_y, F_z, force->M_x, half);
+    w->land_elastic += force->stored;
+    w->land_growth[h] = force->N_0 * land_growth_rate(d, half->s + w->frame_omega);
+    w->cage_dissipated -=
+        F_y * at->v[0] + F_z * at->v[1] + force->M_x * at->omega + on_rim + force->stored_rate;
 }
 
 // The lands of HALVES halves side by side, beginning with half `first`.  outer: the outer ring, NULL if it is
@@ -468,49 +532,29 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const scalar spin[2] = {h0->s + w->frame_omega, h1->s + w->frame_omega};  // in space
     const wide C = wide_pair(land_clearance(d, spin[0]), land_clearance(d, spin[1]));
     const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
-    LandForce round[HALVES];
-    if (!model->modes) round_lands(model, w, first, outer, &land, V, C, heated, round);
-
-    // wrench on each half about its geometric centre
+    LandForce force[HALVES];
+    if (!model->modes) round_lands(model, w, first, outer, &land, V, C, heated, force);
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
-        Rotor *half = &w->half[h];
-        const scalar x = wide_lane(x_land, i);
         const LandRates at = {{wide_lane(land.v_y, i), wide_lane(land.v_z, i)}, wide_lane(omega, i)};
-        LandForce force;
         scalar on_rim = 0.0;  // power
         if (model->modes) {
             const scalar e[2] = {wide_lane(land.e_y, i), wide_lane(land.e_z, i)};
             const scalar squeeze[2] = {wide_lane(V[0], i), wide_lane(V[1], i)};
-            force = bent_land(model, w, h, outer, &at, e, squeeze, wide_lane(C, i), wide_lane(heated, i));
-            const LandPressure *on = &w->pressure[h];
-            for (int n = 0; n < RIM; n++) on_rim += on->rim_force[n] * on->rim_v[n];
-        } else
-            force = round[i];
-
-        const scalar F[3] = {0.0, force.F[0], force.F[1]};
-        const scalar arm[3] = {half->a[0] * x, half->a[1] * x, half->a[2] * x};
-        if (outer == NULL) {
-            half->F[1] += F[1];
-            half->F[2] += F[2];
-            half->M[0] += force.M_x + arm[1] * F[2] - arm[2] * F[1];
-            half->M[1] += -arm[0] * F[2];
-            half->M[2] += arm[0] * F[1];
-        } else
-            add_wrench_along(outer, x, F[1], F[2], force.M_x, half);
-        w->land_elastic += force.stored;
-        w->land_growth[h] = force.N_0 * land_growth_rate(d, spin[i]);
-        w->cage_dissipated -=
-            F[1] * at.v[0] + F[2] * at.v[1] + force.M_x * at.omega + on_rim + force.stored_rate;
+            force[i] = bent_land(model, w, h, outer, &at, e, squeeze, wide_lane(C, i), wide_lane(heated, i));
+            const LandPressure *pressure = &w->pressure[h];
+            for (int n = 0; n < RIM; n++) on_rim += pressure->rim_force[n] * pressure->rim_v[n];
+        }
+        add_land(d, w, h, outer, wide_lane(x_land, i), &at, &force[i], on_rim);
     }
 }
 
 void land_film_loads(const Work *w, LandLoad load[2])
 {
     for (int h = 0; h < 2; h++) {
-        const LandPressure *on = &w->pressure[h];
+        const LandPressure *pressure = &w->pressure[h];
         if (land_is_felt(w, h))
-            bent_load(&w->bent[h], on, &load[h]);
+            bent_load(&w->bent[h], pressure, &load[h]);
         else
             memset(&load[h], 0, sizeof load[h]);
     }

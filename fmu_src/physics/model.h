@@ -271,7 +271,7 @@ typedef struct {
 // the squeeze velocities by the spin against the outer ring [m], waves of the film's rates [N.s/m], squeeze velocities to
 // which film and rates belong ----
 typedef struct {
-    scalar e[2], V[2], dry, still, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM],
+    scalar e[2], V[2], dry, felt, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM],
         film[SQUEEZE];
     scalar by_spin[SQUEEZE], waves[BENT_WAVES], at[SQUEEZE];
 } LandPressure;

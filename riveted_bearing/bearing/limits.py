@@ -1,19 +1,36 @@
 """Which bearings can be built: limits between dimensions, each refused by the user's own key, value and unit with what
-is allowed.
+is allowed.  Here are those that follow from the half's shape; the others are of the table of variables.
 
 A limit is a margin, a length (or another quantity) that must not be negative, over the named values; the bound of one
 of them comes from the margin itself, by bisection.  Names are those of a bearing file: parameters by their full names,
 Z, catalogue.*, rivet.*.
 """
 
-import math
+from types import SimpleNamespace
 
+from bearing_model.generated import limits, variables
+from bearing_model.physics.parameters import in_force
 from rivet_model import half_shape, ribbon_shape
-from rivet_model.half_shape import LEAST_WALL, Limit
+from rivet_model.half_shape import Limit
 
 from . import ribbon, scaling
 
-DENSEST = 2.3e4  # kg/m3: no metal is heavier
+
+def parameters_of(v):
+    """Values by their names as the parameters in force that limits of the table are functions of."""
+    groups = {}
+    for name, value in v.items():
+        group, dot, member = name.partition(".")
+        if dot:
+            groups.setdefault(group, {})[member] = value
+    p = SimpleNamespace(**{group: SimpleNamespace(**members) for group, members in groups.items()})
+    p.cage.shape = variables.CageShape[p.cage.shape.upper()]
+    return in_force(p)
+
+
+def of_table(limit):
+    """A limit of the table over the names of a bearing file."""
+    return Limit(limit.keys, lambda v: limit.margin(parameters_of(v), v["Z"]), limit.reason)
 
 
 def shape_of(v):
@@ -43,161 +60,33 @@ def mass_beside_density(v):
     return 0.1 * own - abs(v["cage.m"] - own)
 
 
-def groove_bottom(v, side):
-    """Diameter of the groove's bottom, outer (side = 1) or inner (-1) [m]."""
-    return v["bearing.d_m"] + side * (v["bearing.D"] + 0.5 * v["bearing.P_d"])
-
-
-def ring_mass(v, density):
-    """Mass of a full ring of the half's diameters and width [kg]."""
-    return density * 0.25 * math.pi * (v["cage.D_o"] ** 2 - v["cage.D_i"] ** 2) * 0.5 * v["cage.width"]
-
-
-CAGE, RIVET = ("bearing.D", "bearing.d_m", "Z", "cage.pocket_clearance"), "rivet.head_diameter"
-LIMITS = (
-    Limit(
-        CAGE[:3], lambda v: v["bearing.d_m"] * math.sin(math.pi / v["Z"]) - v["bearing.D"], "balls that do not overlap"
-    ),
-    Limit(
-        ("bearing.P_d", "bearing.D", "bearing.f_i", "bearing.f_e"),
-        lambda v: 4.0 * (min(v["bearing.f_i"], v["bearing.f_e"]) - 0.5) * v["bearing.D"] - v["bearing.P_d"],
-        "balls that stay on their side of the grooves",
-    ),
-    Limit(
-        ("bearing.P_d", "bearing.D"),
-        lambda v: 0.01 * v["bearing.D"] + v["bearing.P_d"],
-        "an interference of at most 1 % of the ball",
-    ),
-    Limit(("cage.D_i", "cage.D_o"), lambda v: v["cage.D_o"] - v["cage.D_i"], "a cage with a wall"),
-    Limit(
-        ("cage.D_o", "bearing.d_m", "bearing.D", "cage.guide_clearance"),
-        lambda v: groove_bottom(v, 1) - v["cage.D_o"] - v["cage.guide_clearance"],
-        "a cage that, with its guide clearance, fits inside the outer groove's bottom",
-    ),
-    Limit(
-        ("cage.D_i", "bearing.d_m", "bearing.D", "bearing.h_i"),
-        lambda v: v["cage.D_i"] - groove_bottom(v, -1) - 2.0 * v["bearing.h_i"] * v["bearing.D"],
-        "a cage that passes over the inner ring's shoulder",
-    ),
+TABLE = [limit for limit in limits.LIMITS if not limit.is_array]
+# limits of balls and the cage's diameters, before those of the half
+FIRST = next(place for place, limit in enumerate(TABLE) if limit.quantity == "cage.land_width")
+OF_BODY = (
     Limit(
         ("cage.x_c", "cage.width", "cage.D_o", "cage.D_i"),
         centre_of_mass_beside_shape,
         "a centre of mass (2 % for rounding) of the half's own shape; without cage.x_c it follows",
     ),
     Limit(
-        ("cage.land_width", "cage.width"),
-        lambda v: 0.5 * v["cage.width"] - v["cage.land_width"] + 1e-12,
-        "a land on its half of the cage",
-    ),
-    Limit(
-        ("cage.land_x", "cage.land_width", "cage.width"),
-        lambda v: 0.5 * (v["cage.width"] - v["cage.land_width"]) - v["cage.land_x"] + 1e-6,
-        "a land that does not reach over the cage's edge",
-    ),
-    Limit(
-        ("cage.m", "cage.D_o", "cage.D_i", "cage.width"),
-        lambda v: ring_mass(v, DENSEST) - v["cage.m"],
-        "a half lighter than a full ring of the heaviest metal",
-    ),
-    Limit(
         ("cage.m", "cage.rho"),
         mass_beside_density,
         "a half's mass by its shape and the density of its material (10 % for edges that no drawing has); without cage.m it follows",
     ),
-    Limit(
-        ("cage.J_p", "cage.m", "cage.D_o"),
-        lambda v: 0.25 * v["cage.m"] * v["cage.D_o"] ** 2 - v["cage.J_p"],
-        "a half with its mass inside cage.D_o",
-    ),
-    Limit(
-        ("cage.J_p", "cage.m", "cage.D_i"),
-        lambda v: v["cage.J_p"] - 0.25 * v["cage.m"] * v["cage.D_i"] ** 2,
-        "a half with its mass outside cage.D_i",
-    ),
-    Limit(("cage.J_t", "cage.J_p"), lambda v: v["cage.J_t"] - 0.499 * v["cage.J_p"], "moments of inertia of a body"),
-    Limit(("ring.J_t", "ring.J_p"), lambda v: v["ring.J_t"] - 0.499 * v["ring.J_p"], "moments of inertia of a body"),
-    Limit(
-        (RIVET, "rivet.shank_diameter", "rivet.relief_radius"),
-        lambda v: v[RIVET] - v["rivet.shank_diameter"] - 2.0 * v["rivet.relief_radius"],
-        "a head wider than the relieved hole",
-    ),
-    Limit(
-        ("joint.preload", "rivet.shank_diameter"),
-        lambda v: v["rivet.yield_rivet"] * 0.25 * math.pi * v["rivet.shank_diameter"] ** 2 - v["joint.preload"],
-        "a shank that does not yield by its preload",
-    ),
-    Limit(
-        ("rivet.head_height", "rivet.fillet_radius"),
-        lambda v: v["rivet.head_height"] - v["rivet.fillet_radius"],
-        "a fillet below the head",
-    ),
-    Limit(
-        ("rivet.fillet_radius", "rivet.relief_radius"),
-        lambda v: v["rivet.relief_radius"] - v["rivet.fillet_radius"],
-        "a fillet inside the relief",
-    ),
-    Limit(
-        ("rivet.fillet_radius", "rivet.relief_depth"),
-        lambda v: v["rivet.relief_depth"] - v["rivet.fillet_radius"],
-        "a fillet inside the relief",
-    ),
-    Limit(
-        ("rivet.flange_thickness", "rivet.relief_depth", "rivet.edge_break"),
-        lambda v: v["rivet.flange_thickness"] - v["rivet.relief_depth"] - v["rivet.edge_break"],
-        "a flange that bears the shank",
-    ),
-    Limit(
-        ("rivet.edge_break", "rivet.relief_radius"),
-        lambda v: v["rivet.relief_radius"] - v["rivet.edge_break"],
-        "a chamfer smaller than the relief",
-    ),
-    Limit(
-        ("rivet.middle_zone", "rivet.edge_break"),
-        lambda v: v["rivet.edge_break"] - v["rivet.middle_zone"],
-        "a middle zone inside the chamfer",
-    ),
-    Limit(
-        ("catalogue.bore", "bearing.d_m", "bearing.D"),
-        lambda v: groove_bottom(v, -1) - 2.0 * LEAST_WALL - v["catalogue.bore"],
-        "an inner ring below its groove",
-    ),
-    Limit(
-        ("catalogue.outside_diameter", "bearing.d_m", "bearing.D"),
-        lambda v: v["catalogue.outside_diameter"] - groove_bottom(v, 1) - 2.0 * LEAST_WALL,
-        "an outer ring above its groove",
-    ),
-    Limit(
-        ("catalogue.width", "cage.width"),
-        lambda v: v["catalogue.width"] - v["cage.width"],
-        "a cage inside the bearing's width",
-    ),
-    Limit(
-        ("catalogue.width", "bearing.D"),
-        lambda v: v["catalogue.width"] - v["bearing.D"],
-        "balls inside the bearing's width",
-    ),
 )
-
-
-FIRST = 6  # limits of balls and the cage's diameters, before those of the half
 MACHINED = tuple(of_half(limit) for limit in half_shape.LIMITS)
 RIBBON_NAMES = scaling.SHAPE | scaling.RIBBON | {"cage_half_width": "cage.pocket_depth"}
-RIBBON = (
-    Limit(
-        ("cage.width", "cage.pocket_depth", "cage.sheet"),
-        lambda v: 0.01 * v["cage.width"] - abs(v["cage.width"] - 2.0 * (v["cage.pocket_depth"] + v["cage.sheet"])),
-        "a ribbon as wide as pockets and sheets of both halves; without cage.width it follows",
-    ),
-    *(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS),
-)
-OF_LAND = ("cage.guide_clearance", "cage.land_x")  # a ribbon has none
+RIBBON = tuple(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS)
 
 
 def limits_of(values):
-    """All limits that a bearing with these values must keep."""
-    if not ribbon.is_ribbon(values):
-        return LIMITS[:FIRST] + MACHINED + LIMITS[FIRST:]
-    return RIBBON + tuple(limit for limit in LIMITS if not set(limit.keys) & set(OF_LAND))
+    """All limits that a bearing with these values must keep, but those about values that are not known."""
+    first, rest = (
+        tuple(of_table(limit) for limit in part if all(name in values for name in limit.needs))
+        for part in (TABLE[:FIRST], TABLE[FIRST:])
+    )
+    return first + (RIBBON if ribbon.is_ribbon(values) else MACHINED) + OF_BODY + rest
 
 
 def holds(limit, values):

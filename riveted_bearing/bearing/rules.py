@@ -2,9 +2,11 @@
 
 from dataclasses import fields
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from bearing_model.generated import variables
+from bearing_model.generated.limits import LIMITS
 from rivet_model.geometry import Geometry
 
 from ..base.errors import refusal
@@ -136,14 +138,13 @@ def check_limits(
 
 def check_guidance(path, values):
     """UserError for a cage that its shape does not let be guided as the values say."""
-    by_balls = ribbon.is_guided_by_balls(values)
-    if by_balls != ribbon.is_ribbon(values):
-        reason = (
-            'a machined cage\'s drilled pockets slide along the radius; "outer" is allowed, or cage.shape = "ribbon"'
-            if by_balls
-            else 'a ribbon cage has no land on the outer ring; "balls" is allowed'
-        )
-        raise refusal(path, "cage.guidance", values["cage.guidance"], reason)
+    cage = SimpleNamespace(
+        shape=variables.CageShape[values["cage.shape"].upper()],
+        guidance=variables.CageGuidance[values["cage.guidance"].upper()],
+    )
+    for limit in LIMITS:
+        if limit.quantity == "cage.guidance" and not limit.holds(SimpleNamespace(cage=cage), variables.Z):
+            raise refusal(path, "cage.guidance", values["cage.guidance"], limit.allowed)
 
 
 def changed(parts, key, value):

@@ -207,6 +207,6 @@ def cage_elastic_acceleration(model, y, w, y_dot):
 def cage_elastic_rivets(model, w):
     """JointLoads of all joints and their rivets."""
     j, shear = w.cage.elastic.joints, cage_joint_carried(model, w)
-    if w.pressure and np.any(np.real(w.pressure.still) > 0.0):
+    if w.pressure and np.any(np.real(w.pressure.felt) > 0.0):
         j = elastic_lands(model, w, cage_elastic_preload(model, cage_elastic_speed_2(w)), shear)
     return cage_joint_loads(model, j.load, j.rivet, shear)

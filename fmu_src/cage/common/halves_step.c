@@ -11,7 +11,7 @@
 //   contact                 relative velocity B v                        coefficient C
 //   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
 //   land and bent rim       and its shapes                               Newton's method (land_bent.c)
-//   land, Couette and dry   spin s                                       film_spin
+//   land, Couette and dry   spin s                                       film.spin
 #include "cage/common/halves_step.h"
 
 #include "cage/common/films.h"
