@@ -29,7 +29,7 @@ from riveted_bearing.duty.history import binned
 from riveted_bearing.duty.miner import Duty, lives, simple_duty
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.mission_file import Life
-from riveted_bearing.duty.notes import matrix_warnings, notes
+from riveted_bearing.duty.notes import matrix_warnings, notes, oil_in_pockets
 from riveted_bearing.duty.page import life_density, write_page, write_picture
 from riveted_bearing.duty.starts import started
 from riveted_bearing.running.fmu import Model
@@ -60,6 +60,15 @@ def mission_of(model, points, **document):
     """A Mission of points (hours, inputs) with the document's other keys."""
     blocks = [{"hours": hours, "inputs": inputs} for hours, inputs in points]
     return plan_mission("trial", SHORT | {"point": blocks} | document, model, Path("trial.toml"))
+
+
+def test_the_oil_in_the_pockets_is_told(model):
+    own, given = (
+        mission_of(model, [(1, {})], parameters=SHORT["parameters"] | more)
+        for more in ({}, {"cage.pocket_filling": 0.3})
+    )
+    assert "is assumed" in oil_in_pockets(own, model)
+    assert oil_in_pockets(given, model) == "Oil in the pockets: cage.pocket_filling = 0.3 (0 dry, 1 flooded)."
 
 
 # Miner's sum ----------------------------------------------------------------------------------------------------------
