@@ -9,7 +9,16 @@ import re
 from blind import FIGURES as LIMITS
 from common import ROOT
 from pages import page_text
-from performance_pictures import BLIND, PICTURES, curve, draw_blind, draw_scaling, draw_work_precision, row_of
+from performance_pictures import (
+    BLIND,
+    PICTURES,
+    curve,
+    draw_blind,
+    draw_scaling,
+    draw_work_precision,
+    families_of,
+    row_of,
+)
 from records import RESULTS, newest_if_any, newest_record
 
 PAGE = ROOT / "docs" / "performance.md"
@@ -119,7 +128,7 @@ def headline(data):
 def costs(data):
     """Cost of every family at the default's error, over the default's."""
     scenes = data["scenes"]
-    families = dict.fromkeys(r["family"] for r in next(iter(scenes.values()))["states"]["rows"])
+    families = families_of(next(iter(scenes.values()))["states"]["rows"])
     others = [family for family in families if family != data["default"]["family"]]
     rows = [[family, *[ratio(cost_ratio(data, scene, family)) for scene in scenes.values()]] for family in others]
     ours = [row_of(scene["states"]["rows"], **data["default"]) for scene in scenes.values()]
