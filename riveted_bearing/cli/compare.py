@@ -8,6 +8,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from ..base.files import make_folder
+from .printing import print_paths
 from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
 
 
@@ -81,5 +82,4 @@ def compare(
         console.print(long_table(found))
         console.print("\n[bold]Energy in the reference[/]")
         console.print(ledger_table(found.ledger))
-    path = plot_comparison(found, out / f"{plan.name}_compare.png")
-    console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(("picture", plot_comparison(found, out / f"{plan.name}_compare.png")))

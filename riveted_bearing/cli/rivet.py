@@ -7,6 +7,7 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
+from .printing import note, print_paths
 from .terminal import command, console, messages
 
 
@@ -42,7 +43,6 @@ def rivet(
     for name, rows in curve_tables(curves):
         console.print(f"\n[bold]{name}[/]", soft_wrap=True)
         console.print(rows)
-    if note := seat_note(joint.geometry):
-        messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
-    for path in paths:
-        console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    if text := seat_note(joint.geometry):
+        note(text)
+    print_paths(*(("picture", path) for path in paths))

@@ -16,7 +16,6 @@ seed, so that a call after a stop reads the runs that are done and goes on from 
 
 from __future__ import annotations
 
-import json
 import math
 import warnings
 from dataclasses import dataclass
@@ -28,11 +27,11 @@ from pydantic import Field
 
 from ..base.errors import UserError, extra, refusal, unknown
 from ..base.file_kinds import check_keys
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.schema import Count, Named, checked
 from ..base.units import to_si
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses
 
 if TYPE_CHECKING:
@@ -256,10 +255,7 @@ def write_optimum(found: Any, path: Path, basis: Any = ()) -> Path:
         "candidates": rows,
         "trials": len(found.points),
     }
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(path, document)
 
 
 def write_picture(found: Any, path: Path) -> Path:
@@ -271,9 +267,7 @@ def write_picture(found: Any, path: Path) -> Path:
         (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
         figure.suptitle(f"{found.study.path.stem}: {len(found.points)} points searched", x=0.01, ha="left", fontsize=11)
         figure.legend(loc="outside lower center", ncols=3, fontsize=8)  # points lie anywhere on the panel
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)
 
 
 def pareto_panel(ax, found):

@@ -30,10 +30,10 @@ from pydantic import AfterValidator, Field
 
 from ..base.errors import UserError, extra
 from ..base.file_kinds import check_keys
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.schema import Count, Section, checked
 from ..running.responses import display_of
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses, noise_variance
 
 if TYPE_CHECKING:
@@ -207,10 +207,7 @@ def order(found: Any, name: str) -> Any:
 
 def write_indices(found: Any, path: Path) -> Path:
     """Write all indices as JSON, whole or not at all; returns the path."""
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(path, vars(found))
 
 
 def read_indices(path: str | Path) -> Any:
@@ -257,9 +254,7 @@ def write_picture(found: Any, path: Path) -> Path:
         keys = {text: handle for ax in axes.flat for handle, text in zip(*ax.get_legend_handles_labels(), strict=True)}
         if keys:  # beside the panels, whose bars and errors lie anywhere
             figure.legend(keys.values(), keys, loc="outside lower center", ncols=len(keys))
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)
 
 
 def screening_panel(ax, found, name):

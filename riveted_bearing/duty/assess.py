@@ -14,7 +14,7 @@ import numpy as np
 from bearing_model.generated.variables import INPUTS
 
 from ..base.errors import UserError
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
@@ -368,8 +368,4 @@ def read_record(folder):
 
 def write_record(life: Life, folder: Path) -> Path:
     """Write life.json, whole or not at all; returns its path."""
-    path = folder / RECORD
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(record(life), indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(folder / RECORD, record(life))

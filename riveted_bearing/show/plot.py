@@ -61,8 +61,13 @@ def plot_result(result: Result, path: Path) -> Path:
         orbit_ax, bars_ax = right.subplots(2, 1)
         cage_orbit(orbit_ax, result)
         rivet_bars(bars_ax, result)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=130))
-        plt.close(figure)
+        return save_figure(figure, path, 130)
+
+
+def save_figure(figure: Any, path: Path, dpi: int = 110) -> Path:
+    """Write a figure as PNG, whole or not at all, and close it; returns the path."""
+    write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
+    plt.close(figure)
     return path
 
 
@@ -270,9 +275,7 @@ def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
             grid = axes[0, 2].get_gridspec()
             axes[0, 2].remove(), axes[1, 2].remove()
             deviations(figure.add_subplot(grid[:, 2]), found)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path, dpi)
 
 
 def overlay(ax, t, channel, title):

@@ -339,16 +339,9 @@ def squared(unit: str) -> Any:
 
 def plot_spectra(found: Any, path: Path) -> Path:
     """A picture of both spectra."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    from .plot import STYLE
+    from .plot import STYLE, plt, save_figure
 
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(9, 6), layout="constrained")
         draw(figure, found)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)
