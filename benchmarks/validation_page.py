@@ -12,7 +12,7 @@ from common import ROOT
 from pages import page_text
 from records import newest_record
 
-from riveted_bearing.show.plot import HEAD, MIDDLE, MUTED, STYLE
+from riveted_bearing.show.style import HEAD, MIDDLE, MUTED, STYLE
 
 PAGE, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "validation"
 

@@ -43,7 +43,7 @@ from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.responses import displayed, titled
 from riveted_bearing.show import charts
 from riveted_bearing.show.pages import save_page
-from riveted_bearing.show.plot import HEAD, MUTED
+from riveted_bearing.show.style import HEAD, MUTED
 from riveted_bearing.studies.sweep import run_sweep
 from riveted_bearing.studies.sweep_file import count_of, key_of
 

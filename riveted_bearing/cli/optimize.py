@@ -91,7 +91,7 @@ def print_optimum(found, present, parts=None):
         texts = "recommended" if best else title, *cells(study, *rest), *stress
         shown_points.add_row(*texts, style="bold" if best else None)
     console.print(shown_points)
-    text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
+    text = f"{len(found.points)} points searched; means ± standard error over {study.file.check_seeds} seeds that the search has not seen"
     console.print(
         f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True
     )

@@ -33,7 +33,7 @@ from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Section, checked
 from ..running.responses import display_of
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses, noise_variance
 
 if TYPE_CHECKING:
@@ -107,14 +107,13 @@ class Study:
     """A sensitivity study that was checked."""
 
     path: Path
-    description: str
     box: Box
-    responses: list
-    trajectories: int
-    levels: int
-    factors: int
-    count: int
-    seed: int
+    file: SensitivityFile
+
+    @property
+    def responses(self):
+        """Names of the responses."""
+        return self.file.responses
 
 
 def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, assumed: Any = None) -> Any:
@@ -123,8 +122,7 @@ def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, a
     """
     check_keys(path, document, SensitivityFile.model_fields, "sensitivity study")
     file = checked(SensitivityFile, document, path)
-    settings = {**dict(file.morris), **dict(file.sobol), "seed": file.seed}
-    return Study(Path(path), file.description, Box(path, file.between, model, assumed), file.responses, **settings)
+    return Study(Path(path), Box(path, file.between, model, assumed), file)
 
 
 def salib(command: str = "sensitivity") -> Any:
@@ -144,39 +142,38 @@ def salib(command: str = "sensitivity") -> Any:
 def analyse(study: Any, evaluate: Any) -> Any:
     """The Sensitivity of a Study; evaluate(names, points [n, d], responses) returns [n, seeds, m]."""
     sample_morris, analyze_morris, sample_sobol, analyze_sobol = salib()
+    design, sobol_design, seed = study.file.morris, study.file.sobol, study.file.seed
     problem = study.box.problem()
-    points = sample_morris.sample(problem, study.trajectories, num_levels=study.levels, seed=study.seed)
+    points = sample_morris.sample(problem, design.trajectories, num_levels=design.levels, seed=seed)
     values = complete(study, evaluate(study.box.names, points, study.responses))
-    noise, step = noise_variance(values), study.levels / (2.0 * (study.levels - 1))
+    noise, step = noise_variance(values), design.levels / (2.0 * (design.levels - 1))
     morris: dict[str, dict[str, Any]] = {}
     for i, name in enumerate(study.responses):
-        found = analyze_morris.analyze(
-            problem, points, values.mean(axis=1)[:, i], num_levels=study.levels, seed=study.seed
-        )
+        found = analyze_morris.analyze(problem, points, values.mean(axis=1)[:, i], num_levels=design.levels, seed=seed)
         morris[name] = {key: [float(x) for x in found[key]] for key in ("mu_star", "mu_star_conf", "sigma")}
         morris[name]["noise"] = float(2.0 * math.sqrt(noise[i] / math.pi) / step) if np.isfinite(noise[i]) else None
     scale = [max(max(morris[name]["mu_star"]), 1e-300) for name in study.responses]
     strength = np.max(
         [np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0
     )
-    chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: study.factors]]
+    chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: sobol_design.factors]]
     sobol: dict[str, dict[str, Any]] = {}
     seeds = values.shape[1]
     if chosen:
         box = study.box.chosen(chosen)
-        points = sample_sobol.sample(box.problem(), study.count, calc_second_order=False, seed=study.seed)
+        points = sample_sobol.sample(box.problem(), sobol_design.count, calc_second_order=False, seed=seed)
         values = complete(study, evaluate(box.names, points, study.responses))
         noise = noise_variance(values)
         for i, name in enumerate(study.responses):
             means = values.mean(axis=1)[:, i]
             if np.ptp(means) == 0.0:
                 raise UserError(f"{study.path}: response {name} is {means[0]:g} everywhere: no variance to share out")
-            found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=study.seed)
+            found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=seed)
             sobol[name] = {key: [float(x) for x in found[key]] for key in ("S1", "S1_conf", "ST", "ST_conf")}
             sobol[name]["noise"] = float(noise[i] / means.var()) if np.isfinite(noise[i]) else None
     return Sensitivity(
         study.path.stem,
-        study.description,
+        study.file.description,
         seeds,
         tuple(study.responses),
         tuple(study.box.names),

@@ -10,7 +10,7 @@ from matplotlib.ticker import NullFormatter
 from ..base.files import write_json
 from ..base.units import LONGEST, hours_text
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING
 from .designs import APART, HEAD_STRESS, RESPONSES, ends_of
 from .page import OPEN, interval_text, open_ends
 from .raceways import card, finite

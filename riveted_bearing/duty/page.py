@@ -15,7 +15,7 @@ from ..base.units import LONGEST, figure, hours_text
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
 from .raceways import card
 
 if TYPE_CHECKING:
@@ -280,8 +280,6 @@ CHARTS = {
 
 def write_picture(life: Life, path: Path) -> Path:
     """The four charts as one PNG, whole or not at all; returns the path."""
-    from ..show.plot import STYLE
-
     with plt.rc_context(STYLE):
         whole = plt.figure(figsize=(11, 7.4), layout="constrained")
         whole.suptitle(

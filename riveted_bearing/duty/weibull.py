@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base.errors import UserError, extra
 from ..base.units import hours_text
-from ..show.plot import FORCE, HEAD, MIDDLE, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, STYLE, plt, save_figure
 
 
 @dataclass(frozen=True)

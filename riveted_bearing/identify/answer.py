@@ -15,7 +15,7 @@ from ..base.version import __version__
 from ..running.responses import display_of, displayed, titled
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED
 
 if TYPE_CHECKING:
     from ..running.scene import Scene

@@ -6,15 +6,15 @@ import re
 from dataclasses import replace
 
 import numpy as np
+from matplotlib.colors import LogNorm
 from scipy.signal import welch
 
 from ..base.errors import UserError
 from ..running.summary import columns, settled
 from . import plot, spectrum
-from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, wanted
-
-import matplotlib.pyplot as plt  # isort: skip  (after plot has chosen the backend)
-from matplotlib.colors import LogNorm
+from .orbit import cage_orbit as draw_orbit
+from .plot import wanted
+from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
 
 PAGE_COLOURS = {  # of plot.py -> custom properties of style.css
     HEAD: "var(--head)",
@@ -290,7 +290,7 @@ def section(figure, result):
 def cage_orbit(figure, result):
     """Orbit of the cage's centre in its guide clearance."""
     ax = figure.subplots()
-    plot.cage_orbit(ax, result)
+    draw_orbit(ax, result)
     ax.set_title("")
 
 

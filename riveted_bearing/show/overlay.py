@@ -21,7 +21,7 @@ from ..base.errors import UserError, unknown
 from ..base.units import SECONDS, canonical, scale, scales_of, suffix
 from ..base.variable_list import KNOWN
 from ..running.summary import settled
-from .plot import FORCE, HEAD, MUTED
+from .style import FORCE, HEAD, MUTED
 
 UNEVEN = 0.01  # of the mean step: times beyond it have no spectrum
 FEWEST = 16

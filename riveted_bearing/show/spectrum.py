@@ -314,7 +314,7 @@ def write_spectra(found: Any, path: Path) -> Path:
 
 def draw(figure, found):
     """Spectrum above, envelope spectrum with the kinematic frequencies below."""
-    from .plot import FORCE, HEAD, MIDDLE, MUTED
+    from .style import FORCE, HEAD, MIDDLE, MUTED
 
     colours = {"FTF": MUTED, "BSF": "#e09f3e", "BPFO": HEAD, "BPFI": MIDDLE}
     above, below = figure.subplots(2, 1)
@@ -339,7 +339,7 @@ def squared(unit: str) -> Any:
 
 def plot_spectra(found: Any, path: Path) -> Path:
     """A picture of both spectra."""
-    from .plot import STYLE, plt, save_figure
+    from .style import STYLE, plt, save_figure
 
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(9, 6), layout="constrained")

@@ -287,12 +287,7 @@ def plot_matrices(found: Any, path: Path) -> Path:
     """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
     factor.
     """
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    from ..show.plot import STYLE, save_figure
+    from ..show.style import STYLE, plt, save_figure
 
     loads = list(dict.fromkeys(p.load for p in found))
     with plt.rc_context(STYLE):

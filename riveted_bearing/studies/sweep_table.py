@@ -16,7 +16,7 @@ from ..base.units import suffix
 from ..running.basis import basis
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
 
 if TYPE_CHECKING:
     from .sweep_file import Sweep
