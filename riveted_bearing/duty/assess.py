@@ -52,9 +52,7 @@ class Life:
     @property
     def place(self):
         """What fails first, in words."""
-        k, place = divmod(self.estimate.place, 2)
-        where = ("head", "middle")[place]
-        return f"rivet {k + 1}, {where}" if self.mission.settings["rivets"] == "each" else f"{where}s of the rivets"
+        return place_text(self.estimate.place, self.mission.settings["rivets"])
 
     @property
     def low(self):
@@ -158,6 +156,13 @@ def damages_counted(matrix, laws, own):
     chosen = matrix[0] == channel
     cycles = (column[chosen] for column in matrix[1:])
     return damage_of_cycles(Strength(laws[channel]), *cycles).sum(), own.max()
+
+
+def place_text(place, rivets):
+    """A place that can fail in words: a rivet's head or middle, or, if all rivets take all places in turn, all of them."""
+    k, end = divmod(place, 2)
+    where = ("head", "middle")[end]
+    return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
 
 
 def number_of_rivets(rows):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline
-from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram, sosfiltfilt
+from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram, sosfiltfilt, welch
 from scipy.signal.windows import hann
 
 from ..base.errors import UserError, unknown
@@ -202,6 +202,12 @@ def amplitude_spectrum(x, rate):
     """Frequencies and amplitudes of sines."""
     frequency, power = periodogram(x, rate, window="hann", detrend="constant", scaling="spectrum")
     return frequency, np.sqrt(2.0 * power)
+
+
+def density(values: np.ndarray, rate: float, segment: int = 1024) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies [Hz] above 0 and amplitude density [unit/√Hz] of samples at a rate, by Welch with Hann windows."""
+    f, power = welch(values, rate, nperseg=min(len(values), segment), detrend="constant")
+    return f[1:], np.sqrt(power[1:])
 
 
 def kurtosis_band(x, rate):
