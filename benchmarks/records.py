@@ -61,6 +61,14 @@ def newest_record(name, folder=RESULTS):
     return max(map(read_record, paths), key=lambda record: record["date"])
 
 
+def newest_if_any(name, folder=RESULTS):
+    """The newest record of a benchmark, None if there is none."""
+    try:
+        return newest_record(name, folder)
+    except FileNotFoundError:
+        return None
+
+
 def text_of(record):
     """The record as CSV behind a header of "# name = JSON" lines."""
     rows = list(rows_of({name: value for name, value in record.items() if name not in HEADER}))

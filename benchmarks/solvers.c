@@ -2,17 +2,10 @@
 // core's integrator.h, so that model, inputs, edges of pulses, statistics and error weights are those of the
 // FMU and only the stepping differs.
 //
-// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of three
-// ways:
+// Vectors are SUNDIALS' own serial ones.  BDF solves its Newton systems (1 - gamma J) x = b in one of two ways:
 //
 //   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
 //   diagonal   J = -D, the damping rates that the core computes, each state for itself: no factorization
-//   bordered   each ball's nine states and each joint's four friction states couple to ring and cage only:
-//
-//                  | B_1            C_1 |        S = D - sum E_g B_g^-1 C_g,  x_d = S^-1 (b_d - sum E_g B_g^-1 b_g),
-//              M = |      B_2       C_2 |        x_g = B_g^-1 (b_g - C_g x_d)
-//                  |           ...  ... |
-//                  | E_1  E_2  ...  D   |        J by differences, one evaluation a column as in the dense case
 //
 // A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there:
 // those evaluations are made only where a scene wants stress or statistics.
@@ -26,7 +19,6 @@
 #include <cvode/cvode.h>
 #include <nvector/nvector_serial.h>
 #include <stdlib.h>
-#include <sundials/sundials_dense.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
@@ -169,189 +161,10 @@ static int diagonal_solve(SUNLinearSolver solver, SUNMatrix none, N_Vector x, N_
     return 0;
 }
 
-// ---- bordered block-diagonal Jacobian ---------------------------------------------------------------------
-enum {
-    BALL_STATES = 9,
-    JOINT_STATES = 4,
-    GROUPS = 2 * Z,
-    BORDER = N_STATES - (BALL_STATES + JOINT_STATES) * Z
-};
-
-typedef struct {
-    int size[GROUPS], at[GROUPS][BALL_STATES];
-    int border_at[BORDER];         // the states of each group and of the border
-    double J[N_STATES][N_STATES];  // by columns; only the pattern is used
-    double block[GROUPS][BALL_STATES][BALL_STATES], across[GROUPS][BORDER][BALL_STATES];
-    double below[GROUPS][BALL_STATES][BORDER], border[BORDER][BORDER];
-    sunindextype pivot[GROUPS][BALL_STATES], border_pivot[BORDER];
-} Bordered;
-
-// Pointers to the columns of a matrix, as SUNDIALS' dense routines want them.
-#define COLUMNS(name, matrix, n) \
-    double *name[BORDER];        \
-    for (int column = 0; column < (n); column++) name[column] = (matrix)[column]
-
-static void bordered_pattern(Bordered *m)
-{
-    static const int BALL[BALL_STATES] = {Y_BALL_X,       Y_BALL_R,       Y_BALL_THETA,
-                                          Y_BALL_V_X,     Y_BALL_V_R,     Y_BALL_OMEGA_M,
-                                          Y_BALL_OMEGA_X, Y_BALL_OMEGA_R, Y_BALL_OMEGA_T};
-    static const int JOINT[JOINT_STATES] = {Y_JOINT_PLATE_Y, Y_JOINT_PLATE_Z, Y_JOINT_HEAD_Y, Y_JOINT_HEAD_Z};
-    bool inside[N_STATES] = {false};
-    for (int g = 0; g < GROUPS; g++) {
-        const bool ball = g < Z;
-        m->size[g] = ball ? BALL_STATES : JOINT_STATES;
-        for (int i = 0; i < m->size[g]; i++) {
-            m->at[g][i] = (ball ? BALL[i] : JOINT[i]) + g % Z;
-            inside[m->at[g][i]] = true;
-        }
-    }
-    int n = 0;
-    for (int i = 0; i < N_STATES; i++)
-        if (!inside[i]) m->border_at[n++] = i;
-}
-
-static void difference_jacobian(Integrator *in, double t, const double *y, double J[N_STATES][N_STATES],
-                                double *counter)
-{
-    double f[N_STATES], moved[N_STATES];
-    memcpy(f, evaluate(in, t, y, counter), sizeof f);
-    memcpy(moved, y, sizeof moved);
-    memset(J[Y_WORK], 0, sizeof J[Y_WORK]);  // nothing depends on it
-    for (int b = 0; b < N_STATE_BLOCKS; b++) {
-        const double step = 1e-6 * in->model->d->scale[STATE_BLOCKS[b].scale];
-        for (int i = STATE_BLOCKS[b].offset; i < STATE_BLOCKS[b].offset + STATE_BLOCKS[b].count; i++) {
-            if (i == Y_WORK) continue;
-            moved[i] = y[i] + step;
-            const double h = moved[i] - y[i], *changed = evaluate(in, t, moved, counter);
-            for (int k = 0; k < N_STATES; k++) J[i][k] = (changed[k] - f[k]) / h;
-            moved[i] = y[i];
-        }
-    }
-}
-
-static int bordered_system(sunrealtype t, N_Vector y, N_Vector fy, SUNMatrix M, sunbooleantype still_good,
-                           sunbooleantype *renewed, sunrealtype gamma, void *user, N_Vector a, N_Vector b,
-                           N_Vector c)
-{
-    (void)fy, (void)a, (void)b, (void)c;
-    Bordered *m = M->content;
-    if (!still_good) difference_jacobian(user, t, N_VGetArrayPointer(y), m->J, &jacobian_evals_made);
-    *renewed = !still_good;
-    for (int g = 0; g < GROUPS; g++) {
-        for (int i = 0; i < m->size[g]; i++) {
-            const double *column = m->J[m->at[g][i]];
-            for (int k = 0; k < m->size[g]; k++) m->block[g][i][k] = (i == k) - gamma * column[m->at[g][k]];
-            for (int k = 0; k < BORDER; k++) m->below[g][i][k] = -gamma * column[m->border_at[k]];
-        }
-        for (int i = 0; i < BORDER; i++)
-            for (int k = 0; k < m->size[g]; k++)
-                m->across[g][i][k] = -gamma * m->J[m->border_at[i]][m->at[g][k]];
-    }
-    for (int i = 0; i < BORDER; i++)
-        for (int k = 0; k < BORDER; k++)
-            m->border[i][k] = (i == k) - gamma * m->J[m->border_at[i]][m->border_at[k]];
-    return 0;
-}
-
-// b -= E_g x
-static void subtract_below(const Bordered *m, int g, const double *x, double *b)
-{
-    for (int i = 0; i < m->size[g]; i++)
-        for (int k = 0; k < BORDER; k++) b[k] -= m->below[g][i][k] * x[i];
-}
-
-static int bordered_factor(SUNLinearSolver solver, SUNMatrix M)
-{
-    (void)solver;
-    Bordered *m = M->content;
-    for (int g = 0; g < GROUPS; g++) {
-        COLUMNS(block, m->block[g], m->size[g]);
-        if (SUNDlsMat_denseGETRF(block, m->size[g], m->size[g], m->pivot[g]) != 0) return 1;
-        for (int i = 0; i < BORDER; i++) {
-            SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g],
-                                 m->across[g][i]);  // B_g^-1 C_g takes the place of C_g
-            subtract_below(m, g, m->across[g][i], m->border[i]);
-        }
-    }
-    COLUMNS(border, m->border, BORDER);
-    return SUNDlsMat_denseGETRF(border, BORDER, BORDER, m->border_pivot) != 0;
-}
-
-static int bordered_solve(SUNLinearSolver solver, SUNMatrix M, N_Vector x, N_Vector b, sunrealtype tolerance)
-{
-    (void)solver, (void)tolerance;
-    Bordered *m = M->content;
-    double part[GROUPS][BALL_STATES], border_part[BORDER];
-    for (int k = 0; k < BORDER; k++) border_part[k] = N_VGetArrayPointer(b)[m->border_at[k]];
-    for (int g = 0; g < GROUPS; g++) {
-        COLUMNS(block, m->block[g], m->size[g]);
-        for (int i = 0; i < m->size[g]; i++) part[g][i] = N_VGetArrayPointer(b)[m->at[g][i]];
-        SUNDlsMat_denseGETRS(block, m->size[g], m->pivot[g], part[g]);
-        subtract_below(m, g, part[g], border_part);
-    }
-    COLUMNS(border, m->border, BORDER);
-    SUNDlsMat_denseGETRS(border, BORDER, m->border_pivot, border_part);
-    for (int k = 0; k < BORDER; k++) N_VGetArrayPointer(x)[m->border_at[k]] = border_part[k];
-    for (int g = 0; g < GROUPS; g++) {
-        for (int k = 0; k < BORDER; k++)
-            for (int i = 0; i < m->size[g]; i++) part[g][i] -= m->across[g][k][i] * border_part[k];
-        for (int i = 0; i < m->size[g]; i++) N_VGetArrayPointer(x)[m->at[g][i]] = part[g][i];
-    }
-    return 0;
-}
-
-static SUNLinearSolver_Type direct(SUNLinearSolver solver)
-{
-    (void)solver;
-    return SUNLINEARSOLVER_DIRECT;
-}
-
 static SUNErrCode linear_free(SUNLinearSolver solver)
 {
     SUNLinSolFreeEmpty(solver);
     return SUN_SUCCESS;
-}
-
-static SUNMatrix_ID matrix_id(SUNMatrix M)
-{
-    (void)M;
-    return SUNMATRIX_CUSTOM;
-}
-
-static SUNErrCode matrix_zero(SUNMatrix M)
-{
-    (void)M;  // bordered_system writes every entry
-    return SUN_SUCCESS;
-}
-
-static void matrix_destroy(SUNMatrix M)
-{
-    free(M->content);
-    SUNMatFreeEmpty(M);
-}
-
-double solver_outside_pattern(struct Part *b)
-{
-    Bordered *m = malloc(sizeof *m);
-    if (m == NULL) return NAN;
-    bordered_pattern(m);
-    Integrator *in = b->integrator;
-    double counter = 0.0, outside = 0.0, largest = 0.0;
-    difference_jacobian(in, b->s.integrator.t, b->s.integrator.now.y, m->J, &counter);
-    int group[N_STATES];
-    for (int i = 0; i < N_STATES; i++) group[i] = -1;  // border
-    for (int g = 0; g < GROUPS; g++)
-        for (int i = 0; i < m->size[g]; i++) group[m->at[g][i]] = g;
-    for (int i = 0; i < N_STATES; i++) {
-        for (int k = 0; k < N_STATES; k++) {
-            const double size = fabs(m->J[i][k]);
-            largest = fmax(largest, size);
-            if (group[i] >= 0 && group[k] >= 0 && group[i] != group[k]) outside = fmax(outside, size);
-        }
-    }
-    free(m);
-    return outside / largest;
 }
 
 // ---- creation ---------------------------------------------------------------------------------------------
@@ -393,25 +206,6 @@ static bool set_up_diagonal(Integrator *in)
     return CVodeSetLinearSolver(in->solver, in->linear, NULL) == CV_SUCCESS;
 }
 
-static bool set_up_bordered(Integrator *in)
-{
-    in->matrix = SUNMatNewEmpty(in->sun);
-    in->linear = SUNLinSolNewEmpty(in->sun);
-    if (in->matrix == NULL || in->linear == NULL) return false;
-    in->matrix->ops->getid = matrix_id;
-    in->matrix->ops->zero = matrix_zero;
-    in->matrix->ops->destroy = matrix_destroy;
-    in->matrix->content = calloc(1, sizeof(Bordered));
-    if (in->matrix->content == NULL) return false;
-    bordered_pattern(in->matrix->content);
-    in->linear->ops->gettype = direct;
-    in->linear->ops->setup = bordered_factor;
-    in->linear->ops->solve = bordered_solve;
-    in->linear->ops->free = linear_free;
-    return CVodeSetLinearSolver(in->solver, in->linear, in->matrix) == CV_SUCCESS &&
-           CVodeSetLinSysFn(in->solver, bordered_system) == CV_SUCCESS;
-}
-
 static bool set_up_cvode(Integrator *in)
 {
     in->solver = CVodeCreate(in->choice.method == SOLVER_ADAMS ? CV_ADAMS : CV_BDF, in->sun);
@@ -426,9 +220,7 @@ static bool set_up_cvode(Integrator *in)
         in->nonlinear = SUNNonlinSol_FixedPoint(in->y, 0, in->sun);
         return in->nonlinear != NULL && CVodeSetNonlinearSolver(in->solver, in->nonlinear) == CV_SUCCESS;
     }
-    return in->choice.jacobian == JACOBIAN_DENSE      ? set_up_dense(in)
-           : in->choice.jacobian == JACOBIAN_DIAGONAL ? set_up_diagonal(in)
-                                                      : set_up_bordered(in);
+    return in->choice.jacobian == JACOBIAN_DENSE ? set_up_dense(in) : set_up_diagonal(in);
 }
 
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,

@@ -3,7 +3,7 @@
 
 typedef enum { SOLVER_ERK, SOLVER_ADAMS, SOLVER_BDF } SolverMethod;
 
-typedef enum { JACOBIAN_DENSE, JACOBIAN_DIAGONAL, JACOBIAN_BORDERED } SolverJacobian;
+typedef enum { JACOBIAN_DENSE, JACOBIAN_DIAGONAL } SolverJacobian;
 
 // Solver of all instances created from now on.
 //   table            explicit Runge-Kutta method by ARKODE's name, e.g. "ARKODE_DORMAND_PRINCE_7_4_5" (SOLVER_ERK)
@@ -14,7 +14,3 @@ void solver_choose(SolverMethod method, const char *table, SolverJacobian jacobi
 // Evaluations of the right-hand side for Jacobians by differences, and values taken from interpolants, since
 // solver_choose.
 void solver_counts(double *jacobian_evals, double *outputs);
-
-// Largest entry of the Jacobian outside the bordered pattern / largest entry, at state y.
-struct Part;
-double solver_outside_pattern(struct Part *bearing);

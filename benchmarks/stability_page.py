@@ -2,25 +2,16 @@
 pages/stability.md.  Run: python benchmarks/stability.py --page."""
 
 from collections import Counter
-from pathlib import Path
 
-import jinja2
 import numpy as np
-from records import newest_record
+from pages import page_text
+from records import newest_if_any
 
 REASONS = (  # part of a message of refusal, reason
     ("pressed out of", "the load presses a ball out of its groove at the start"),
     ("must lie in", "a value lies outside its range"),
     ("", "two values contradict each other"),
 )
-
-
-def load(name):
-    """The newest record of a benchmark, None if there is none."""
-    try:
-        return newest_record(name)
-    except FileNotFoundError:
-        return None
 
 
 def largest(records, key):
@@ -68,7 +59,7 @@ def outcomes(records):
 
 def write_page(path, problems):
     """Write the page; problems: function from records to sentences about faults."""
-    data, elastic, long = load("stability"), load("stability_elastic"), load("stability_long")
+    data, elastic, long = map(newest_if_any, ("stability", "stability_elastic", "stability_long"))
     records = data["records"]
     values = {"data": data, "elastic": None, "long": long, "faults": list(problems(records))}
     values["counts"] = [("rigid (`two_half`)", len(records), *outcomes(records))]
@@ -82,13 +73,7 @@ def write_page(path, problems):
     values |= {"families": family_rows(records), "events": event_rows(records), "refusals": refusal_rows(records)}
     if long:
         values |= long_values(long)
-    environment = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(Path(__file__).parent / "pages"),
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
-    )
-    path.write_text(environment.get_template("stability.md").render(values).rstrip("\n") + "\n", encoding="utf-8")
+    path.write_text(page_text("stability.md", values), encoding="utf-8")
 
 
 def long_values(data):

@@ -383,7 +383,7 @@ def _matrices(basis, E, nu):
     """
     lam, mu = E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))
     scalar = basis.with_element(ElementHex2())
-    value = np.stack([np.broadcast_to(field[0].value, basis.dx.shape) for field in scalar.basis])  # [27, cells, points]
+    value = np.stack([np.broadcast_to(field[0], basis.dx.shape) for field in scalar.basis])  # [27, cells, points]
     grad = np.stack([field[0].grad for field in scalar.basis])  # [27, 3, cells, points]
     n, cells = len(value), basis.dx.shape[0]
     flat = grad.transpose(2, 0, 1, 3).reshape(cells, 3 * n, -1)

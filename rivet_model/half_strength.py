@@ -62,7 +62,7 @@ class Corners:
         b, count = elastic.basis, CORNERS.shape[1]
         self.basis = Basis(b.mesh, b.elem, mapping=b.mapping, quadrature=(CORNERS, np.full(count, 1.0 / count)))
         self.E, self.nu = elastic.g.E_flange, elastic.g.nu_flange
-        self.x = self.basis.global_coordinates().value  # [3, cells, corners]
+        self.x = np.asarray(self.basis.global_coordinates())  # [3, cells, corners]
         volume = np.abs(b.mapping.detDF(CORNERS))
         self.defined = volume > FLAT * np.median(volume, axis=-1, keepdims=True)
         off_head = np.hypot(*elastic.rivet_place(self.x)) > 0.5 * elastic.g.head_diameter + elastic.g.flange_thickness

@@ -4,8 +4,6 @@ against.
 At each complex frequency s one pitch with the stiffness (1 + b s) K + s^2 M is condensed to its loads and its cuts, the
 waves of the ring follow from them, and the pads are held: transfer functions from the pockets to the joints, as
 rivet_model/impacts.py has them from modes.
-
-    PYTHONPATH=. python tests/half_transient.py      # prints tables over the number of modes; 15 minutes of one core
 """
 
 from functools import cached_property
@@ -20,24 +18,17 @@ from bearing_model.cage.common.joint_law import joint_law, relief
 from bearing_model.cage.elastic import half_modes as modes_of
 from bearing_model.cage.two_half.joint_open import joints_open
 from bearing_model.generated import variables
-from bearing_model.rivet import rivet_table
-from rivet_model import half, half_loads, half_modes, half_shape
+from rivet_model import half_loads, half_modes, half_shape
 from rivet_model.cage_half import BODY, SYMMETRIC
-from rivet_model.geometry import Geometry
 from rivet_model.impacts import (
     ANGLES,
     DAMPING,
     SAMPLES,
-    SHOWN,
     TIME,
     S,
     Transfer,
     at_angles,
-    errors,
     mass_motions,
-    modal_transfer,
-    pulses,
-    synthetic,
 )
 
 
@@ -266,39 +257,3 @@ def opened(g, inertia, modes, force, law, P, spin, lever):
         q, before, lagging = q_new, after, A.T @ q_new - delta
         loads[..., step] = change.reshape(Z, 3) + (rest - relief(law.stiffness, moves_0) if P is not None else 0.0)
     return loads, rivets
-
-
-def print_tables(counts=(240, 120, 60, 50, 40, 30, 20), sequences=12, opening=2):
-    """Errors in % over the number of modes: bonded joints beside all elements (RMS, 99.9 % quantile), then opening ones
-    beside all modes.
-    """
-    g, t = Geometry(), rivet_table.read(rivet_table.DEFAULT_TABLE)
-    full = FullHalf(g, half.COARSE)
-    inertia, lever = full.inertia()
-    _, found = half_modes.half_modes(full.elastic, full.alone, 120)
-    force = [pulses(synthetic(seed)) for seed in range(sequences)]
-    expected = full.transfer()
-    expected = np.stack([expected.loads(f) for f in force])
-    for n in counts:
-        modes = half_modes.fewer(found, min(n, int(found.count.sum())))
-        transfer = modal_transfer(g, inertia, modes, lever)
-        rms, p999 = errors(np.stack([transfer.loads(f) for f in force]), expected)
-        print("bonded ", n, *(f"{100 * e:.1f}" for e in (*rms[:5], *p999[:5])), flush=True)
-    spin, expected = t.half.spin[[4, 5]] * 754.0**2, None
-    for n in counts:
-        modes = half_modes.fewer(found, min(n, int(found.count.sum())))
-        loads = np.stack(
-            [
-                np.concatenate(opened(g, inertia, modes, f, t.half.law, 20.0, spin, lever), axis=1)
-                for f in force[:opening]
-            ]
-        )
-        loads = np.moveaxis(loads[..., SHOWN], 2, 0).reshape(6, -1)
-        expected = loads if expected is None else expected
-        rms = np.sqrt(((loads - expected) ** 2).mean(axis=1) / expected.var(axis=1))
-        p999 = np.quantile(np.abs(loads), 0.999, axis=1) / np.quantile(np.abs(expected), 0.999, axis=1) - 1.0
-        print("opening", n, *(f"{100 * e:.1f}" for e in (*rms, *p999)), flush=True)
-
-
-if __name__ == "__main__":
-    print_tables()

@@ -17,7 +17,6 @@ SOLVERS = {
     "adams": (1, "", 0, 0.0),
     "dense": (2, "", 0, 4e-5),
     "diagonal": (2, "", 1, 4e-5),
-    "bordered": (2, "", 2, 4e-5),
 }
 
 
@@ -65,14 +64,6 @@ def test_the_core_meets_them(bench, problem, method, bound):
     """
     errors = [error(bench, problem, tolerance, method=method) for tolerance in (1e-2, 1e-6)]
     assert errors[1] < bound and errors[1] < 0.01 * errors[0], errors
-
-
-def test_bordered_pattern_holds_all(bench, problem):
-    """Balls and joints couple to ring and cage only: exactly nothing outside the pattern."""
-    from work_precision import Setting
-
-    instance = bench.instance(problem[0], Setting("", 1e-3, choice=SOLVERS["bordered"]))
-    assert bench.other.lib.solver_outside_pattern(instance.bearing) == 0.0
 
 
 def test_instructions_are_counted():

@@ -222,36 +222,6 @@ def test_what_no_point_can_keep_is_said(model):
         search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [a, 2e6 + 0 * a]))
 
 
-@pytest.mark.parametrize(
-    ("plan", "document", "fragments"),
-    [
-        (plan_sensitivity, {"between": {"joint.mue": [0, 1]}}, ['"joint.mue"', "joint.mu"]),
-        (plan_sensitivity, {"between": {"joint.mu": [1, 0]}}, ["between.joint.mu = [1, 0]", "below"]),
-        (plan_sensitivity, {"between": {"joint.mu": 3}}, ["[lowest, highest]"]),
-        (plan_sensitivity, {"between": BOX, "morris": {"levels": 3}}, ["morris.levels = 3", "even"]),
-        (plan_sensitivity, {"between": BOX, "sobol": {"count": 100}}, ["sobol.count = 100", "powers of 2"]),
-        (plan_sensitivity, {"between": BOX, "responses": []}, ["responses = []"]),
-        (plan_sensitivity, {"between": BOX, "moris": {}}, ['"moris"', 'did you mean "morris"']),
-        (plan_sensitivity, {}, ["between: name at least one"]),
-        (plan_optimize, {"between": BOX, "trials": 0}, ["trials = 0"]),
-        (plan_optimize, {"between": BOX, "check_seeds": 1}, ["check_seeds = 1"]),
-        (plan_optimize, {"between": BOX, "limits": {"stress": "3 mm"}}, ["limits.stress = '3 mm'", "MPa"]),
-        (
-            plan_optimize,
-            {"between": BOX, "limits": {"stres": "3 MPa"}},
-            ['"limits.stres"', 'did you mean "limits.stress"'],
-        ),
-        (plan_optimize, {"between": BOX, "objective": []}, ['"objective"', 'did you mean "objectives"']),
-        (plan_optimize, {"between": {"start.seed": [1, 9]}}, ["start.seed", "only real numbers have ranges"]),
-    ],
-)
-def test_what_a_study_cannot_say_is_refused(model, plan, document, fragments):
-    with pytest.raises(UserError) as refused:
-        plan("study.toml", document, model)
-    for fragment in ["study.toml", *fragments]:
-        assert fragment in str(refused.value)
-
-
 def test_a_response_that_does_not_exist_is_refused():
     with pytest.raises(UserError, match='unknown response "stres"; did you mean "stress"'):
         response("study.toml", {"stat.sigma_head_p999": np.ones(2)}, "stres")

@@ -196,3 +196,16 @@ def test_two_designs_of_one_fmu(fmu, tmp_path, browser):
     tab.goto((folder / "designs.html").as_uri())
     assert tab.evaluate("document.documentElement.scrollWidth") == 390
     tab.close()
+
+
+def test_dry_and_flooded_pockets(fmu, tmp_path):
+    """Nobody has measured the oil in the pockets: both ends side by side; flooded ones live longer by far."""
+    (tmp_path / "trial.toml").write_text(
+        'scene = "demo"\nsimulation.t_end = 0.09\nparameters.start.settle = 0.02\n[[point]]\nhours = 1\n'
+        "[life]\nmin_seeds = 3\nmax_seeds = 3\n"
+    )
+    both = (fmu, "cage.pocket_filling=0", fmu, "cage.pocket_filling=1")
+    done = command("compare-designs", *both, "--mission", "trial.toml", "--workers", 1, folder=tmp_path)
+    assert done.returncode == 0, done.stderr
+    found = json.loads((tmp_path / "results" / "trial_designs" / "designs.json").read_text())
+    assert found["designs"][1]["life_ratio"]["ratio"] > 3.0

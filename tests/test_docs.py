@@ -4,13 +4,18 @@ import contextlib
 import html.parser
 import os
 import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
+import typer
 from commands import run_in_shell
+from typer.main import get_command
+
+from riveted_bearing import cli
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("*.md")]
@@ -38,6 +43,25 @@ def test_no_link_is_dead(page):
         place = (page.parent / path).resolve() if path else page
         assert place.exists(), f"{page.name}: {target}"
         assert not anchor or anchor in anchors(place), f"{page.name}: {target}"
+
+
+def command_lines():
+    """Calls of the program in the blocks of all pages."""
+    blocks = (
+        block
+        for page in PAGES
+        for block in re.findall(r"^```sh\n(.*?)^```", page.read_text(encoding="utf-8"), re.S | re.M)
+    )
+    return sorted({line for block in blocks for line in block.splitlines() if line.startswith("riveted-bearing ")})
+
+
+@pytest.mark.parametrize("line", command_lines())
+def test_commands_parse(line):
+    """Known command, options and kinds of value."""
+    _, name, *arguments = shlex.split(line, comments=True)
+    program = get_command(cli.program)
+    with typer.Context(program) as context:
+        program.get_command(context, name).make_context(name, arguments, parent=context)
 
 
 # ------------------------------------------------------------------------------------------------------------- cookbook

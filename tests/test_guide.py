@@ -2,17 +2,13 @@
 
 import re
 import runpy
-import shlex
 from pathlib import Path
 
 import pytest
-import typer
 from commands import run_in_shell
-from typer.main import get_command
 
 from bearing_model.generated import variables
 from riveted_bearing.bearing.bearing_file import bearing_case
-from riveted_bearing.cli import program
 from riveted_bearing.duty.mission import load_mission
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
@@ -26,7 +22,6 @@ BLOCKS = [
 ]  # (language, text)
 FILES = {found[1]: text for language, text in BLOCKS if language == "toml" and (found := re.match(r"# (\S+)", text))}
 PARTS = [text for language, text in BLOCKS if language == "toml" and not text.startswith("#")]  # of bearing files
-COMMANDS = [line for language, text in BLOCKS if language == "sh" for line in text.splitlines()]
 KNOWN = variables.INPUTS | variables.PARAMETERS | variables.OUTPUTS
 
 
@@ -61,32 +56,11 @@ def test_files_can_be_read(folder):
         bearing_case("part.toml")
 
 
-@pytest.mark.parametrize("line", [line for line in COMMANDS if line.startswith("riveted-bearing ")])
-def test_commands_parse(line):
-    """Known command, options and kinds of value; what they do is for test_the_whole_guide."""
-    _, name, *arguments = shlex.split(line)
-    command = get_command(program)
-    with typer.Context(command) as context:
-        command.get_command(context, name).make_context(name, arguments, parent=context)
-
-
 def test_names_of_the_stress_table_are_outputs():
     table = GUIDE.split("## Reading the stress")[1].split("\n- ")[0]
     names = [name for name in re.findall(r"`((?:rivet|stat)[^`]*)`", table) if "..." not in name]
     assert len(names) >= 9
     assert all(name in KNOWN for name in names)
-
-
-def test_links_lead_somewhere():
-    """Files that are there, and headings in them."""
-    for link in re.findall(r"\]\(([^)]+)\)", GUIDE + OWN):
-        path, _, heading = link.partition("#")
-        target = ROOT / "docs" / (path or "guide.md")
-        assert target.exists(), link
-        titles = re.findall(r"^#+ (.*)$", target.read_text(encoding="utf-8"), re.M) if heading else []
-        assert not heading or heading in {
-            re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles
-        }, link
 
 
 def test_python_examples_run(folder, capsys):

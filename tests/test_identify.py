@@ -285,57 +285,6 @@ def test_prediction_is_judged_by_its_scatter():
     )
 
 
-# What is refused ------------------------------------------------------------------------------------------------------
-
-TARGET = {"measure": "friction", "value": "0.1 N.m", "uncertainty": "3 %"}
-
-
-@pytest.mark.parametrize(
-    ("changes", "fragments"),
-    [
-        ({"target": [TARGET | {"measure": "frictoin"}]}, ["target 1", '"frictoin"', 'did you mean "friction"']),
-        ({"target": [TARGET | {"measure": "mean(cage.omgea)"}]}, ['"cage.omgea"', 'did you mean "cage.omega"']),
-        ({"target": [TARGET | {"value": "0.1 mm"}]}, ["target 1: value = '0.1 mm'", "N.m"]),
-        ({"target": [TARGET | {"value": math.nan}]}, ["target 1: value = nan", "finite"]),
-        ({"target": [TARGET | {"uncertainty": 0.0}]}, ["target 1: uncertainty = 0.0", "greater than 0"]),
-        ({"target": [TARGET | {"uncertainty": "0 %"}]}, ["target 1: uncertainty = '0 %'", "greater than 0"]),
-        ({"target": [TARGET | {"value": 0.0}]}, ["uncertainty = '3 %'", "3 % of 0 is 0"]),
-        ({"target": [TARGET | {"uncertainty": math.nan}]}, ["uncertainty = nan"]),
-        ({"target": [{"measure": "friction", "value": 1.0}]}, ["target 1: uncertainty is missing"]),
-        ({"target": [TARGET | {"point": "fast"}]}, ['unknown point "fast"']),
-        ({"target": [TARGET | {"weight": 2}]}, ['unknown key "weight"']),
-        ({"target": [TARGET | {"held_out": True}]}, ["all targets are held out"]),
-        ({"target": []}, ["no target"]),
-        (
-            {"target": [{"line": "housing.F_y", "frequency": "5 kHz", "width": "1 kHz"}]},
-            ["target 1", "at most 5000 Hz"],
-        ),
-        ({"target": [{"line": "housing.F_y", "frequency": "1 kHz", "width": "2 Hz"}]}, ["width = '2 Hz'", "at least"]),
-        ({"parameter": {"oil.eeta": [0, 1]}}, ['"oil.eeta"', 'did you mean "oil.eta"']),
-        ({"parameter": {"start.seed": [1, 9]}}, ['"start.seed"']),
-        ({"parameter": {"oil.eta": [2e-2, 2e-3]}}, ["parameter.oil.eta", "below"]),
-        ({"parameter": {"oil.eta": ["2 mm", "3 mm"]}}, ["oil.eta", '"mm" does not fit']),
-        ({"parameter": {"oil.eta": [0.0, 1e9]}}, ["parameter.oil.eta", "out of range"]),
-        ({"parameter": {"oil.eta": {"low": 1e-3, "high": 1e-2, "mean": 2e-3}}}, ["both mean and sd"]),
-        ({"parameter": {}}, ["parameter: name at least one"]),
-        ({"held_out": 1}, ["held_out = 1"]),
-        ({"confidence": 95}, ["confidence = 95"]),
-        ({"screen": {"method": "sobol"}}, ["screen.method = 'sobol'", "morris"]),
-        ({"screen": {"points": 3}}, ['"screen.points"']),
-        ({"check_seeds": 1}, ["check_seeds = 1"]),
-        ({"tagret": []}, ['"tagret"', 'did you mean "target"']),
-        ({"point": [{"name": "a", "parameters": {"oil.eta": 5e-3}}]}, ["oil.eta: to be found, but point a sets it"]),
-        ({"series": [{"file": "none.csv", "columns": {"cage.omega": "w"}}]}, ["none.csv: no such file"]),
-    ],
-)
-def test_a_study_that_cannot_be_used_is_refused(model, changes, fragments):
-    document = {"parameter": RANGES, "target": [TARGET]} | changes
-    with pytest.raises(UserError) as refused:
-        plan_identify("study.toml", document, model)
-    for fragment in fragments:
-        assert fragment in str(refused.value)
-
-
 # Measured series ------------------------------------------------------------------------------------------------------
 
 

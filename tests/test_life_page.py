@@ -8,11 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-import typer
-from typer.main import get_command
 
 from riveted_bearing.base.toml_files import read_toml
-from riveted_bearing.cli import program
 from riveted_bearing.design.cascade import plan_cascade
 from riveted_bearing.design.optimize import plan_optimize
 from riveted_bearing.design.sensitivity import plan_sensitivity
@@ -59,19 +56,6 @@ def test_the_strike_of_the_page_counts_with_any_fmu(folder, monkeypatch):
     mission = load_mission(Path("spindle.toml"), Model())
     strike = mission.parts[-1].scene
     assert strike.inputs["impact.F_r"].t[0] == pytest.approx(1.01) and strike.t_end == 2.0 and not mission.warnings
-
-
-@pytest.mark.parametrize("line", COMMANDS)
-def test_commands_parse(line):
-    _, name, *arguments = shlex.split(line)
-    command = get_command(program)
-    with typer.Context(command) as context:
-        command.get_command(context, name).make_context(name, arguments, parent=context)
-
-
-def test_links_lead_somewhere():
-    for path in re.findall(r"\]\(([^)#]+)(?:#[^)]*)?\)", PAGE):
-        assert (ROOT / "docs" / path).exists(), path
 
 
 @pytest.mark.slow

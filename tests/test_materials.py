@@ -106,53 +106,6 @@ def test_a_table_of_ones_own(tmp_path):
     assert set(case.materials["cage"].sources.values()) == {"our laboratory"}
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ('[cage]\nmaterial = "stel"\n', ['unknown cage.material "stel"', "steel"]),
-        ('[cage]\nmaterial = "15CrMn"\n', ['unknown cage.material "15CrMn"']),
-        (
-            '[cage]\nmaterial = "steel"\n[parameters]\ncage.material = "brass"\n',
-            ["cage.material = 'steel'", "'brass' stands under [parameters]"],
-        ),
-        (
-            '[cage]\nmaterial = "steel"\nE = "200 GPa"\n[parameters]\ncage.E = "210 GPa"\n',
-            ["cage.E = '200 GPa'", "cage.E = '210 GPa' stands under [parameters]"],
-        ),
-        (
-            '[parameters]\ncage.E = "207 GPa"\n',
-            ["cage.E = 207000000000.0", "the material is needed too", "density", "[cage] material = "],
-        ),
-        (
-            '[rivet]\nyield = "300 MPa"\n',
-            ["rivet.yield = '300 MPa'", "the material is needed too", "[rivet] material = "],
-        ),
-        ('[cage]\nmaterial = "steel"\nstrength = "400 MPa"\n', ['unknown cage key "strength"']),
-        ('[balls]\nyield = "400 MPa"\n', ['unknown balls key "yield"', "expansion"]),
-        (
-            OWN.replace("expansion = 19e-6\n", "").replace("nu = 0.35\n", ""),
-            ["cage.material: nu, expansion are missing"],
-        ),
-        (OWN.replace("0.35", "0.6"), ["cage.material.nu = 0.6", "below 0.5"]),
-        ('[cage]\nmaterial = "steel"\nE = "200 mm"\n', ["cage.E = '200 mm'", "GPa"]),
-        (
-            '[cage]\nmaterial = "steel"\n[parameters]\ncage.m = "130 g"\n',
-            ["cage.m = '130 g'", "at most", "density of its material"],
-        ),
-        ('[rivet]\nhead = "DIN 999"\nshank_diameter = "2 mm"\n', ['unknown rivet.head "DIN 999"']),
-        ('[rivet]\nhead = "DIN 660"\n', ["rivet.head = 'DIN 660'", "rivet.shank_diameter is needed"]),
-        ('[rivet]\nhead = "DIN 660"\nshank_diameter = "2.2 mm"\n', ["shanks of", "rivet.shank_diameter = 2.2 mm"]),
-        ('[rivet]\nE_flange = "200 GPa"\n', ['unknown key "rivet.E_flange"']),
-    ],
-)
-def test_what_cannot_be_used_is_refused_by_name(tmp_path, text, words):
-    with pytest.raises(UserError) as refused:
-        case_of(tmp_path, text)
-    assert str(refused.value).startswith(str(tmp_path / "mine.toml")) and all(
-        word in str(refused.value) for word in words
-    ), str(refused.value)
-
-
 def test_the_same_value_twice_is_no_contradiction(tmp_path):
     case = case_of(
         tmp_path,

@@ -29,7 +29,7 @@ from riveted_bearing.duty.history import binned
 from riveted_bearing.duty.miner import Duty, lives, simple_duty
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.mission_file import Life
-from riveted_bearing.duty.notes import matrix_warnings, notes
+from riveted_bearing.duty.notes import matrix_warnings, notes, oil_in_pockets
 from riveted_bearing.duty.page import life_density, write_page, write_picture
 from riveted_bearing.duty.starts import started
 from riveted_bearing.running.fmu import Model
@@ -60,6 +60,15 @@ def mission_of(model, points, **document):
     """A Mission of points (hours, inputs) with the document's other keys."""
     blocks = [{"hours": hours, "inputs": inputs} for hours, inputs in points]
     return plan_mission("trial", SHORT | {"point": blocks} | document, model, Path("trial.toml"))
+
+
+def test_the_oil_in_the_pockets_is_told(model):
+    own, given = (
+        mission_of(model, [(1, {})], parameters=SHORT["parameters"] | more)
+        for more in ({}, {"cage.pocket_filling": 0.3})
+    )
+    assert "is assumed" in oil_in_pockets(own, model)
+    assert oil_in_pockets(given, model) == "Oil in the pockets: cage.pocket_filling = 0.3 (0 dry, 1 flooded)."
 
 
 # Miner's sum ----------------------------------------------------------------------------------------------------------
@@ -479,69 +488,6 @@ def test_tables_and_records_become_points(tmp_path, model, written):
     assert [part.values["shaft.F_y"] for part in mission.parts[2:]] == pytest.approx(
         [1000.5 if written else 1000.0, 2000.0]
     )
-
-
-@pytest.mark.parametrize(
-    ("change", "fragments"),
-    [
-        ({"point": []}, ["no operating points"]),
-        ({"points": []}, ['"points"', 'did you mean "point"']),
-        ({"point": [{"inputs": {}}]}, ["point 1", "hours or share is needed"]),
-        ({"point": [{"hours": -3}]}, ["point 1: hours = -3", "must not be negative"]),
-        ({"point": [{"hours": "3 weeks"}]}, ["hours = '3 weeks'", "allowed: h, min, s"]),
-        ({"point": [{"hours": 1, "share": 0.1}]}, ["not both"]),
-        ({"point": [{"hours": 1}, {"share": 0.1}]}, ["point 2", "every point"]),
-        ({"point": [{"hours": 1, "horses": 3}]}, ['"horses"']),
-        ({"point": [{"hours": 0}]}, ["the hours of all points are 0"]),
-        ({"point": [{"hours": 1, "inputs": {"shaft.F_q": 1}}]}, ["shaft.F_q"]),
-        ({"point": [{"hours": 1, "parameters": {"scene.stress": "off"}}]}, ["scene.stress", "not free here"]),
-        ({"point": [{"hours": 1, "simulation": {"t_end": 1e-3}}]}, ["t_end = 0.001", "longer than start.settle"]),
-        ({"event": [{"inputs": {}}]}, ["event 1", "count is needed"]),
-        ({"event": [{"count": -1}]}, ["count = -1", "negative"]),
-        ({"life": {"confidence": 2}}, ["life.confidence = 2"]),
-        ({"life": {"half_width": 0}}, ["life.half_width = 0", "from 0.001"]),
-        ({"life": {"min_seeds": 2}}, ["life.min_seeds = 2", "allowed: 3"]),
-        ({"life": {"seeds": 2}}, ['"life.seeds"']),
-        ({"life": {"rivets": "some"}}, ["life.rivets = 'some'", "each, alike"]),
-        ({"preload_loss": {"hours": [1, 2], "factor": [1, 1]}}, ["begin with 0"]),
-        ({"preload_loss": {"hours": [0], "factor": [1, 1]}}, ["lists of one length"]),
-        (
-            {"table": {"file": "no.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n"}}}},
-            ["no.csv", "no such file"],
-        ),
-        (
-            {"table": {"file": "duty.csv", "hours": "hh", "inputs": {"shaft.omega": {"column": "n"}}}},
-            ["duty.csv", '"hh"', "column"],
-        ),
-        (
-            {"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "text"}}}},
-            ["duty.csv", "row 2", '"text"', "not a number"],
-        ),
-        (
-            {"table": {"file": "duty.csv", "hours": "h", "inputs": {"shaft.omega": {"column": "n", "unit": "N"}}}},
-            ["shaft.omega.unit = 'N'", "rev/min"],
-        ),
-        (
-            {"table": {"file": "duty.csv", "hours": "minus", "inputs": {"shaft.omega": {"column": "n"}}}},
-            ["minus = -1", "negative"],
-        ),
-        (
-            {"history": {"file": "duty.csv", "time": "minus", "inputs": {"shaft.omega": {"column": "n"}}}},
-            ["row 3", "times must increase"],
-        ),
-        (
-            {"history": {"file": "duty.csv", "time": "n", "inputs": {"shaft.omega": {"column": "n", "bins": 0}}}},
-            ["bins = 0"],
-        ),
-    ],
-)
-def test_what_a_mission_cannot_say_is_refused(tmp_path, model, change, fragments):
-    (tmp_path / "duty.csv").write_text("h,n,minus,text\n10,8000,-1,a\n20,12000,-2,b\n")
-    with pytest.raises(UserError) as refused:
-        plan_mission("trial", SHORT | {"point": [{"hours": 1}]} | change, model, tmp_path / "trial.toml")
-    assert any(name in str(refused.value) for name in ("trial.toml", "duty.csv", "no.csv"))
-    for fragment in fragments:
-        assert fragment in str(refused.value)
 
 
 def test_page_and_picture_show_every_part(tmp_path, model):

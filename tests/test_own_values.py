@@ -511,29 +511,6 @@ def test_a_kind_with_one_viscosity_has_the_slope_of_its_grades(tmp_path):
     assert colder.eta == pytest.approx(whole.eta, rel=1e-5) and colder.nu_1 > 2.0 * whole.nu_1
 
 
-@pytest.mark.parametrize(
-    ("top", "parameters", "words"),
-    [
-        ('oil = "grease"', "", ['unknown oil "grease"', "mineral, PAO, ester, aviation"]),
-        ('oil = "minerall 32"', "", ['did you mean "mineral"']),
-        ('oil = "mineral ISO VG 33"', "", ["allowed grades of mineral oils", "32, 46"]),
-        ('oil = "mineral"', "", ["its viscosity is needed", "mineral ISO VG 32"]),
-        ('oil = "mineral PAO 32"', "", ["one kind is needed"]),
-        ("oil = 32", "", ["a kind with its grade"]),
-        ("oil = { nu_1 = 32e-6 }", "", ['unknown key "nu_1"', "[parameters]"]),
-        ('oil = "mineral 32"', 'oil.nu_1 = "50 mm2/s"', ["50 mm2/s at 40 degC", "leave the grade"]),
-        ('oil = "aviation"', 'oil.nu_1 = "30 mm2/s"', ["oil.nu_2", "one point is no oil"]),
-        ('oil = "PAO"', 'oil.eta = "1 mPa.s"', ["oil.eta", "those of PAO oils"]),
-        ('oil = "mineral"', "oil.nu_1 = 5e-6\noil.nu_2 = 32e-6", ["oil.nu_1, oil.nu_2", "fall with temperature"]),
-        ("", 'oil = "mineral 32"', ["above all sections"]),
-    ],
-)
-def test_an_oil_that_is_none_is_refused(tmp_path, top, parameters, words):
-    with pytest.raises(UserError) as refused:
-        oil_of(tmp_path, top, parameters)
-    assert all(word in str(refused.value) for word in words)
-
-
 def test_a_scenes_oil_is_the_same_as_a_bearings(tmp_path, model):
     scene = load_scene(None, model, ("test", {"oil": "PAO 68"}))
     case = oil_of(tmp_path, 'oil = "PAO 68"')

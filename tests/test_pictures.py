@@ -16,7 +16,8 @@ from riveted_bearing.building import rivet
 from riveted_bearing.building.rivet import rivet_curves, seat_note, write_pictures
 from riveted_bearing.running.rainflow import rivet_life
 from riveted_bearing.show import charts, report
-from riveted_bearing.show.plot import STYLE, plot_result
+from riveted_bearing.show.plot import plot_result
+from riveted_bearing.show.style import STYLE
 
 SETTLE = {"start.settle": 2e-3}
 PULSE = {"t": [0.0, 4e-3, 5e-3], "value": [0.0, 0.0, 800.0]}

@@ -165,6 +165,8 @@ def work(m, chord, R_c, delta):
     roots = np.sort(np.minimum([0.0, abs(chord) / a_delta, R_c / a_delta, np.inf], np.sqrt(max(delta, 0.0))))
     total = 0.0
     for low, high in itertools.pairwise(roots):
+        if low == high:
+            continue
         root = 0.5 * (high + low) + 0.5 * (high - low) * node
         xi = np.clip(chord / np.minimum(a_delta * root, R_c), -1.0, 1.0)
         total += 0.5 * (high - low) * np.sum(weight * K * root**3 * (0.5 + 0.75 * (xi - xi**3 / 3.0)) * 2.0 * root)

@@ -52,11 +52,6 @@ def test_the_tables_are_found():
     assert len(symbol_names()) > 30 and len(element_files()) > 20
 
 
-@pytest.mark.parametrize("path", re.findall(r"\]\(([^)]+)\)", README))
-def test_linked_file_exists(path):
-    assert (ROOT / path.partition("#")[0]).exists()
-
-
 def test_verdicts_are_the_studys():
     """The counts of both columns, before links and line breaks."""
     sentence = re.search(

@@ -1,8 +1,8 @@
-"""Refusals of files, replayed: refusals.json has files that cannot be used and what the program said of each before the
-files were read by schema.
+"""Refusals of files, replayed: refusals.json has files that cannot be used and what the program said of each.
 
-A message that is another one since then stands beside the old one in CHANGED, so that somebody has seen each difference.
-The files come from the tests of the readers, which say what a message has to name.
+The files were written for the tests of the readers, each with the words that its message has to have: the key as the user
+wrote it, the value, what is allowed or the nearest name.  A message that is another one since then stands beside the old
+one in CHANGED, so that somebody has seen each difference.  A further file goes into the record with the message wanted.
 """
 
 import copy
@@ -222,6 +222,18 @@ def test_refusals_are_those_of_the_record(model, tmp_path, monkeypatch, kind):
         for document, beside, message in recorded(kind)
     ]
     assert found and {old: new for old, new in found if new != CHANGED.get(old, old)} == {}
+
+
+def test_each_message_is_a_line_that_names_a_file():
+    """The user's own, one that stands beside it, or one that is missing there."""
+    for group in RECORD:
+        for message in (said["message"] for said in group["said"]):
+            assert "\n" not in message
+            assert (
+                "FILE" in message
+                or any(name in message for name in group.get("beside", ()))
+                or "no such file" in message
+            )
 
 
 def test_changed_messages_are_of_the_record():

@@ -205,7 +205,7 @@ def test_dataset(tmp_path, fmu):
     ]
     done = CliRunner().invoke(program, arguments)
     assert done.exit_code == 0, done.stderr
-    assert "2 signals (none 1, outer 1), 0 failed" in done.stdout
+    assert "2 signals (none 1, outer 1), 0 of them failed" in done.stdout
     table = parquet.read_table(tmp_path / "out" / "runs.parquet").to_pylist()
     assert [row["label.fault"] for row in table] == ["none", "outer"]
     assert [len(row["signal.housing.a_y"]) for row in table] == [1201, 1201]  # 30 ms at 40 kHz

@@ -26,6 +26,7 @@ import claims
 import figures as study
 import paper_page as paper
 from figures import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
+from pages import page_text
 from study import FIGURES
 
 
@@ -220,6 +221,7 @@ def test_the_whole_page_can_be_written(all_runs, tmp_path, monkeypatch):
     ):
         assert f"\n## {heading}" in text
     assert "Part of the study: 34 of the paper's 34 claims, 2 seeds" in text and "700: Figs. 10 to 18 with" in text
+    assert "- `paper`: not judged, because there are 2 seeds a point" in text
     assert text.count("Neither stricter nor more lenient") == 34 and "nan" not in text and "undefined" not in text
     own = paper.write_paper({"paper": figures_only, "yours": figures_only}, tmp_path, ["joint.mu=0.3"]).read_text()
     assert "`joint.mu=0.3`" in own and " With your parameters the counts are " in own and "## Conflicts" not in own
@@ -230,8 +232,8 @@ def test_the_page_in_docs_is_of_the_whole_study():
     page = Path(__file__).parents[1] / "docs" / "paper.md"
     runs = {name: Runs({"seed": np.arange(8)}) for name in study.shipped_studies()}
     judged = {"paper": {"mean": {"all": [None] * claims.number_of_claims()}}}
-    text = paper.introduction({"paper": runs}, judged, study.PICTURES, page.parent, "study.py --report docs")
-    assert page.read_text(encoding="utf-8").startswith(text)
+    values = paper.introduction({"paper": runs}, judged, study.PICTURES, page.parent, "study.py --report docs")
+    assert page.read_text(encoding="utf-8").startswith(page_text("paper_introduction.md", values))
 
 
 def test_the_help_names_the_figures_of_each_sweep():
@@ -281,18 +283,11 @@ def test_a_verdict_that_the_seeds_decide_is_named():
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(claims, "PICTURES", {"preload": table})
             columns |= {"head_rest": head}
-            return paper.depending_on_seeds({"preload": Runs(columns)}), paper.seeds_text(
-                {"paper": {"preload": Runs(columns)}}
-            )
+            return paper.by_seeds({"paper": {"preload": Runs(columns)}})
 
-    same, text = named(145.0)
-    assert same == [] and "no verdict depends on the seeds" in text
-    flipped, text = named(165.0)
-    assert flipped == [(title, "reproduced", "not", "not")]  # all eight: mean 155, interval 146 to 164, beyond 160
-    assert (
-        f'"{title}" depends on the seeds: reproduced with the first half, not reproduced with the second, not reproduced with all.'
-        in text
-    )
+    assert named(145.0) == [("paper", 8, [])]
+    # all eight: mean 155, interval 146 to 164, beyond 160
+    assert named(165.0) == [("paper", 8, [(title, "reproduced", "not", "not")])]
 
 
 def figures(picture, places, means, apart):

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from commands import command, rows_kept
 
-from riveted_bearing import UserError, run
+from riveted_bearing import run
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies import sweep as engine
 from riveted_bearing.studies.rows import Store, columns_of
@@ -103,54 +103,6 @@ def test_a_sobol_sequence_is_balanced_in_both_halves_of_each_axis(tmp_path, mode
     points = np.array(settings(plan(tmp_path, model, text), "joint.mu", "oil.eta"))
     upper = points > [0.2, 6e-3]
     assert upper.sum(axis=0).tolist() == [8, 8] and np.logical_and(*upper.T).sum() == 4
-
-
-@pytest.mark.parametrize(
-    ("text", "fragments"),
-    [
-        ("[[vary]]\njoint.preloat = [1]", ['"joint.preloat"', 'did you mean "joint.preload"']),
-        ("repeat = 8", ['"repeat"', 'did you mean "repeats"']),
-        ("repeats = 0", ["repeats = 0", "from 1 on"]),
-        ("repeats = 2\n[[vary]]\nstart.seed = [1]", ["start.seed varies in more than one place"]),
-        ("[[vary]]\njoint.preload = [1, 2]\njoint.fit = [0]", ["'joint.preload': 2, 'joint.fit': 1"]),
-        ('[[vary]]\njoint.preload = ["1 mm"]', ["joint.preload = '1 mm'", "allowed: N"]),
-        ("[[vary]]\nshaft.omega = ['4000 rev/min', 9000]", ["9000 has no unit beside", "4000 rev/min"]),
-        ("[[vary]]\nshaft.omega = { from = '4000 rpm', to = 9000, count = 2 }", ["9000 has no unit"]),
-        ("[sample]\nmethod = 'sobol'\ncount = 4\nbetween.joint.fit = ['-90 um', 1]", ["1 has no unit"]),
-        ("[[vary]]\njoint.preload = [5000]", ["joint.preload = 5000", "0 ... 1000 N"]),
-        ("[[vary]]\njoint.preload = 3", ["joint.preload = 3", "a list or"]),
-        ("[[vary]]\njoint.preload = { from = 0, to = 3, count = 2, spacing = 'log' }", ["not 0"]),
-        ("[[vary]]\nstart.seed = { from = 1, to = 3, count = 3 }", ["start.seed", "list the values"]),
-        ("[[vary]]\njoint.preload = [3, 3]", ["the same run occurs twice"]),
-        ("[[vary]]\nscene = ['dmeo']", ['scene: unknown name "dmeo"', 'did you mean "demo"']),
-        ("scene = 'mine.toml'", ["scene", "mine.toml: no such scene file"]),
-        ("vary = 3", ["[[vary]]"]),
-        ("[sample]\nmethod = 'sobol'\ncount = 6\nbetween.joint.mu = [0, 1]", ["sample.count = 6", "powers of 2"]),
-        (
-            "[sample]\nmethod = 'random'\ncount = 6\nbetween.joint.mu = [0, 1]",
-            ["sample.method = 'random'", "latin_hypercube, sobol"],
-        ),
-        ("[sample]\nmethod = 'sobol'\ncount = 4\nbetween.joint.mu = [1, 0]", ["lowest value must be below"]),
-        ("[sample]\nmethod = 'sobol'\ncount = 4", ["sample.between"]),
-        (
-            "[sample]\nmethod = 'sobol'\ncount = 4\nseed = 'a'\nbetween.joint.mu = [0, 1]",
-            ["sample.seed = 'a'", "from 0 on"],
-        ),
-        (
-            "[sample]\nmethod = ['sobol']\ncount = 4\nbetween.joint.mu = [0, 1]",
-            ["sample.method = ['sobol']", "latin_hypercube, sobol"],
-        ),
-        ("[sample]\nbetween = 3", ["sample.between = 3", "not a table"]),
-        ("sample = 3", ["sample = 3", "not a table"]),
-        ("simulation = 3", ["simulation = 3", "not a table"]),
-        ("scene = 3", ["scene = 3", "a file is needed"]),
-    ],
-)
-def test_a_design_that_cannot_be_run_is_refused(tmp_path, model, text, fragments):
-    with pytest.raises(UserError) as refused:
-        plan(tmp_path, model, text)
-    for fragment in ["study.toml", *fragments]:
-        assert fragment in str(refused.value)
 
 
 def test_a_row_is_what_a_single_run_gives(tmp_path, model, client):

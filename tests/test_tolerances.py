@@ -139,41 +139,6 @@ def test_seeds_have_their_share_of_the_scatter(tmp_path, model):
     assert found.noise == pytest.approx(1.0, abs=0.25)
 
 
-@pytest.mark.parametrize(
-    ("tolerance", "fragments"),
-    [
-        (
-            {"parameters": {"joint.preload": {"distribution": "gauss", "mean": 1, "sd": 1}}},
-            ["joint.preload.distribution = 'gauss'", "normal, lognormal"],
-        ),
-        ({"parameters": {"joint.preload": {"distribution": "normal", "mean": 20}}}, ["normal needs mean, sd"]),
-        (
-            {"parameters": {"joint.preload": {"distribution": "normal", "mean": "20 mm", "sd": 1}}},
-            ["joint.preload.mean = '20 mm'", "allowed: N"],
-        ),
-        ({"parameters": {"joint.preload": {"distribution": "uniform", "low": 3, "high": 2}}}, ["low below high"]),
-        (
-            {"parameters": {"joint.fit": {"distribution": "normal", "mean": "-10 um", "sd": 2}}},
-            ["2 has no unit beside", "-10 um"],
-        ),
-        (
-            {"parameters": {"joint.preloat": {"distribution": "normal", "mean": 1, "sd": 1}}},
-            ['"joint.preloat"', "joint.preload"],
-        ),
-        ({"parameters": {"start.seed": {"distribution": "normal", "mean": 1, "sd": 1}}}, ["only real numbers"]),
-        ({"parameters": {}}, ["at least one parameter"]),
-        ({"bearings": 2}, ["tolerance.bearings = 2"]),
-        ({"bearing": 20}, ['"tolerance.bearing"', "tolerance.bearings"]),
-        ({"share": 2}, ["tolerance.share = 2"]),
-    ],
-)
-def test_what_tolerances_cannot_say_is_refused(model, tolerance, fragments):
-    with pytest.raises(UserError) as refused:
-        planned(model, **tolerance)
-    for fragment in ["trial.toml", *fragments]:
-        assert fragment in str(refused.value)
-
-
 # S-N curves -----------------------------------------------------------------------------------------------------------
 
 LAW = FatigueLaw(sigma_D=250e6, N_D=2e6, k_1=8.0, k_2=15.0, mean_stress=int(MeanStress.GOODMAN))

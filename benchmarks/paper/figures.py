@@ -27,7 +27,7 @@ from riveted_bearing.base.errors import unknown
 from riveted_bearing.base.files import write_atomically
 from riveted_bearing.base.toml_files import leaves
 from riveted_bearing.running.summary import DEG, RPM
-from riveted_bearing.show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
+from riveted_bearing.show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE
 from riveted_bearing.studies.sweep import run_sweep
 from riveted_bearing.studies.sweep_file import load_sweep, plan_sweep
 

@@ -33,9 +33,10 @@ from scipy.stats import qmc, spearmanr
 from scipy.stats import t as student
 
 from riveted_bearing.base.errors import refusal, unknown
-from riveted_bearing.base.files import make_folder, write_atomically
+from riveted_bearing.base.files import make_folder, write_json
 from riveted_bearing.base.toml_files import leaves, read_toml, section_of
-from riveted_bearing.cli.identify import print_table
+from riveted_bearing.cli.printing import print_paths
+from riveted_bearing.cli.printing import table as grid
 from riveted_bearing.cli.terminal import FMU, SCHEDULER, WORKERS, console, design_runs, guarded
 from riveted_bearing.identify.fit import FRESH
 from riveted_bearing.identify.study import parameters_of
@@ -43,7 +44,7 @@ from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.responses import displayed, titled
 from riveted_bearing.show import charts
 from riveted_bearing.show.pages import save_page
-from riveted_bearing.show.plot import HEAD, MUTED
+from riveted_bearing.show.style import HEAD, MUTED
 from riveted_bearing.studies.sweep import run_sweep
 from riveted_bearing.studies.sweep_file import count_of, key_of
 
@@ -350,7 +351,7 @@ def staged(bench, stage, values, sweeps, which):
             data = bench.data(sets, list(sweeps), bench.folder / stage / name)
             record = {"met": [judge(which, one, bench.study.measure) for one in data], "cpu": bench.spent - before}
             make_folder(file.parent)
-            write_atomically(file, lambda path, record=record: path.write_text(json.dumps(record), encoding="utf-8"))
+            write_json(file, record)
         record = json.loads(file.read_text(encoding="utf-8"))
         found += record["met"]
         spent += record["cpu"]
@@ -478,9 +479,7 @@ def write_claims(found, path):
         "cpu_s": found.cpu,
         "notes": found.notes,
     }
-    text = json.dumps(document, indent=1) + "\n"
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
+    return write_json(path, document)
 
 
 @guarded
@@ -496,14 +495,13 @@ def fit(
     make_folder(out)
     with design_runs(study.stem, out, scheduler, workers) as (client, progress):
         found = identify_claims(plan, Bench(plan, model, out, client, progress))
-    print_table(*set_rows(found))
+    console.print(grid(*set_rows(found)))
     for note in found.notes:
         console.print(escape(note), soft_wrap=True)
-    for label, path in (
+    print_paths(
         ("results", write_claims(found, out / "claims.json")),
         ("page", write_claims_page(found, out / "claims.html")),
-    ):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Files and folders: written whole or not at all, in Parquet with checksums, and the user's cache."""
 
+import json
 import os
 import secrets
 from pathlib import Path
@@ -57,6 +58,17 @@ def write_atomically(path: Path, write: Any) -> None:
         raise UserError(f"{path}: cannot be written: {problem.strerror or problem}") from None
     finally:
         temporary.unlink(missing_ok=True)
+
+
+def write_text(path: str | Path, text: str) -> Path:
+    """Write a text, whole or not at all; returns its path."""
+    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
+    return Path(path)
+
+
+def write_json(path: str | Path, document: Any) -> Path:
+    """Write a document as JSON, whole or not at all; returns its path."""
+    return write_text(path, json.dumps(document, indent=1) + "\n")
 
 
 def write_table(table: Any, path: Path) -> None:

@@ -29,8 +29,15 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
 
+class Rule:
+    """Part of a field's annotation: read(value) returns what a value in the file stands for, or raises UserError."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
+        return core_schema.no_info_plain_validator_function(self.read)  # type: ignore[attr-defined]
+
+
 @dataclass(frozen=True, eq=False)
-class Number:
+class Number(Rule):
     """A number within limits, in the file also with one of the units of `scales`; words: what is allowed, if not the
     limits; times: factor of the SI value, as for hours.
     """
@@ -65,9 +72,6 @@ class Number:
         low = f"above {self.above:g} and" if self.above is not None else f"from {self.least or 0.0:g}"
         return f"{low} {f'to below {self.below:g}' if self.most is None else f'up to {self.most:g}'} is allowed"
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.read)
-
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         limits = {
             "minimum": self.least,
@@ -82,7 +86,7 @@ class Number:
 
 
 @dataclass(frozen=True, eq=False)
-class Count:
+class Count(Rule):
     """A whole number of at least `least`; words: what is needed."""
 
     least: int = 1
@@ -94,15 +98,12 @@ class Count:
             raise UserError(self.words or f"a whole number from {self.least} on is needed")
         return value
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.read)
-
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         return {"type": "integer", "minimum": self.least}
 
 
 @dataclass(frozen=True, eq=False)
-class Choice:
+class Choice(Rule):
     """One of some texts."""
 
     names: tuple[str, ...]
@@ -112,9 +113,6 @@ class Choice:
         if not isinstance(value, str) or value not in self.names:
             raise UserError(f"allowed: {', '.join(self.names)}")
         return value
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> core_schema.CoreSchema:
-        return core_schema.no_info_plain_validator_function(self.read)
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         return {"type": "string", "enum": [*self.names]}

@@ -154,7 +154,3 @@ class Case:
             return quasi_static(self.bearing, load, kinematics=kinematics)
         except (ValueError, ArithmeticError) as problem:
             raise UserError(f"{self.designation}: {problem}") from None
-
-    def of_origin(self, origin):
-        """Names of the values of one origin."""
-        return [name for name, found in self.origin.items() if found == origin]

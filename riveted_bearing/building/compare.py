@@ -16,8 +16,6 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from rich.markup import escape
-from rich.table import Column, Table
 
 from bearing_model.generated import variables
 from bearing_model.solver import integrator
@@ -252,48 +250,35 @@ def with_statistics(found, model, scene, tolerance, long, seeds, progress):
 
 
 def short_table(found: Any) -> Any:
-    """Rich table of the short horizon: size and largest difference of each output, worst first within motion, loads and
-    stresses.
+    """Heads and rows of the short horizon: size and largest difference of each output, worst first within motion, loads
+    and stresses.
     """
-    columns = ("scale", "", *(f"at {tolerance:.0e}" for tolerance in found.tolerances))
-    table = Table(
-        "largest difference / scale", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False
-    )
-    for part in (True, False):
-        rows = sorted(
-            (channel for channel in found.channels if is_motion(channel) == part), key=lambda channel: -channel.worst[0]
-        )
-        for channel in rows:
-            table.add_row(
-                escape(channel.name), f"{channel.scale:.4g}", channel.unit, *(f"{value:.1e}" for value in channel.worst)
-            )
-        table.add_section()
-    return table
+    heads = ("largest difference / scale", "scale", "", *(f"at {tolerance:.0e}" for tolerance in found.tolerances))
+    ordered = sorted(found.channels, key=lambda channel: (not is_motion(channel), -channel.worst[0]))
+    return heads, [(c.name, f"{c.scale:.4g}", c.unit, *(f"{value:.1e}" for value in c.worst)) for c in ordered]
 
 
 def long_table(found: Any) -> Any:
-    """Rich table of the statistics."""
-    columns = ("reference", "FMU, mean", "scatter", "difference", "in scatters")
-    table = Table(
-        Column("", no_wrap=True), "unit", *(Column(text, justify="right") for text in columns), box=None, pad_edge=False
-    )
-    for row in found.statistics:
-        figures = (
+    """Heads and rows of the statistics."""
+    heads = ("", "unit", "reference", "FMU, mean", "scatter", "difference", "in scatters")
+    rows = [
+        (
+            row.name,
+            row.unit,
             f"{row.reference:.5g}",
             f"{row.mean:.5g}",
             f"{row.scatter:.2g}",
             f"{100.0 * row.difference:+.2f} %",
             f"{row.deviation:+.1f}",
         )
-        table.add_row(row.name, row.unit, *figures)
-    return table
+        for row in found.statistics
+    ]
+    return heads, rows
 
 
 def ledger_table(ledger: Any) -> Any:
-    """Rich table of the energies supplied, stored and lost in the reference."""
-    table = Table("", Column("J", justify="right"), box=None, pad_edge=False)
-    for title, account in (("supplied", ledger.supplied), ("stored", ledger.stored), ("lost", ledger.lost)):
-        for name, value in account.items():
-            table.add_row(f"{title}: {name}", f"{value[-1]:.6f}")
-    table.add_row("supplied - stored - lost", f"{ledger.residual[-1]:.6f}")
-    return table
+    """Heads and rows of the energies supplied, stored and lost in the reference."""
+    accounts = {"supplied": ledger.supplied, "stored": ledger.stored, "lost": ledger.lost}
+    terms = [(f"{title}: {name}", value) for title, account in accounts.items() for name, value in account.items()]
+    terms.append(("supplied - stored - lost", ledger.residual))
+    return ("", "J"), [(name, f"{value[-1]:.6f}") for name, value in terms]

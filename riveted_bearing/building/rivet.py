@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from rich.table import Column, Table
 from threadpoolctl import threadpool_limits
 
 from bearing_model.cage.common import joint_law
@@ -251,22 +250,12 @@ def sources_digest():
 
 
 def curve_tables(curves: Any) -> Iterator[Any]:
-    """Title and rich table of each curve, a row every Curve.row."""
+    """Title, heads and rows of each curve, a row every Curve.row."""
     for curve in curves.values():
         shown = np.isclose(curve.x / curve.row, np.round(curve.x / curve.row), atol=1e-6)
-        rows = Table(
-            *(
-                Column(text, justify="right")
-                for text in (f"{curve.label} [{curve.unit}]", "head [MPa]", "middle [MPa]")
-            ),
-            box=None,
-            pad_edge=False,
-        )
-        for x, head, mid in zip(
-            curve.scale * curve.x[shown], curve.head[shown] / 1e6, curve.mid[shown] / 1e6, strict=True
-        ):
-            rows.add_row(f"{x:.0f}", f"{head:.1f}", f"{mid:.1f}")
-        yield curve.title, rows
+        columns = curve.scale * curve.x[shown], curve.head[shown] / 1e6, curve.mid[shown] / 1e6
+        rows = [(f"{x:.0f}", f"{head:.1f}", f"{mid:.1f}") for x, head, mid in zip(*columns, strict=True)]
+        yield curve.title, (f"{curve.label} [{curve.unit}]", "head [MPa]", "middle [MPa]"), rows
 
 
 @threadpool_limits.wrap(limits=1)

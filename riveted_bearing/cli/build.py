@@ -8,6 +8,7 @@ import typer
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
+from .printing import note, print_paths
 from .terminal import command, console, messages
 
 TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second
@@ -54,7 +55,7 @@ def build(
     from ..running.fmu import Model
 
     for text in doubts(case_with(bearing, rivet, cage)):
-        messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+        note(text)
     columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
     with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
         task = bar.add_task("starting", total=None)
@@ -79,6 +80,6 @@ def build(
 
         geometry = given_geometry(rivet, bearing or "6207")
         drawing = write_drawing(geometry, path.with_name(f"{path.stem}_rivet.png"))
-        console.print(f"drawing  [cyan]{escape(str(drawing))}[/]", soft_wrap=True)
-        if note := seat_note(geometry):
-            messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
+        print_paths(("drawing", drawing))
+        if text := seat_note(geometry):
+            note(text)

@@ -8,6 +8,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from ..base.files import make_folder
+from .printing import print_paths, table
 from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
 
 
@@ -72,14 +73,14 @@ def compare(
         soft_wrap=True,
     )
     print_basis(basis(model, [plan]))
-    console.print(short_table(found))
+    console.print(table(*short_table(found)))
     if found.statistics:
         console.print(
             f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference",
             soft_wrap=True,
         )
-        console.print(long_table(found))
+        heads, rows = long_table(found)
+        console.print(table(heads, rows, left=2))
         console.print("\n[bold]Energy in the reference[/]")
-        console.print(ledger_table(found.ledger))
-    path = plot_comparison(found, out / f"{plan.name}_compare.png")
-    console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+        console.print(table(*ledger_table(found.ledger)))
+    print_paths(("picture", plot_comparison(found, out / f"{plan.name}_compare.png")))

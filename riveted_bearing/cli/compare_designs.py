@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.files import make_folder
+from .printing import document_of, print_paths, table
 from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text, print_warnings
 
 MOST_DIFFERENCES = 12  # on the terminal
@@ -30,13 +30,11 @@ def compare_designs(
     workers: WORKERS = None,
 ):
     """Designs under the same mission and seeds: ratios of lives and stresses with intervals, and what differs."""
-    from ..base.errors import UserError
     from ..base.units import hours_text
     from ..duty.designs import compare_designs, read_designs
     from ..duty.designs_page import PAGE, write_page, write_record
 
-    if not mission.is_file():
-        raise UserError(f"{mission}: no such mission file")
+    document_of(mission, "mission")
     chosen = read_designs(designs, number_or_text)
     folder = out or Path("results") / f"{mission.stem}_designs"
     make_folder(folder)
@@ -49,8 +47,7 @@ def compare_designs(
         found = compare_designs(mission, chosen, folder, client, progress, say)
     print_warnings(found.warnings)
     print_comparison(found, hours_text)
-    for label, path in (("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE))):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE)))
 
 
 def other_figures(found):
@@ -58,11 +55,8 @@ def other_figures(found):
     from ..duty.designs_page import parts_text
     from ..duty.raceways import card
 
-    heads = "where it fails: static + swing", "raceways"
-    table = Table("design", *(Column(head, justify="right") for head in heads), "", box=None, pad_edge=False)
-    for outcome in found.outcomes:
-        table.add_row(escape(outcome.design.name), parts_text(outcome), *map(escape, card(outcome.raceways)))
-    return table
+    rows = ((outcome.design.name, parts_text(outcome), *card(outcome.raceways)) for outcome in found.outcomes)
+    return table(("design", "where it fails: static + swing", "raceways", ""), rows, left=1)
 
 
 def print_comparison(found, hours_text):
@@ -71,30 +65,22 @@ def print_comparison(found, hours_text):
     from ..duty.designs_page import ratio_text, verdict
     from ..duty.page import interval_text
 
-    table = Table(
-        "design",
-        Column("life", justify="right"),
-        Column(f"{100 * found.confidence:g} % interval", justify="right"),
-        "fails first",
-        Column("life/first", justify="right"),
-        "",
-        box=None,
-        pad_edge=False,
-    )
-    for outcome in found.outcomes:
-        table.add_row(
-            escape(outcome.design.name),
+    names = [outcome.design.name for outcome in found.outcomes]
+    rows = (
+        (
+            name,
             hours_text(outcome.estimate.life),
             interval_text(*ends_of(outcome)),
             outcome.place,
             ratio_text(outcome.life),
             verdict(outcome),
         )
-    console.print(table)
+        for name, outcome in zip(names, found.outcomes, strict=True)
+    )
+    heads = "design", "life", f"{100 * found.confidence:g} % interval", "fails first", "life/first", ""
+    console.print(table(heads, rows))
     console.print(other_figures(found))
-    differ = Table("differs", *(escape(outcome.design.name) for outcome in found.outcomes), box=None, pad_edge=False)
-    for name, texts in found.differences[:MOST_DIFFERENCES]:
-        differ.add_row(escape(name), *map(escape, texts))
-    console.print(differ)
+    differ = ((name, *texts) for name, texts in found.differences[:MOST_DIFFERENCES])
+    console.print(table(("differs", *names), differ, left=1 + len(names)))
     if len(found.differences) > MOST_DIFFERENCES:
         console.print(f"[dim]and {len(found.differences) - MOST_DIFFERENCES} more, on the page[/]")

@@ -4,10 +4,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
 
 from ..base.files import make_folder
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages
+from .printing import print_runs
+from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, design_runs
 
 
 @command
@@ -34,12 +34,7 @@ def dataset(
     make_folder(folder)
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         rows = run_sweep(plan, folder, client(), progress)
-    failures = rows["message"][rows["status"] != "done"]
-    faults, spent = rows["label.fault"], rows["cpu_time"][rows["status"] == "done"].sum()
+    faults = rows["label.fault"]
     counts = ", ".join(f"{name} {sum(faults == name)}" for name in dict.fromkeys(faults) if name)
-    console.print(f"{len(rows['key'])} signals ({counts}), {len(failures)} failed, CPU time {spent:.1f} s")
-    console.print(f"dataset  [cyan]{escape(str(folder / ROWS))}[/]", soft_wrap=True)
-    for text in dict.fromkeys(failures):
-        messages.print(f"[bold red]failed:[/] {escape(text)}", soft_wrap=True)
-    if len(failures):
+    if print_runs(rows, f"signals ({counts})", folder / ROWS):
         raise typer.Exit(STOPPED)

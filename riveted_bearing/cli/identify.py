@@ -5,10 +5,9 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.files import make_folder
-from ..base.toml_files import read_toml
+from .printing import document_of, print_paths, table
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -31,7 +30,6 @@ def identify(
     """Which values of unknown parameters measurements decide, and which they do not; a second call does only missing
     runs.
     """
-    from ..base.errors import UserError
     from ..design.sensitivity import salib
     from ..identify.answer import write_answer, write_page, write_scene
     from ..identify.fit import identify as fit
@@ -39,9 +37,7 @@ def identify(
     from ..identify.study import plan_identify
     from ..running.fmu import Model
 
-    if not study.is_file():
-        raise UserError(f"{study}: no such study file")
-    model, document = Model(fmu), read_toml(study)
+    document, model = document_of(study, "study"), Model(fmu)
     plan = plan_identify(study, document, model)
     salib("identify")  # before there is a folder
     folder = out or Path("results") / study.stem
@@ -53,12 +49,11 @@ def identify(
     print_basis(basis)
     print_found(found)
     values = [one.value for one in found.intervals.values()]
-    for label, path in (
+    print_paths(
         ("results", write_answer(found, basis, folder / "identify.json")),
         ("scene", write_scene(found, rig.scene_at(plan.names, values), folder / "identified.toml")),
         ("page", write_page(found, basis, folder / "identify.html")),
-    ):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    )
 
 
 def print_found(found):
@@ -66,17 +61,8 @@ def print_found(found):
     from ..identify.answer import error_rows, parameter_rows
 
     confidence = f"{100 * found.study.settings['confidence']:g} % interval"
-    print_table(("parameter", "value", confidence, "searched", ""), parameter_rows(found))
-    heads = ("targets", "number", "error after the fit", "before")
-    print_table(heads, error_rows(found))
+    console.print(table(("parameter", "value", confidence, "searched", ""), parameter_rows(found)))
+    console.print(table(("targets", "number", "error after the fit", "before"), error_rows(found)))
     console.print("[dim]errors: RMS of (result - measured)/uncertainty with fresh seeds[/]", soft_wrap=True)
     for note in found.notes:
         console.print(escape(note), soft_wrap=True)
-
-
-def print_table(heads, rows):
-    """A table of texts."""
-    table = Table(heads[0], *(Column(head, justify="right") for head in heads[1:]), box=None, pad_edge=False)
-    for row in rows:
-        table.add_row(*map(escape, row))
-    console.print(table)

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
+from .printing import note
 from .terminal import CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
 
 
@@ -42,10 +43,8 @@ def info(
     case = replace(case, cleanliness=chosen_cleanliness(cleanliness))
     console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
     if target is None and fmu is None:
-        console.print(
-            f"[yellow]note:[/] no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu",
-            soft_wrap=True,
-        )
+        text = f"no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu"
+        note(text, to=console)
     elif target is None or not is_bearing(target):
         model = Model(fmu)
         scene = load_scene(target, model)
@@ -53,11 +52,11 @@ def info(
     if case.bare:
         console.print(escape(CAGE_MEANT), soft_wrap=True)
     for text in doubts(case):
-        console.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+        note(text, to=console)
     if case.alone:
-        console.print(f"[yellow]note:[/] {escape(read_as_scene(case.alone))}", soft_wrap=True)
+        note(read_as_scene(case.alone), to=console)
     for text in too_little_load(case):
-        console.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+        note(text, to=console)
     tables = info_tables(case)
     for title, table in tables:
         console.print(f"\n[bold]{title}[/]", soft_wrap=True)

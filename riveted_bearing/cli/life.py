@@ -5,9 +5,9 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.files import make_folder
+from .printing import print_paths, table
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis, print_warnings
 
 SHEET = "summary.html"  # of the command `summary`, in the same folder
@@ -25,13 +25,6 @@ def life(
     out: Annotated[
         Path | None, typer.Option(help="folder of runs, life.json, page and picture; default: results/MISSION")
     ] = None,
-    oil_range: Annotated[
-        bool,
-        typer.Option(
-            "--oil-range",
-            help="also the lives with dry and with flooded pockets (cage.pocket_filling 0 and 1), in OUT/dry, OUT/flooded",
-        ),
-    ] = False,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
@@ -41,8 +34,6 @@ def life(
     from ..duty.assess import Runs, assess, check_folder, is_current
     from ..duty.mission import load_mission
     from ..duty.notes import matrix_warnings, notes
-    from ..duty.oil_range import oil_range as both_ends
-    from ..duty.oil_range import plan_ends, remarks, rows, write_oil_range
     from ..duty.page import percent
     from ..duty.tolerances import RECORD, read_tolerances, scatter, write_scatter
     from ..running.fmu import Model
@@ -51,8 +42,6 @@ def life(
     plan = load_mission(mission, model)
     print_warnings(plan.warnings)
     tolerances = read_tolerances(plan, model)
-    if oil_range:
-        plan_ends(plan, model)  # refusals come before the runs
     folder = out or Path("results") / plan.name
     check_folder(folder, plan, "choose another folder by --out")
     make_folder(folder)
@@ -69,21 +58,11 @@ def life(
         runs = Runs(plan, model, folder, client, progress)
         found = assess(plan, runs, say)
         of_bearings = scatter(found, tolerances, model, folder, client, progress) if tolerances else None
-        ends = (
-            both_ends(
-                found, model, folder, lambda end, place: assess(end, Runs(end, model, place, client, progress), say)
-            )
-            if oil_range
-            else None
-        )
-    texts = [*(remarks(ends) if ends else ()), *notes(found, runs, of_bearings)]
-    warnings = matrix_warnings(runs)
+    texts, warnings = notes(found, runs, of_bearings), matrix_warnings(runs)
     print_warnings(warnings)
-    print_life(found, texts, rows(ends) if ends else ())
+    print_life(found, texts)
     old_sheet = (folder / SHEET).is_file() and not is_current(found, folder)
     files = write_life(found, folder, texts, warnings)
-    if ends:
-        files.append(("results", write_oil_range(ends, folder)))
     if of_bearings:
         from ..duty.weibull import write_weibull_plot
 
@@ -96,8 +75,7 @@ def life(
                 ),
             )
         )
-    for label, path in files:
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(*files)
     if old_sheet:
         console.print(
             f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]", soft_wrap=True
@@ -116,26 +94,15 @@ def write_life(found, folder, texts, warnings):
     ]
 
 
-def print_life(found, remarks, ends=()):
-    """Life, interval, points and rivets on the terminal; ends: rows of the lives with dry and flooded pockets."""
+def print_life(found, remarks):
+    """Life, interval, points and rivets on the terminal."""
     from ..duty.page import cards, part_rows
 
     console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
     print_basis(found.mission.basis)
-    for title, value, remark in [*cards(found), *ends]:
+    for title, value, remark in cards(found):
         console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
-    table = Table(
-        "",
-        "load",
-        "speed",
-        *(Column(text, justify="right") for text in ("in the mission", "simulated", "damage")),
-        "per",
-        Column("share", justify="right"),
-        box=None,
-        pad_edge=False,
-    )
-    for row in part_rows(found):
-        table.add_row(*map(escape, row))
-    console.print(table)
+    heads = "", "load", "speed", "in the mission", "simulated", "damage", "per", "share"
+    console.print(table(heads, part_rows(found), left=3))
     for remark in remarks:
         console.print(f"[dim]{escape(remark)}[/]", soft_wrap=True)

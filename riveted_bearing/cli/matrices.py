@@ -4,11 +4,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
 from rich.progress import BarColumn, Progress, TextColumn
-from rich.table import Column, Table
 
 from ..base.files import make_folder
+from .printing import note, print_paths, table
 from .terminal import FMU, command, console, messages, number_or_text, print_basis
 
 SPEEDS = 6  # up to that of the scene, if none is given
@@ -88,8 +87,8 @@ def matrices(
     rows, stem = basis(model, [scene_at(model, plan, point) for point in found]), plan.name
     print_basis(rows)
     for text in fast_speeds(model, [scene_at(model, plan, point) for point in found]):
-        messages.print(f"[yellow]note:[/] {text}", soft_wrap=True)
-    console.print(table(found))
+        note(text)
+    console.print(diagonals(found))
     paths = [write_table(found, out / f"{stem}_matrices.csv", rows), plot_matrices(found, out / f"{stem}_matrices.png")]
     for load in dict.fromkeys(point.load for point in found):
         name = f"{stem}_ross.toml" if len(loads or [1.0]) == 1 else f"{stem}_ross_{load:g}.toml"
@@ -97,8 +96,7 @@ def matrices(
         paths.append(write_ross(of_load, out / name, tag=stem, basis=rows))
         if len(whirls) < 2:
             paths.append(write_ross(of_load, out / name.replace("_ross", "_ross2"), tag=stem, basis=rows, version=2))
-    for path in paths:
-        console.print(f"written  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(*(("written", path) for path in paths))
 
 
 def speed_of(text, variable, model, to_si):
@@ -113,8 +111,10 @@ def speed_of(text, variable, model, to_si):
     return value
 
 
-def table(found):
+def diagonals(found):
     """Diagonals of stiffness and damping for the terminal."""
+    from ..base.units import RPM
+
     heads = (
         "speed rev/min",
         "load",
@@ -123,14 +123,9 @@ def table(found):
         *(f"C {i}{i} N s/m" for i in "xyz"),
     )
     shown = heads if found[0].K is not None else heads[:5]
-    rows = Table(*(Column(head, justify="right") for head in shown), box=None)
+    rows = []
     for p in found:
-        values = [
-            f"{p.omega * 9.549296585513721:,.0f}",
-            f"{p.load:g}",
-            *(f"{1e-6 * p.K_static[i, i]:.1f}" for i in range(3)),
-        ]
+        rows.append([f"{RPM * p.omega:,.0f}", f"{p.load:g}", *(f"{1e-6 * p.K_static[i, i]:.1f}" for i in range(3))])
         if p.K is not None:
-            values += [f"{1e-6 * p.K[i, i]:.1f}" for i in range(3)] + [f"{p.C[i, i]:.0f}" for i in range(3)]
-        rows.add_row(*values)
-    return rows
+            rows[-1] += [f"{1e-6 * p.K[i, i]:.1f}" for i in range(3)] + [f"{p.C[i, i]:.0f}" for i in range(3)]
+    return table(shown, rows, left=0)

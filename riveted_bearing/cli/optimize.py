@@ -5,10 +5,9 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.files import make_folder
-from ..base.toml_files import read_toml
+from .printing import document_of, note, print_paths, table
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -28,14 +27,11 @@ def optimize(
     """Which values to choose: a search under the noise of the seeds, its best points again with fresh seeds; a second
     call does only missing runs.
     """
-    from ..base.errors import UserError
     from ..design.bench import Bench
     from ..design.optimize import optuna_library, plan_optimize, search, write_optimum, write_picture
     from ..running.fmu import Model
 
-    if not study.is_file():
-        raise UserError(f"{study}: no such study file")
-    model, document = Model(fmu), read_toml(study)
+    document, model = document_of(study, "study"), Model(fmu)
     plan = plan_optimize(study, document, model)
     optuna_library()  # before there is a folder
     folder = out or Path("results") / study.stem
@@ -46,8 +42,7 @@ def optimize(
     print_basis(bench.basis())
     print_optimum(found, present_values(plan.box.names, bench.scene, model), parts_of_stress(found, bench))
     written = write_optimum(found, folder / "optimize.json", bench.basis())
-    for label, path in (("results", written), ("picture", write_picture(found, folder / "optimize.png"))):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(("results", written), ("picture", write_picture(found, folder / "optimize.png")))
 
 
 def present_values(names, scene, model):
@@ -87,16 +82,16 @@ def print_optimum(found, present, parts=None):
 
     study = found.study
     missing = [] if parts is None else [name for name in PARTS if name not in study.responses]
-    heads = map(titled, (*study.box.names, *study.responses, *missing))
-    table = Table("", *(Column(escape(text), justify="right") for text in heads), box=None, pad_edge=False)
+    shown_points = table(["", *map(titled, (*study.box.names, *study.responses, *missing))])
     rows = [("", found.points[i], *of) for i, *of in zip(found.candidates, found.means, found.errors, strict=True)]
     for place, row in enumerate([*rows, ("present design", present, *found.present)]):
         best = place == found.best
         title, *rest = row
         stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.4g}" for name in missing]
-        table.add_row("recommended" if best else title, *cells(study, *rest), *stress, style="bold" if best else None)
-    console.print(table)
-    text = f"{len(found.points)} points searched; means ± standard error over {study.check_seeds} seeds that the search has not seen"
+        texts = "recommended" if best else title, *cells(study, *rest), *stress
+        shown_points.add_row(*texts, style="bold" if best else None)
+    console.print(shown_points)
+    text = f"{len(found.points)} points searched; means ± standard error over {study.file.check_seeds} seeds that the search has not seen"
     console.print(
         f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True
     )
@@ -105,9 +100,7 @@ def print_optimum(found, present, parts=None):
     if found.best is not None and parts is not None and go_apart(parts[-1], parts[found.best]):
         was, now = ([shown(name, value) for name, value in zip(PARTS, row)] for row in (parts[-1], parts[found.best]))
         changes = ", ".join(f"{name} {a} to {b}" for name, a, b in zip(PARTS, was, now))
-        console.print(
-            f"[yellow]note:[/] static stress and swing go apart ({changes}): damage follows the swing", soft_wrap=True
-        )
+        note(f"static stress and swing go apart ({changes}): damage follows the swing")
 
 
 def go_apart(was, now):

@@ -4,9 +4,9 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
 
-from .terminal import command, console
+from .printing import print_paths
+from .terminal import command
 
 
 @command
@@ -41,5 +41,5 @@ def report(
     if column and not overlay:
         raise UserError(f"--column {column[0]}: needs --overlay with the file of the column")
     decides = read_indices(sensitivity) if sensitivity else None
-    for path in report_pages(results, out, decides, overlay, assigned(column or [])):
-        console.print(f"report  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    pages = report_pages(results, out, decides, overlay, assigned(column or []))
+    print_paths(*(("report", path) for path in pages))

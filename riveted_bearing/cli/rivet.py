@@ -7,6 +7,7 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
+from .printing import note, print_paths, table
 from .terminal import command, console, messages
 
 
@@ -39,10 +40,9 @@ def rivet(
         title, curves, joint = rivet_curves(source, bearing)
         paths = write_pictures(out, title, curves, joint)
     console.print(f"[bold]{escape(title)}[/]", soft_wrap=True)
-    for name, rows in curve_tables(curves):
+    for name, heads, rows in curve_tables(curves):
         console.print(f"\n[bold]{name}[/]", soft_wrap=True)
-        console.print(rows)
-    if note := seat_note(joint.geometry):
-        messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
-    for path in paths:
-        console.print(f"picture  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+        console.print(table(heads, rows, left=0))
+    if text := seat_note(joint.geometry):
+        note(text)
+    print_paths(*(("picture", path) for path in paths))

@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.errors import UserError, extra, unknown
 from ..base.files import FORMATS, make_folder
 from ..base.interrupts import held_interrupts
 from ..base.shipped import shipped_scenes
-from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, messages, print_basis, simulation_progress
+from .printing import note, print_paths, table
+from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, print_basis, simulation_progress
 
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 
@@ -48,7 +48,7 @@ def run(
     target = result_path(scene or model.path, out, format or lean_format(out))
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
     for text in odd_materials(plan.parameters):
-        messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+        note(text)
     make_folder(target.parent)
     with held_interrupts():  # from the first step until its results are written
         with simulation_progress(plan) as progress:
@@ -60,8 +60,7 @@ def run(
             from ..show.plot import plot_result
 
             paths.append(plot_result(result, target.with_suffix(".png")))
-    for label, path in zip(("results", "picture"), paths, strict=False):
-        console.print(f"{label}  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(*zip(("results", "picture"), paths, strict=False))
     console.print(
         f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
         soft_wrap=True,
@@ -74,7 +73,7 @@ def run(
     if words := accelerated(result):
         console.print(f"[yellow]{words}[/]")
     if result.stopped:
-        messages.print(f"[bold red]stopped:[/] {escape(result.stopped)}", soft_wrap=True)
+        note(result.stopped, "[bold red]stopped:[/]")
         raise typer.Exit(STOPPED)
 
 
@@ -94,7 +93,7 @@ def is_there(library, what):
     """Whether a library of the extra "full" is installed; a note tells what is left out without it."""
     if find_spec(library):
         return True
-    messages.print(f"[yellow]note:[/] without {library} {what} is left out: {escape(extra('full'))}", soft_wrap=True)
+    note(f"without {library} {what} is left out: {extra('full')}")
     return False
 
 
@@ -130,36 +129,23 @@ def statistics_table(result):
     """Mean, RMS, 99.9 % quantile and largest value after settling."""
     from ..running.summary import summary_rows
 
-    table = Table(
-        Column("", no_wrap=True),
-        "unit",
-        *(Column(text, justify="right") for text in ("mean", "RMS", "p99.9", "max")),
-        box=None,
-        pad_edge=False,
-    )
-    for row in summary_rows(result):
-        table.add_row(
+    rows = (
+        (
             row.channel + ("" if row.every_step else " *"),
             row.unit,
             *map(four_digits, (row.mean, row.rms, row.p999, row.largest)),
         )
-    return table
+        for row in summary_rows(result)
+    )
+    return table(("", "unit", "mean", "RMS", "p99.9", "max"), rows, left=2)
 
 
 def early_table(result):
     """What there is without statistics."""
     from ..running.summary import early_rows
 
-    table = Table(
-        Column("", no_wrap=True),
-        "unit",
-        *(Column(text, justify="right") for text in ("at the end", "largest since the start")),
-        box=None,
-        pad_edge=False,
-    )
-    for channel, unit, last, largest in early_rows(result):
-        table.add_row(channel, unit, four_digits(last), four_digits(largest))
-    return table
+    rows = ((channel, unit, *map(four_digits, values)) for channel, unit, *values in early_rows(result))
+    return table(("", "unit", "at the end", "largest since the start"), rows, left=2)
 
 
 def four_digits(value):
@@ -196,7 +182,7 @@ def print_summary(result):
             f"{worst[1].p999:.4g} MPa, in its middle {worst[2].p999:.4g} MPa"
         )
     if missing := no_statistics(result):
-        messages.print(f"[yellow]note:[/] {missing}", soft_wrap=True)
+        note(missing)
     else:
         console.print(
             f"[dim]after the first {result.parameters['start.settle']:g} s; every internal step, * at communication points only[/]"
@@ -228,9 +214,8 @@ def print_summary(result):
     if names := assumed_as_bronze(result):
         console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
     kinds = (settle_note, count_note, speed_note, flag_note, table_note, alone_note)
-    notes = (note(result) for note in kinds)
-    for note in filter(None, notes):
-        messages.print(f"[yellow]note:[/] {escape(note)}", soft_wrap=True)
+    for text in filter(None, (of(result) for of in kinds)):
+        note(text)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:
-            messages.print(f"[yellow]note:[/] {escape(text)}", soft_wrap=True)
+            note(text)

@@ -31,7 +31,7 @@ def schema(
     out: Annotated[Path | None, typer.Option(help="folder of a JSON Schema for each kind, for editors")] = None,
 ):
     """Keys of a file as JSON Schema, which editors check TOML files by; without a kind a page with the keys of all."""
-    from ..base.files import make_folder, write_atomically
+    from ..base.files import make_folder, write_json
     from ..base.schema import json_schema
 
     if kind is not None and kind not in FILES:
@@ -39,8 +39,7 @@ def schema(
     if out is not None:
         make_folder(out)
         for name in FILES if kind is None else [kind]:
-            text = json.dumps(json_schema(model_of(name)), indent=1) + "\n"
-            write_atomically(out / f"{name}.json", lambda path, text=text: path.write_text(text, encoding="utf-8"))
+            write_json(out / f"{name}.json", json_schema(model_of(name)))
     elif kind is None:
         typer.echo(page(), nl=False)
     else:

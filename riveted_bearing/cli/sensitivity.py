@@ -6,10 +6,9 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.files import make_folder
-from ..base.toml_files import read_toml
+from .printing import document_of, print_paths, table
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -31,15 +30,12 @@ def sensitivity(
     """What decides life and stress: screening of all factors (Morris), then shares of the variance (Sobol); a second
     call does only missing runs.
     """
-    from ..base.errors import UserError
     from ..bearing.assumed import assumed_ranges
     from ..design.bench import Bench
     from ..design.sensitivity import analyse, plan_sensitivity, salib, write_indices, write_picture
     from ..running.fmu import Model
 
-    if not study.is_file():
-        raise UserError(f"{study}: no such study file")
-    model, document = Model(fmu), read_toml(study)
+    document, model = document_of(study, "study"), Model(fmu)
     folder = out or Path("results") / study.stem
     salib()  # before there is a folder
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
@@ -50,11 +46,10 @@ def sensitivity(
         found = replace(analyse(plan, bench), basis=dict(bench.basis()))
     print_basis(found.basis.items())
     print_indices(found, plan.box)
-    for label, path in (
+    print_paths(
         ("results", write_indices(found, folder / "sensitivity.json")),
         ("picture", write_picture(found, folder / "sensitivity.png")),
-    ):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    )
 
 
 def print_indices(found, box):
@@ -76,15 +71,15 @@ def print_indices(found, box):
             else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
         )
         console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
-        heads = ("range", "mu*", "±", "sigma", *(("S1", "±", "ST", "±") if sobol else ()))
-        table = Table("factor", *(Column(text, justify="right") for text in heads), box=None, pad_edge=False)
+        rows = []
         for k in order(found, name):
             cells = [ends[k], *(f"{factor * morris[key][k]:.3g}" for key in ("mu_star", "mu_star_conf", "sigma"))]
             if found.factors[k] in found.chosen and sobol:
                 place = found.chosen.index(found.factors[k])
                 cells += [f"{sobol[key][place]:.2f}" for key in ("S1", "S1_conf", "ST", "ST_conf")]
-            table.add_row(escape(titled(found.factors[k])), *cells)
-        console.print(table)
+            rows.append((titled(found.factors[k]), *cells))
+        heads = ("factor", "range", "mu*", "±", "sigma", *(("S1", "±", "ST", "±") if sobol else ()))
+        console.print(table(heads, rows))
     console.print(
         "[dim]Not among the factors: shapes of which the FMU is built (stress table, cage half, rivet). They need an FMU of "
         "their own (riveted-bearing build); compare-designs sets such FMUs side by side.[/]",

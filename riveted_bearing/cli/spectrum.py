@@ -5,8 +5,8 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
+from .printing import print_paths, table
 from .terminal import command, console
 
 
@@ -47,17 +47,16 @@ def spectrum(
     )
     places, amplitude = f"[{found.axis_unit}]", f"amplitude [{squared(found.unit)}]"
     heads = "line", f"expected {places}", f"found {places}", amplitude, "times the median", "stands out"
-    rows = Table(*(Column(escape(head), justify="left" if head == "line" else "right") for head in heads), box=None)
+    rows = []
     for line in found.lines:
         times = line.amplitude / line.background if line.background > 0.0 else 0.0
         values = f"{line.expected:,.4g}", f"{line.found:,.4g}", f"{line.amplitude:.3g}", f"{times:.1f}"
-        rows.add_row(line.name, *values, "yes" if line.stands_out else "no")
-    console.print(rows)
+        rows.append((line.name, *values, "yes" if line.stands_out else "no"))
+    console.print(table(heads, rows))
     names, until = idle_settings(run, found)
     if names:
         console.print(escape(in_words(names, until)), soft_wrap=True)
-    for path in (
-        write_spectra(found, folder / f"{result.stem}_spectrum.csv"),
-        plot_spectra(found, folder / f"{result.stem}_spectrum.png"),
-    ):
-        console.print(f"written  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(
+        ("written", write_spectra(found, folder / f"{result.stem}_spectrum.csv")),
+        ("written", plot_spectra(found, folder / f"{result.stem}_spectrum.png")),
+    )

@@ -9,6 +9,7 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import FORMATS, make_folder
 from .life import SHEET, write_life
+from .printing import print_paths
 from .terminal import (
     CLEANLINESS,
     FMU,
@@ -73,7 +74,7 @@ def summary(
         console.print(f"{check.title:32} {escape(check.value)}  [dim]{escape(check.allowed)}  {use}[/]", soft_wrap=True)
     for fault, text in sheet.limits:
         console.print(f"[{'yellow' if fault else 'dim'}]{escape(text)}[/]", soft_wrap=True)
-    console.print(f"page  [cyan]{escape(str(path))}[/]", soft_wrap=True)
+    print_paths(("page", path))
 
 
 def target_hours(target):

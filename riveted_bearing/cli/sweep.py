@@ -4,10 +4,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.markup import escape
-from rich.table import Column, Table
 
 from ..base.files import make_folder
+from .printing import note, print_paths, print_runs
+from .printing import table as grid
 from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
 
 
@@ -35,32 +35,24 @@ def sweep(
     make_folder(folder)
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         rows = run_sweep(plan, folder, client(), progress)
-    failures = rows["message"][rows["status"] != "done"]
-    spent = rows["cpu_time"][rows["status"] == "done"].sum()
     table = sweep_table(plan, rows)
     print_basis(table.basis)
     for text in fast_speeds(plan.model, plan.scenes.values()):
-        messages.print(f"[yellow]note:[/] {text}", soft_wrap=True)
+        note(text)
     if table.responses:
         print_table(table)
-    console.print(f"{len(rows['key'])} runs, {len(failures)} of them failed, CPU time {spent:.1f} s")
-    console.print(f"results  [cyan]{escape(str(folder))}[/]", soft_wrap=True)
+    failed = print_runs(rows, "runs", folder)
     if table.responses:
-        console.print(f"picture  [cyan]{escape(str(write_picture(table, folder / 'sweep.png')))}[/]", soft_wrap=True)
+        print_paths(("picture", write_picture(table, folder / "sweep.png")))
     if table.responses and report:
-        console.print(
-            f"page     [cyan]{escape(str(write_page(table, plan.description, folder / 'sweep.html')))}[/]",
-            soft_wrap=True,
-        )
+        print_paths(("page", write_page(table, plan.description, folder / "sweep.html")))
     early = sum(status == "done" and time != time for status, time in zip(rows["status"], rows["stat.time"]))
     if early:
         messages.print(
             f"[yellow]{early} runs have no statistics: they end at or before start.settle; set simulation.t_end higher[/]",
             soft_wrap=True,
         )
-    for text in dict.fromkeys(failures):
-        messages.print(f"[bold red]failed:[/] {escape(text)}", soft_wrap=True)
-    if len(failures):
+    if failed:
         raise typer.Exit(STOPPED)
 
 
@@ -69,10 +61,7 @@ def print_table(table):
     from ..studies.sweep_table import CONFIDENCE, LARGEST, lines
 
     heads, cells = lines(table)
-    shown = Table(*(Column(escape(head), justify="right") for head in heads), box=None, pad_edge=False)
-    for row in cells[:LARGEST]:
-        shown.add_row(*map(escape, row))
-    console.print(shown)
+    console.print(grid(heads, cells[:LARGEST], left=0))
     if len(cells) > LARGEST:
         console.print(f"... {len(cells) - LARGEST} more points: --report has them all")
     if any(table.seeds > 1):

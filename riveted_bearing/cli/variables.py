@@ -23,19 +23,13 @@ def variables(
 
     model = Model(fmu) if fmu else None
     groups = essentials() if pattern is None else matching(pattern)
-    table = Table(
-        *(
-            Column(title, no_wrap=i < 4)
-            for i, title in enumerate(("name", "", "unit", "start", "allowed", "description"))
-        ),
-        box=None,
-        pad_edge=False,
-    )
+    heads = "name", "", "unit", "start", "allowed", "description"
+    shown = Table(*(Column(title, no_wrap=i < 4) for i, title in enumerate(heads)), box=None, pad_edge=False)
     for title, variables in groups.items():
-        table.add_row(f"[bold]{escape(title)}[/]")
+        shown.add_row(f"[bold]{escape(title)}[/]")
         for variable in variables:
-            table.add_row(*map(escape, row(variable, model)))
-    console.print(table)
+            shown.add_row(*map(escape, row(variable, model)))
+    console.print(shown)
     if pattern is None:
         console.print(
             "[dim]riveted-bearing variables PATTERN finds others, e.g. oil, ball[3].*, slip; docs/parameters.md has them all with their sources[/]",

@@ -16,7 +16,6 @@ seed, so that a call after a stop reads the runs that are done and goes on from 
 
 from __future__ import annotations
 
-import json
 import math
 import warnings
 from dataclasses import dataclass
@@ -28,11 +27,11 @@ from pydantic import Field
 
 from ..base.errors import UserError, extra, refusal, unknown
 from ..base.file_kinds import check_keys
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.schema import Count, Named, checked
 from ..base.units import to_si
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses
 
 if TYPE_CHECKING:
@@ -62,16 +61,18 @@ class Study:
     """
 
     path: Path
-    description: str
+    file: OptimizeFile
     box: Box
-    objectives: list
-    signs: np.ndarray
     limits: dict
-    trials: int
-    batch: int
-    check_seeds: int
-    candidates: int
-    seed: int
+
+    @property
+    def objectives(self):
+        """Their names, without the sign."""
+        return [name.removeprefix("-") for name in self.file.objectives]
+
+    @property
+    def signs(self):
+        return np.array([-1.0 if name.startswith("-") else 1.0 for name in self.file.objectives])
 
     @property
     def responses(self):
@@ -100,7 +101,6 @@ def plan_optimize(path: str | Path, document: dict[str, Any], model: Model) -> A
     """The Study of a document; raises UserError naming what cannot be used."""
     check_keys(path, document, OptimizeFile.model_fields, "search for best values")
     file = checked(OptimizeFile, document, path)
-    signs = np.array([-1.0 if name.startswith("-") else 1.0 for name in file.objectives])
     limits = {}
     for name, value in file.limits.items():
         column = COLUMNS.get(name, name)
@@ -113,9 +113,7 @@ def plan_optimize(path: str | Path, document: dict[str, Any], model: Model) -> A
                     path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]
                 ) from None
             raise refusal(path, f"limits.{name}", value, problem) from None
-    names = [name.removeprefix("-") for name in file.objectives]
-    counts = {key: getattr(file, key) for key in ("trials", "batch", "check_seeds", "candidates", "seed")}
-    return Study(Path(path), file.description, Box(path, file.between, model), names, signs, limits, **counts)
+    return Study(Path(path), file, Box(path, file.between, model), limits)
 
 
 def optuna_library() -> Any:
@@ -144,7 +142,8 @@ def search(study: Any, evaluate: Any) -> Any:
 
 def fresh_seeds(study: Any) -> Any:
     """start.seed of the runs that the search has not seen."""
-    return range(study.seed + FRESH, study.seed + FRESH + study.check_seeds)
+    first = study.file.seed + FRESH
+    return range(first, first + study.file.check_seeds)
 
 
 def mean_and_error(values):
@@ -166,12 +165,12 @@ def criterion(study: Any) -> str:
 
 def explore(study, evaluate):
     """Points of the search [n, d] and their means over seeds [n, m]."""
-    optuna = optuna_library()
-    sampler = optuna.samplers.TPESampler(seed=study.seed, n_startup_trials=max(8, study.trials // 5), **quiet(optuna))
+    optuna, file = optuna_library(), study.file
+    sampler = optuna.samplers.TPESampler(seed=file.seed, n_startup_trials=max(8, file.trials // 5), **quiet(optuna))
     found = optuna.create_study(directions=["minimize"] * len(study.objectives), sampler=sampler)
     points, values = [], []
-    while len(points) < study.trials:
-        trials = [found.ask() for _ in range(min(study.batch, study.trials - len(points)))]
+    while len(points) < file.trials:
+        trials = [found.ask() for _ in range(min(file.batch, file.trials - len(points)))]
         batch = [
             [
                 trial.suggest_float(name, low, high)
@@ -230,7 +229,7 @@ def most_promising(study, values):
         raise UserError(f"{study.path}: none of {len(values)} points keeps the limits: widen the box or the limits")
     away, best = distance(study, values, allowed), front(study, values)
     ranked = sorted(np.flatnonzero(allowed), key=lambda i: (len(study.objectives) > 1 and not best[i], away[i]))
-    return [int(i) for i in ranked[: study.candidates]]
+    return [int(i) for i in ranked[: study.file.candidates]]
 
 
 def write_optimum(found: Any, path: Path, basis: Any = ()) -> Path:
@@ -252,14 +251,11 @@ def write_optimum(found: Any, path: Path, basis: Any = ()) -> Path:
             "standard_error": dict(zip(study.responses, found.present[1].tolist(), strict=True)),
         },
         "recommended": None if found.best is None else rows[found.best],
-        "fresh_seeds": study.check_seeds,
+        "fresh_seeds": study.file.check_seeds,
         "candidates": rows,
         "trials": len(found.points),
     }
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(path, document)
 
 
 def write_picture(found: Any, path: Path) -> Path:
@@ -271,9 +267,7 @@ def write_picture(found: Any, path: Path) -> Path:
         (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
         figure.suptitle(f"{found.study.path.stem}: {len(found.points)} points searched", x=0.01, ha="left", fontsize=11)
         figure.legend(loc="outside lower center", ncols=3, fontsize=8)  # points lie anywhere on the panel
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)
 
 
 def pareto_panel(ax, found):

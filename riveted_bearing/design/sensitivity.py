@@ -30,10 +30,10 @@ from pydantic import AfterValidator, Field
 
 from ..base.errors import UserError, extra
 from ..base.file_kinds import check_keys
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.schema import Count, Section, checked
 from ..running.responses import display_of
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses, noise_variance
 
 if TYPE_CHECKING:
@@ -107,14 +107,13 @@ class Study:
     """A sensitivity study that was checked."""
 
     path: Path
-    description: str
     box: Box
-    responses: list
-    trajectories: int
-    levels: int
-    factors: int
-    count: int
-    seed: int
+    file: SensitivityFile
+
+    @property
+    def responses(self):
+        """Names of the responses."""
+        return self.file.responses
 
 
 def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, assumed: Any = None) -> Any:
@@ -123,8 +122,7 @@ def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, a
     """
     check_keys(path, document, SensitivityFile.model_fields, "sensitivity study")
     file = checked(SensitivityFile, document, path)
-    settings = {**dict(file.morris), **dict(file.sobol), "seed": file.seed}
-    return Study(Path(path), file.description, Box(path, file.between, model, assumed), file.responses, **settings)
+    return Study(Path(path), Box(path, file.between, model, assumed), file)
 
 
 def salib(command: str = "sensitivity") -> Any:
@@ -144,39 +142,38 @@ def salib(command: str = "sensitivity") -> Any:
 def analyse(study: Any, evaluate: Any) -> Any:
     """The Sensitivity of a Study; evaluate(names, points [n, d], responses) returns [n, seeds, m]."""
     sample_morris, analyze_morris, sample_sobol, analyze_sobol = salib()
+    design, sobol_design, seed = study.file.morris, study.file.sobol, study.file.seed
     problem = study.box.problem()
-    points = sample_morris.sample(problem, study.trajectories, num_levels=study.levels, seed=study.seed)
+    points = sample_morris.sample(problem, design.trajectories, num_levels=design.levels, seed=seed)
     values = complete(study, evaluate(study.box.names, points, study.responses))
-    noise, step = noise_variance(values), study.levels / (2.0 * (study.levels - 1))
+    noise, step = noise_variance(values), design.levels / (2.0 * (design.levels - 1))
     morris: dict[str, dict[str, Any]] = {}
     for i, name in enumerate(study.responses):
-        found = analyze_morris.analyze(
-            problem, points, values.mean(axis=1)[:, i], num_levels=study.levels, seed=study.seed
-        )
+        found = analyze_morris.analyze(problem, points, values.mean(axis=1)[:, i], num_levels=design.levels, seed=seed)
         morris[name] = {key: [float(x) for x in found[key]] for key in ("mu_star", "mu_star_conf", "sigma")}
         morris[name]["noise"] = float(2.0 * math.sqrt(noise[i] / math.pi) / step) if np.isfinite(noise[i]) else None
     scale = [max(max(morris[name]["mu_star"]), 1e-300) for name in study.responses]
     strength = np.max(
         [np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0
     )
-    chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: study.factors]]
+    chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: sobol_design.factors]]
     sobol: dict[str, dict[str, Any]] = {}
     seeds = values.shape[1]
     if chosen:
         box = study.box.chosen(chosen)
-        points = sample_sobol.sample(box.problem(), study.count, calc_second_order=False, seed=study.seed)
+        points = sample_sobol.sample(box.problem(), sobol_design.count, calc_second_order=False, seed=seed)
         values = complete(study, evaluate(box.names, points, study.responses))
         noise = noise_variance(values)
         for i, name in enumerate(study.responses):
             means = values.mean(axis=1)[:, i]
             if np.ptp(means) == 0.0:
                 raise UserError(f"{study.path}: response {name} is {means[0]:g} everywhere: no variance to share out")
-            found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=study.seed)
+            found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=seed)
             sobol[name] = {key: [float(x) for x in found[key]] for key in ("S1", "S1_conf", "ST", "ST_conf")}
             sobol[name]["noise"] = float(noise[i] / means.var()) if np.isfinite(noise[i]) else None
     return Sensitivity(
         study.path.stem,
-        study.description,
+        study.file.description,
         seeds,
         tuple(study.responses),
         tuple(study.box.names),
@@ -207,10 +204,7 @@ def order(found: Any, name: str) -> Any:
 
 def write_indices(found: Any, path: Path) -> Path:
     """Write all indices as JSON, whole or not at all; returns the path."""
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(vars(found), indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(path, vars(found))
 
 
 def read_indices(path: str | Path) -> Any:
@@ -257,9 +251,7 @@ def write_picture(found: Any, path: Path) -> Path:
         keys = {text: handle for ax in axes.flat for handle, text in zip(*ax.get_legend_handles_labels(), strict=True)}
         if keys:  # beside the panels, whose bars and errors lie anywhere
             figure.legend(keys.values(), keys, loc="outside lower center", ncols=len(keys))
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)
 
 
 def screening_panel(ax, found, name):

@@ -14,7 +14,7 @@ import numpy as np
 from bearing_model.generated.variables import INPUTS
 
 from ..base.errors import UserError
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
@@ -52,9 +52,7 @@ class Life:
     @property
     def place(self):
         """What fails first, in words."""
-        k, place = divmod(self.estimate.place, 2)
-        where = ("head", "middle")[place]
-        return f"rivet {k + 1}, {where}" if self.mission.settings["rivets"] == "each" else f"{where}s of the rivets"
+        return place_text(self.estimate.place, self.mission.settings["rivets"])
 
     @property
     def low(self):
@@ -158,6 +156,13 @@ def damages_counted(matrix, laws, own):
     chosen = matrix[0] == channel
     cycles = (column[chosen] for column in matrix[1:])
     return damage_of_cycles(Strength(laws[channel]), *cycles).sum(), own.max()
+
+
+def place_text(place, rivets):
+    """A place that can fail in words: a rivet's head or middle, or, if all rivets take all places in turn, all of them."""
+    k, end = divmod(place, 2)
+    where = ("head", "middle")[end]
+    return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
 
 
 def number_of_rivets(rows):
@@ -368,8 +373,4 @@ def read_record(folder):
 
 def write_record(life: Life, folder: Path) -> Path:
     """Write life.json, whole or not at all; returns its path."""
-    path = folder / RECORD
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(record(life), indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(folder / RECORD, record(life))

@@ -24,7 +24,7 @@ from ..running.fmu import Model
 from ..running.scene import in_words
 from ..running.summary import static_and_swing
 from ..studies.rows import columns_of
-from .assess import Runs, assess, places
+from .assess import Runs, assess, place_text, places
 from .confidence import Estimate, estimate, ratio_interval
 from .mission import plan_mission
 from .mission_file import MissionFile
@@ -244,13 +244,6 @@ def rested_on(missions):
 def counted(runs, c):
     """Number of runs of case c that have been asked for."""
     return sum(runs.keys[c, s] in runs.damages for s in range(runs.mission.settings["max_seeds"]))
-
-
-def place_text(place, rivets):
-    """A place in words."""
-    k, end = divmod(place, 2)
-    where = ("head", "middle")[end]
-    return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
 
 
 def life_ratio(samples, found, confidence):

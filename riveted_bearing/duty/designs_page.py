@@ -1,6 +1,5 @@
 """What a comparison of designs leaves: record, ratios in words, charts and page."""
 
-import json
 import math
 from pathlib import Path
 from typing import Any
@@ -8,10 +7,10 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.units import LONGEST, hours_text
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING
 from .designs import APART, HEAD_STRESS, RESPONSES, ends_of
 from .page import OPEN, interval_text, open_ends
 from .raceways import card, finite
@@ -117,9 +116,7 @@ def ratio_record(ratio):
 
 def write_record(found: Any, folder: str | Path) -> Path:
     """Write designs.json, whole or not at all; returns its path."""
-    path, text = Path(folder) / RECORD, json.dumps(record(found), indent=1) + "\n"
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
+    return write_json(Path(folder) / RECORD, record(found))
 
 
 def life_chart(fig, found):

@@ -15,7 +15,7 @@ from ..bearing.strength import damage_of_matrix
 from ..running.rainflow import CHANNELS, cycle_damages, fatigue_law_at
 from ..running.runner import simulate
 from ..running.summary import breaks, columns, has_statistics, life_is_known, settled
-from .assess import part_duty, places, used_cases
+from .assess import part_duty, place_text, places, used_cases
 from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
 from .page import ends_of, interval_text
@@ -198,7 +198,7 @@ def of_result(result, name, raceways):
         return float(life[0::2].min()), float(life[1::2].min())
 
     damage = damage_by(None, laws, matrix, 1.0)
-    k, place = divmod(int(damage.argmax()), 2)
+    place = int(damage.argmax())
     untold = why_no_life(result)
     life = None if untold else min(scaled(1.0))
     scene = result.about.get("scene") or "run"
@@ -206,14 +206,14 @@ def of_result(result, name, raceways):
         life,
         None,
         None,
-        f"rivet {k + 1}, {('head', 'middle')[place]}",
+        place_text(place, "each"),
         "of one run: more seeds or a mission give its interval",
         scaled,
         largest_amplitudes([(matrix, laws)]),
         knees_of(None, laws),
         {scene: result},
         scene,
-        k + 1,
+        place // 2 + 1,
         worse_places(damage),
         untold,
         raceways,

@@ -23,6 +23,7 @@ neighbouring classes.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import exprel
 
 # of a class: a larger factor says that the classes are too wide, and a class without damage next to one with damage has
 # no slope
@@ -109,10 +110,8 @@ def stretch_damage(first, grows, length, share):
     """Damage over a share of a stretch in which a rate starts at `first` and grows by the factor exp(grows): integral
     of first exp(grows x) length dx.
     """
-    x = grows * share
-    small = np.abs(x) < 1e-9
-    mean = np.where(small, 1.0 + 0.5 * x, np.expm1(x) / np.where(small, 1.0, x))
-    return first * np.broadcast_to(length, first.shape[:-2] + first.shape[-1:])[..., None, :] * share * mean
+    length = np.broadcast_to(length, first.shape[:-2] + first.shape[-1:])[..., None, :]
+    return first * length * share * exprel(grows * share)
 
 
 def reached(first, grows, length, missing):

@@ -64,7 +64,7 @@ def oil_in_pockets(mission, model):
         return f"Oil in the pockets: {name} = {texts} (0 dry, 1 flooded)."
     return (
         f"The filling of the pockets with oil is assumed to be the FMU's {name} (0, dry, unless its build changed it), because "
-        "none has been measured; flooded pockets live longer. --oil-range computes both."
+        "none has been measured; flooded pockets live longer: compare-designs with cage.pocket_filling=0 and =1 has both lives."
     )
 
 

@@ -11,12 +11,11 @@ import matplotlib
 import numpy as np
 from scipy.stats import t as student
 
-from ..base.files import write_atomically
 from ..base.units import LONGEST, figure, hours_text
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, plt
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
 from .raceways import card
 
 if TYPE_CHECKING:
@@ -281,8 +280,6 @@ CHARTS = {
 
 def write_picture(life: Life, path: Path) -> Path:
     """The four charts as one PNG, whole or not at all; returns the path."""
-    from ..show.plot import STYLE
-
     with plt.rc_context(STYLE):
         whole = plt.figure(figsize=(11, 7.4), layout="constrained")
         whole.suptitle(
@@ -291,6 +288,4 @@ def write_picture(life: Life, path: Path) -> Path:
         for part, (draw, _, label) in zip(whole.subfigures(2, 2).ravel(), CHARTS.values(), strict=True):
             draw(part, life)
             part.suptitle(label, x=0.02, ha="left", fontsize=10, fontweight="bold")
-        write_atomically(path, lambda temporary: whole.savefig(temporary, dpi=110))
-        plt.close(whole)
-    return path
+        return save_figure(whole, path)

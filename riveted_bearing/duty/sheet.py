@@ -29,8 +29,8 @@ from ..running.responses import display_of
 from ..running.summary import settled, table_note
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, plt
 from ..show.report import curve
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, plt
 from .evidence import of_result
 from .page import mission_text, part_rows, share_text
 from .raceways import of_result as raceways_of

@@ -13,7 +13,6 @@ joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68
 
 from __future__ import annotations
 
-import json
 import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -22,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..base.errors import UserError, refusal, unknown
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.toml_files import leaves
 from ..base.units import check_alike, to_si
 from .assess import Runs, places
@@ -241,7 +240,4 @@ def write_scatter(found: Any, path: Path) -> Path:
         "lives_h": found.lives.tolist(),
         "drawn": {name: values.tolist() for name, values in found.draws.items()},
     }
-    write_atomically(
-        path, lambda temporary: temporary.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    )
-    return path
+    return write_json(path, document)

@@ -10,9 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import UserError, extra
-from ..base.files import write_atomically
 from ..base.units import hours_text
-from ..show.plot import FORCE, HEAD, MIDDLE, STYLE, plt
+from ..show.style import FORCE, HEAD, MIDDLE, STYLE, plt, save_figure
 
 
 @dataclass(frozen=True)
@@ -115,6 +114,4 @@ def write_weibull_plot(law: Any, title: str, path: Path) -> Path:
         ax.minorticks_off()
         ax.legend(loc="upper left")
         figure.suptitle(title, x=0.01, ha="left", fontsize=11)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)

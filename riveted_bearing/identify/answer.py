@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from ..base.files import write_atomically
+from ..base.files import write_text
 from ..base.toml_files import to_toml
 from ..base.version import __version__
 from ..running.responses import display_of, displayed, titled
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED
 
 if TYPE_CHECKING:
     from ..running.scene import Scene
@@ -122,8 +122,7 @@ def write_answer(found: Any, basis: Any, path: Path) -> Path:
         "notes": found.notes,
     }
     text = json.dumps(document, indent=1) + "\n"
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
+    return write_text(path, text)
 
 
 def write_scene(found: Any, scene: Scene, path: Path) -> Path:
@@ -148,8 +147,7 @@ def write_scene(found: Any, scene: Scene, path: Path) -> Path:
         if name in found.intervals:
             one = found.intervals[name]
             lines[i] = f"{line}  # {one.low:.4g} ... {one.high:.4g}, {VERDICTS[one.decided]}"
-    write_atomically(path, lambda temporary: temporary.write_text("\n".join(lines) + "\n", encoding="utf-8"))
-    return path
+    return write_text(path, "\n".join(lines) + "\n")
 
 
 def plain(history):

@@ -179,29 +179,39 @@ def check_result(result, path):
             raise UserError(f"{path}: {name} = {value!r}: {problem}")
 
 
+def is_number(value):
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def is_text(value):
+    return isinstance(value, str)
+
+
+def is_list(value, kind):
+    return isinstance(value, list) and all(map(kind, value))
+
+
+def is_table(value, kind):
+    return isinstance(value, dict) and all(map(kind, value.values()))
+
+
+ORIGINS = (  # facts about the origin of a result: their names, test, and what is wrong with one that fails it
+    ("scene description fmu guid model generated machine date stopped", is_text, "not a text"),
+    ("given ruled messages replaced", lambda value: is_list(value, is_text), "not a list of texts"),
+    (
+        "mode_frequencies",
+        lambda value: is_list(value, lambda one: is_number(one) and 0.0 < one < math.inf),
+        "not a list of positive numbers",
+    ),
+    ("versions not_given basis units", lambda value: is_table(value, is_text), "not a table of texts"),
+    ("rivet", lambda value: is_table(value, is_number), "not a table of numbers"),
+    ("t_end step settle_turns count_turns", is_number, "not a number"),
+)
+
+
 def origin_problem(name, value):
     """What is wrong with a fact about the origin of a result, nothing if it may stand there or has no meaning here."""
-    if name in ("scene", "description", "fmu", "guid", "model", "generated", "machine", "date", "stopped"):
-        return "" if isinstance(value, str) else "not a text"
-    if name in ("given", "ruled", "messages", "replaced"):
-        return "" if isinstance(value, list) and all(isinstance(one, str) for one in value) else "not a list of texts"
-    if name == "mode_frequencies":
-        return (
-            ""
-            if isinstance(value, list) and all(is_number(one) and 0.0 < one < math.inf for one in value)
-            else "not a list of positive numbers"
-        )
-    if name in ("versions", "not_given", "basis", "units"):
-        return (
-            ""
-            if isinstance(value, dict) and all(isinstance(one, str) for one in value.values())
-            else "not a table of texts"
-        )
-    if name == "rivet":
-        return "" if isinstance(value, dict) and all(map(is_number, value.values())) else "not a table of numbers"
-    if name in ("t_end", "step", "settle_turns", "count_turns"):
-        return "" if is_number(value) else "not a number"
-    return ""
+    return next((words for names, holds, words in ORIGINS if name in names.split() and not holds(value)), "")
 
 
 def parameter_problem(name, value):
@@ -213,10 +223,6 @@ def parameter_problem(name, value):
     if known is None and isinstance(value, str):  # an enumeration of another version
         return ""
     return "" if is_number(value) else "not a number"
-
-
-def is_number(value):
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def write_parquet(result, metadata, path):

@@ -6,15 +6,15 @@ import re
 from dataclasses import replace
 
 import numpy as np
-from scipy.signal import welch
+from matplotlib.colors import LogNorm
 
 from ..base.errors import UserError
 from ..running.summary import columns, settled
 from . import plot, spectrum
-from .plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, wanted
-
-import matplotlib.pyplot as plt  # isort: skip  (after plot has chosen the backend)
-from matplotlib.colors import LogNorm
+from .orbit import cage_orbit as draw_orbit
+from .plot import wanted
+from .spectrum import density
+from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
 
 PAGE_COLOURS = {  # of plot.py -> custom properties of style.css
     HEAD: "var(--head)",
@@ -93,25 +93,23 @@ def over_time(panel):
 
 def worst_rivet(result):
     """Number, as text, of the rivet with the largest head stress in the run; None if it was not recorded."""
-    names = columns(result, "rivet[", "].sigma_head_peak") or columns(result, "rivet[", "].sigma_head")
-    late = settled(result)
-    return (
-        max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[")
-        if names
-        else None
-    )
+    return rivet_of(result, columns(result, "rivet[", "].sigma_head_peak") or columns(result, "rivet[", "].sigma_head"))
+
+
+def rivet_of(result, names):
+    """Number, as text, of the rivet whose channel has the largest value after settling; None without channels."""
+    largest = max(names, key=lambda name: result.data[name][settled(result)].max(), default="")
+    return largest.split("]")[0].removeprefix("rivet[") or None
 
 
 def spectra(figure, result):
     """Amplitude density of head and middle stress of the worst rivet, kinematic frequencies marked."""
     ax, k, late = figure.subplots(), worst_rivet(result), settled(result)
-    t = result.data["time"][late]
-    rate = (len(t) - 1) / (t[-1] - t[0])
+    rate = sample_rate(result)
     for name, colour, label in (("sigma_head", HEAD, "head fillet"), ("sigma_mid", MIDDLE, "middle")):
         values = result.data.get(f"rivet[{k}].{name}")
         if values is not None:
-            f, power = welch(1e-6 * values[late], rate, nperseg=min(len(t), 1024), detrend="constant")
-            ax.loglog(f[1:], np.sqrt(power[1:]), color=colour, lw=0.8, label=label)
+            ax.loglog(*density(1e-6 * values[late], rate), color=colour, lw=0.8, label=label)
     ax.set(
         xlabel=f"frequency [Hz]; {1e-3 * rate:g} samples per ms", ylabel="MPa/√Hz", xlim=(2.0 * rate / 1024, 0.5 * rate)
     )
@@ -127,12 +125,7 @@ def spectra(figure, result):
 
 def loaded_rivet(result):
     """Number, as text, of the rivet with the largest tension after settling; None if tensions were not recorded."""
-    late, names = settled(result), columns(result, "rivet[", "].T")
-    return (
-        max(names, key=lambda name: result.data[name][late].max()).split("]")[0].removeprefix("rivet[")
-        if names
-        else None
-    )
+    return rivet_of(result, columns(result, "rivet[", "].T"))
 
 
 def moment_t(result, k):
@@ -166,8 +159,8 @@ def joint_spectra(figure, result):
     panels = figure.subplots(2, 1, sharex=True)
     loads = (result.data[f"rivet[{k}].T"], FORCE, "T [N/√Hz]"), (1e3 * moment_t(result, k), MIDDLE, "M_t [N·mm/√Hz]")
     for ax, (values, colour, unit) in zip(panels, loads, strict=True):
-        f, power = welch(values[late], rate, nperseg=segment, detrend="constant")
-        ax.plot(1e-3 * f[1:], np.sqrt(power[1:]), color=colour, lw=0.8)
+        f, amplitude = density(values[late], rate, segment)
+        ax.plot(1e-3 * f, amplitude, color=colour, lw=0.8)
         ax.set(ylabel=unit)
         ax.set_ylim(bottom=0)
         for frequency in modes:
@@ -181,12 +174,11 @@ def joint_spectra(figure, result):
 
 def frequencies(result):
     """Frequencies of shaft, cage and ball passes from the mean speeds of the run [Hz]."""
-    late = settled(result)
     if not all(name in result.data for name in ("shaft.omega", "cage.omega")):
         return {}
-    shaft, cage = (abs(result.data[name][late].mean()) / (2 * np.pi) for name in ("shaft.omega", "cage.omega"))
-    Z = len([name for name in result.parameters if name.startswith("ball[") and name.endswith("].dD")])
-    return {"cage": cage, "shaft": shaft, "BPFO": Z * cage, "BPFI": Z * abs(shaft - cage)}
+    speeds = {name: spectrum.speed_of(result, name, settled(result)) for name in spectrum.SPEEDS}
+    found = spectrum.kinematic_frequencies(result, speeds, orders=False)
+    return {"cage": found["FTF"]} | {name: found[name] for name in ("shaft", "BPFO", "BPFI")}
 
 
 def azimuth_of(result, kind, j, Z):
@@ -290,7 +282,7 @@ def section(figure, result):
 def cage_orbit(figure, result):
     """Orbit of the cage's centre in its guide clearance."""
     ax = figure.subplots()
-    plot.cage_orbit(ax, result)
+    draw_orbit(ax, result)
     ax.set_title("")
 
 

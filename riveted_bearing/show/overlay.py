@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from scipy.signal import welch
 
 from bearing_model.generated import variables
 
@@ -21,7 +20,8 @@ from ..base.errors import UserError, unknown
 from ..base.units import SECONDS, canonical, scale, scales_of, suffix
 from ..base.variable_list import KNOWN
 from ..running.summary import settled
-from .plot import FORCE, HEAD, MUTED
+from .spectrum import density
+from .style import FORCE, HEAD, MUTED
 
 UNEVEN = 0.01  # of the mean step: times beyond it have no spectrum
 FEWEST = 16
@@ -133,8 +133,7 @@ def spectrum(t, values):
     steps = np.diff(t)
     if np.abs(steps / steps.mean() - 1.0).max() > UNEVEN or len(t) < FEWEST:
         return None
-    f, power = welch(values, 1.0 / steps.mean(), nperseg=min(len(t), 1024), detrend="constant")
-    return f[1:], np.sqrt(power[1:])
+    return density(values, 1.0 / steps.mean())
 
 
 def table_rows(series):

@@ -5,7 +5,7 @@ from typing import Any
 
 import jinja2
 
-from ..base.files import write_atomically
+from ..base.files import write_text
 
 PARTS = Path(__file__).parents[1] / "data" / "report"
 
@@ -32,6 +32,4 @@ def page_text(template, style="style.css", **values):
 
 def save_page(path: str | Path, template: Any, **values: Any) -> Path:
     """Write a page (page_text), whole or not at all; returns its path."""
-    text = page_text(template, **values)
-    write_atomically(Path(path), lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return Path(path)
+    return write_text(path, page_text(template, **values))

@@ -1,4 +1,4 @@
-"""One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit, and the rivets side by side."""
+"""One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit (orbit.py), and the rivets side by side."""
 
 from __future__ import annotations
 
@@ -6,41 +6,18 @@ import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.patches import Circle
 
-from ..base.files import write_atomically
 from ..running.in_run import changes
-from ..running.summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
+from ..running.summary import RPM, breaks, rivet_rows, settled, summary_rows
+from .orbit import cage_orbit
+from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
 
 if TYPE_CHECKING:
     from ..running.results import Result
 
-HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
-NOTHING = 1e-3  # um; an orbit below a nanometre is a point
 TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
-STYLE = {
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e4e7eb",
-    "axes.axisbelow": True,
-    "axes.titlesize": 10,
-    "axes.titleweight": "bold",
-    "axes.titlelocation": "left",
-    "legend.frameon": False,
-    "legend.fontsize": 8,
-    "legend.borderpad": 0.0,
-    "figure.constrained_layout.w_pad": 0.12,  # inch
-    "figure.constrained_layout.h_pad": 0.08,
-}
 
 
 def plot_result(result: Result, path: Path) -> Path:
@@ -61,9 +38,7 @@ def plot_result(result: Result, path: Path) -> Path:
         orbit_ax, bars_ax = right.subplots(2, 1)
         cage_orbit(orbit_ax, result)
         rivet_bars(bars_ax, result)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=130))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path, 130)
 
 
 def title(result):
@@ -187,49 +162,6 @@ OVER_TIME = (
 HEIGHTS = {loads: 0.6, stress: 1.4}
 
 
-def cage_orbit(ax, result):
-    """Path of the cage's centre within its guide clearance."""
-    kind = clearance_of_cage(result.parameters)
-    ax.set(
-        title="Orbit of the cage's centre, from +X",
-        xlabel=f"y [µm]; dashed: {kind} clearance",
-        ylabel="z [µm]",
-        aspect="equal",
-    )
-    if not wanted(result, ["cage.y", "cage.z"]):
-        ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
-        return
-    late = settled(result)
-    y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
-    clearance = 1e6 * result.parameters[f"cage.{kind}_clearance"] / 2
-    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
-    ax.plot(y, z, color=FORCE, lw=0.35, alpha=0.7)
-    limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
-    ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
-    size = max(np.ptp(y), np.ptp(z))
-    if NOTHING < size < 0.5 * clearance:
-        magnified(ax, y, z, 0.6 * size)
-
-
-def magnified(ax, y, z, half):
-    """The orbit magnified in the corner that is farthest from it: a square of the given half width [um]."""
-    centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
-    left, lower = centre[0] >= 0.0, centre[1] >= 0.0
-    inset = ax.inset_axes([0.0 if left else 0.64, 0.0 if lower else 0.64, 0.36, 0.36])
-    inset.yaxis.set_ticks_position("right" if left else "left")  # to the inside
-    inset.xaxis.set_ticks_position("top" if lower else "bottom")
-    inset.spines[:].set_visible(True)
-    inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
-    inset.set(
-        xlim=(centre[0] - half, centre[0] + half),
-        ylim=(centre[1] - half, centre[1] + half),
-        aspect="equal",
-        facecolor="#ffffff",
-    )
-    inset.tick_params(labelsize=7)
-    ax.indicate_inset_zoom(inset, edgecolor=MUTED)
-
-
 def rivet_bars(ax, result):
     """Mean and 99.9 % quantile of each rivet's stress."""
     ax.set(title="Stress of each rivet: bar p99.9, line mean", xlabel="rivet", ylabel="MPa")
@@ -270,9 +202,7 @@ def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
             grid = axes[0, 2].get_gridspec()
             axes[0, 2].remove(), axes[1, 2].remove()
             deviations(figure.add_subplot(grid[:, 2]), found)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path, dpi)
 
 
 def overlay(ax, t, channel, title):

@@ -13,7 +13,7 @@ import numpy as np
 from bearing_model.generated import variables
 
 from ..base.errors import UserError
-from ..base.files import FORMATS, write_atomically
+from ..base.files import FORMATS, write_text
 from ..base.units import duration, figure
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
@@ -104,8 +104,7 @@ def has_numbers(result):
 def write_report(result, path, decides=None, measured=()):
     """Write the page of a result, whole or not at all; returns the path."""
     page = render(result, decides, measured)
-    write_atomically(Path(path), lambda temporary: temporary.write_text(page, encoding="utf-8"))
-    return Path(path)
+    return write_text(path, page)
 
 
 def render(result, decides=None, measured=()):

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline
-from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram, sosfiltfilt
+from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram, sosfiltfilt, welch
 from scipy.signal.windows import hann
 
 from ..base.errors import UserError, unknown
@@ -204,6 +204,12 @@ def amplitude_spectrum(x, rate):
     return frequency, np.sqrt(2.0 * power)
 
 
+def density(values: np.ndarray, rate: float, segment: int = 1024) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies [Hz] above 0 and amplitude density [unit/√Hz] of samples at a rate, by Welch with Hann windows."""
+    f, power = welch(values, rate, nperseg=min(len(values), segment), detrend="constant")
+    return f[1:], np.sqrt(power[1:])
+
+
 def kurtosis_band(x, rate):
     """The band (low, high) whose short-time amplitudes are most impulsive: largest <|X|^4>/<|X|^2>^2 - 2 over
     frequencies and lengths of the window.
@@ -314,7 +320,7 @@ def write_spectra(found: Any, path: Path) -> Path:
 
 def draw(figure, found):
     """Spectrum above, envelope spectrum with the kinematic frequencies below."""
-    from .plot import FORCE, HEAD, MIDDLE, MUTED
+    from .style import FORCE, HEAD, MIDDLE, MUTED
 
     colours = {"FTF": MUTED, "BSF": "#e09f3e", "BPFO": HEAD, "BPFI": MIDDLE}
     above, below = figure.subplots(2, 1)
@@ -339,16 +345,9 @@ def squared(unit: str) -> Any:
 
 def plot_spectra(found: Any, path: Path) -> Path:
     """A picture of both spectra."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    from .plot import STYLE
+    from .style import STYLE, plt, save_figure
 
     with plt.rc_context(STYLE):
         figure = plt.figure(figsize=(9, 6), layout="constrained")
         draw(figure, found)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)

@@ -22,7 +22,7 @@ from fmpy.fmi1 import FMICallException
 from bearing_model.quasi_static import quasi_static
 
 from ..base.errors import UserError
-from ..base.files import write_atomically
+from ..base.files import write_text
 from ..running.effects import acts, all_figures, without_effect
 from ..running.fmu import Instance
 from ..running.inputs import History
@@ -230,8 +230,7 @@ def write_table(found: Any, path: Path, basis: Any = ()) -> Path:
         "\n".join([*comments(basis), ",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)])
         + "\n"
     )
-    write_atomically(path, lambda file: file.write_text(text, encoding="utf-8"))
-    return path
+    return write_text(path, text)
 
 
 def comments(basis):
@@ -281,20 +280,14 @@ def write_ross(found: Any, path: Path, node: int = 0, tag: str = "bearing", basi
         coefficients = {"frequency": coefficients.pop("speed")} | coefficients
     lines = [*comments(basis), f"[BearingElement_{tag}]", f"n = {node}", f'tag = "{tag}"']
     lines += [f"{name} = {np.asarray(values, float).tolist()}" for name, values in coefficients.items()]
-    write_atomically(path, lambda file: file.write_text("\n".join(lines) + "\n", encoding="utf-8"))
-    return path
+    return write_text(path, "\n".join(lines) + "\n")
 
 
 def plot_matrices(found: Any, path: Path) -> Path:
     """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
     factor.
     """
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    from ..show.plot import STYLE
+    from ..show.style import STYLE, plt, save_figure
 
     loads = list(dict.fromkeys(p.load for p in found))
     with plt.rc_context(STYLE):
@@ -327,6 +320,4 @@ def plot_matrices(found: Any, path: Path) -> Path:
         for ax in (left, right):
             if ax.has_data() and ax.get_legend_handles_labels()[0]:
                 ax.legend()
-        write_atomically(path, lambda file: figure.savefig(file, format="png", dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)

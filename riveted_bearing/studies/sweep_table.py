@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy import stats
 
-from ..base.files import write_atomically
 from ..base.units import suffix
 from ..running.basis import basis
 from ..show import charts
 from ..show.pages import save_page
-from ..show.plot import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
 
 if TYPE_CHECKING:
     from .sweep_file import Sweep
@@ -202,9 +201,7 @@ def write_picture(table: Any, path: Path) -> Path:
             ax.remove()
         for ax, response in zip(axes.ravel(), table.responses, strict=False):
             draw_response(ax, table, response)
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=110))
-        plt.close(figure)
-    return path
+        return save_figure(figure, path)
 
 
 def write_page(table: Any, description: Any, path: Path) -> Path:

@@ -1,0 +1,45 @@
+"""What several commands print: notes, tables, the files that were written; and the files that they read first."""
+
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..base.errors import UserError
+from ..base.toml_files import read_toml
+from .terminal import console, messages
+
+
+def note(text, word="[yellow]note:[/]", to=messages):
+    """A sentence behind a word that says what it is."""
+    to.print(f"{word} {escape(str(text))}", soft_wrap=True)
+
+
+def print_paths(*files):
+    """Label and path of each file that was written."""
+    for label, path in files:
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def table(heads, rows=(), left=1, **look):
+    """A table of texts without rules: its first columns, `left` of them, stand on the left, the others on the right."""
+    columns = (Column(head, justify="left" if i < left else "right") for i, head in enumerate(map(escape, heads)))
+    shown = Table(*columns, **{"box": None, "pad_edge": False} | look)
+    for row in rows:
+        shown.add_row(*map(escape, row))
+    return shown
+
+
+def document_of(path, kind):
+    """The document of a TOML file; UserError if it is not there."""
+    if not path.is_file():
+        raise UserError(f"{path}: no such {kind} file")
+    return read_toml(path)
+
+
+def print_runs(rows, what, path):
+    """How many runs of a sweep's rows are done, where they are and why others failed; returns whether some failed."""
+    failures, spent = rows["message"][rows["status"] != "done"], rows["cpu_time"][rows["status"] == "done"].sum()
+    console.print(f"{len(rows['key'])} {what}, {len(failures)} of them failed, CPU time {spent:.1f} s")
+    print_paths(("results", path))
+    for text in dict.fromkeys(failures):
+        note(text, "[bold red]failed:[/]")
+    return len(failures) > 0

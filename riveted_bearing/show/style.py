@@ -1,0 +1,37 @@
+"""How all pictures look: colours by what a curve shows, matplotlib's settings, and files written whole or not at all."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.pyplot as plt
+
+from ..base.files import write_atomically
+
+HEAD, MIDDLE, FORCE, RING, MUTED = "#c8442b", "#2a6f97", "#40495a", "#7a9e3b", "#9aa2ad"
+STYLE = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e7eb",
+    "axes.axisbelow": True,
+    "axes.titlesize": 10,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "legend.frameon": False,
+    "legend.fontsize": 8,
+    "legend.borderpad": 0.0,
+    "figure.constrained_layout.w_pad": 0.12,  # inch
+    "figure.constrained_layout.h_pad": 0.08,
+}
+
+
+def save_figure(figure: Any, path: Path, dpi: int = 110) -> Path:
+    """Write a figure as PNG, whole or not at all, and close it; returns the path."""
+    write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
+    plt.close(figure)
+    return path
