@@ -718,3 +718,28 @@ def test_a_joint_that_sticks_is_deflected_by_its_displacement(core):
         moved.append(places)
     assert np.max(np.abs(moved[2] - moved[0])) > 1e-9
     np.testing.assert_allclose(apart[1:], [apart[0]] * 2, rtol=0.0, atol=1e-13)
+
+
+@pytest.mark.c_only
+def test_a_reset_instance_has_nothing_of_the_run_before(core):
+    """Each parameter of cage, joint, ball set, rings and oil at another value in a run of 20 us, then a reset: the run after it is bit for
+    bit that of a new instance.
+    """
+    fresh, changed = Instance(core, ELASTIC).step(2e-5).y, []
+    for name, variable in variables.PARAMETERS.items():
+        group = name.partition(".")[0]
+        if variable.type != "Real" or group not in {"cage", "joint", "bearing", "ring", "oil"} or not variable.start:
+            continue
+        for factor in (1.02, 0.98):  # one of them is within the limits
+            try:
+                bearing = Instance(core, ELASTIC | {name: factor * variable.start})
+            except ValueError:
+                continue
+            bearing.step(2e-5)
+            core.lib.part_reset(bearing.bearing)
+            core.set_values(core.lib.part_parameters(bearing.bearing), variables.PARAMETERS, ELASTIC)
+            assert core.lib.part_initialize(bearing.bearing, 0.0, 0.0) == core.lib.PART_OK
+            assert np.array_equal(bearing.step(2e-5).y, fresh), name
+            changed.append(name)
+            break
+    assert {"cage.land_x", "cage.m", "joint.preload", "oil.eta"} <= set(changed)

@@ -323,6 +323,17 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
     return x[0];
 }
 
+static ElasticBody body_of(const Parameters *p, const Derived *d)
+{
+    return (ElasticBody){p->cage.shape, p->cage.m, p->cage.land_x, p->bearing.d_m, d->J_p, d->J_t, d->k_plate_t};
+}
+
+static bool same_body(const ElasticBody *a, const ElasticBody *b)
+{
+    return a->shape == b->shape && a->m == b->m && a->land_x == b->land_x && a->d_m == b->d_m && a->J_p == b->J_p &&
+           a->J_t == b->J_t && a->friction == b->friction;
+}
+
 // What follows from the body alone.
 static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
@@ -348,17 +359,15 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     take_residual(&table->law, half);
     if (ribbon) take_alike(half);
     find_reach(p, d, ribbon, half);
-    half->of.m = p->cage.m, half->of.J_p = d->J_p, half->of.J_t = d->J_t;
-    half->of.friction = d->k_plate_t;
+    half->of.body = body_of(p, d);
     half->of.k_hole = -1.0;
 }
 
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfModes *table = &rivet_table.modes;
-    const bool same = half->of.m == p->cage.m && half->of.J_p == d->J_p && half->of.J_t == d->J_t &&
-                      half->of.friction == d->k_plate_t;
-    if (!same) derive_body(p, d, half);
+    const ElasticBody body = body_of(p, d);
+    if (!same_body(&half->of.body, &body)) derive_body(p, d, half);
     take_forces(p, half);
 
     // mean over r and t, of both halves

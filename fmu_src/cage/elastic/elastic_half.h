@@ -40,6 +40,12 @@ enum { ENTRY_OCTETS = ENTRIES / 8 };
 
 enum { WALL_NODES = 16, WALL_RADII = 3 };  // of a wall, at most
 
+// Parameters and constants from which the constants of a half are derived that no temperature changes.
+typedef struct {
+    int shape;
+    double m, land_x, d_m, J_p, J_t, friction;
+} ElasticBody;
+
 struct ElasticHalf {
     int n, count[2];                        // modes; coordinates a and b
     int entry[MODES];                       // of the table, of each coordinate
@@ -79,9 +85,10 @@ struct ElasticHalf {
     constants k_hole;  // what is left of the holes' [N/m]
     double substep;    // of the default method, at most [s]
 
-    // from which all this was derived: mass, moments of inertia, stiffness of the friction states, largest of the holes'
+    // from which all this was derived: the body, the largest stiffness of the holes
     struct {
-        double m, J_p, J_t, friction, k_hole;
+        ElasticBody body;
+        double k_hole;
     } of;
 
     // the joints' law over L_K = L + K delta, which gives L; the fourth number is U, whose slope is delta
