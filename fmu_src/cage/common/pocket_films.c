@@ -276,7 +276,8 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
                 EndFilm film = {.h = h, .k = k};
                 if (!(mask >> lane & 1)) continue;
                 film_of_lane(films, &approach, lane, &film);
-                saved += solve_film(model, gamma, &film, before->F[h][k], foreseen[h][k], &solved, &rates, films, w);
+                saved += solve_film(model, gamma, &film, before->F[h][k], foreseen[h][k], &solved, &rates,
+                                    films, w);
             }
         }
     add_rates(model, &rates, y, f);

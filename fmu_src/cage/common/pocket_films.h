@@ -54,4 +54,5 @@ void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, doub
 // predicted velocities, and returns the power that this saves [W].  step: those that followed in substeps, NULL without.
 #define pocket_films_arrive FOR_ISA(pocket_films_arrive)
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
-                           const PocketFilms *before, const double *y, Work *w, double *f, PocketFilms *films);
+                           const PocketFilms *before, const double *y, Work *w, double *f,
+                           PocketFilms *films);

@@ -325,13 +325,14 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
 
 static ElasticBody body_of(const Parameters *p, const Derived *d)
 {
-    return (ElasticBody){p->cage.shape, p->cage.m, p->cage.land_x, p->bearing.d_m, d->J_p, d->J_t, d->k_plate_t};
+    return (ElasticBody){p->cage.shape, p->cage.m, p->cage.land_x, p->bearing.d_m,
+                         d->J_p,        d->J_t,    d->k_plate_t};
 }
 
 static bool same_body(const ElasticBody *a, const ElasticBody *b)
 {
-    return a->shape == b->shape && a->m == b->m && a->land_x == b->land_x && a->d_m == b->d_m && a->J_p == b->J_p &&
-           a->J_t == b->J_t && a->friction == b->friction;
+    return a->shape == b->shape && a->m == b->m && a->land_x == b->land_x && a->d_m == b->d_m &&
+           a->J_p == b->J_p && a->J_t == b->J_t && a->friction == b->friction;
 }
 
 // What follows from the body alone.

@@ -158,8 +158,8 @@ static void remember_modes(double h, double h_0, const double *restrict f, const
 }
 
 double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *step, const StepFrom *from,
-                   const HalvesMemory *at, const ElasticMemory *before, const StepTo *to, HalvesMemory *at_end,
-                   ElasticMemory *memory, Work *w)
+                   const HalvesMemory *at, const ElasticMemory *before, const StepTo *to,
+                   HalvesMemory *at_end, ElasticMemory *memory, Work *w)
 {
     const double gamma = halves->gamma;
     double *y = to->y, *f = to->f, change[N_STATES], lack[2][RIM], power = 0.0;
@@ -170,8 +170,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     // The rates of the evaluation without the part of the substeps; films in pockets at the end's velocities.
     elastic_split(model, y, w, f, memory);
     follow_places(&before->fast, &memory->fast, &halves->joints, y);
-    f[Y_WORK] +=
-        pocket_films_arrive(model, gamma, &step->pockets, &at->pockets, y, w, f, &at_end->pockets);
+    f[Y_WORK] += pocket_films_arrive(model, gamma, &step->pockets, &at->pockets, y, w, f, &at_end->pockets);
     if (lands_bend(model)) {
         rim_lacks(model, step, f, &memory->films, lack);
         memcpy(memory->squeeze, before->squeeze, sizeof memory->squeeze);

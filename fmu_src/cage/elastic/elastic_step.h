@@ -12,7 +12,9 @@
 typedef struct {
     FastState fast;
     RimFilms films;
-    double squeeze[2][SQUEEZE], force[2][SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s], the films' forces [N]
+    double squeeze[2][SQUEEZE],
+        force[2]
+             [SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s], the films' forces [N]
 } ElasticMemory;
 
 // Between the two halves of a step: slow accelerations at the end as the substeps foresee them; forces on bent rims that are
@@ -36,8 +38,8 @@ void elastic_begin(const Model *model, double h, const StepFrom *from, const Hal
 // Solution, corrections and history (cage_end).
 #define elastic_end FOR_ISA(elastic_end)
 double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *step, const StepFrom *from,
-                   const HalvesMemory *at, const ElasticMemory *before, const StepTo *to, HalvesMemory *at_end,
-                   ElasticMemory *memory, Work *w);
+                   const HalvesMemory *at, const ElasticMemory *before, const StepTo *to,
+                   HalvesMemory *at_end, ElasticMemory *memory, Work *w);
 
 // Maps the friction states in y back under the loads in w.
 #define elastic_slide FOR_ISA(elastic_slide)

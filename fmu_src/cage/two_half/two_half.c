@@ -371,8 +371,7 @@ void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, co
 {
     const double gamma = step->gamma;
     double change[N_STATES];
-    to->f[Y_WORK] +=
-        pocket_films_arrive(model, gamma, NULL, &at->pockets, to->y, w, to->f, &at_end->pockets);
+    to->f[Y_WORK] += pocket_films_arrive(model, gamma, NULL, &at->pockets, to->y, w, to->f, &at_end->pockets);
     halves_residual(step, from, to);
     const double shear = two_half_shear(model, w, gamma, to->residual);
     memcpy(&to->delta[Y_CAGE_V_X], &to->residual[Y_CAGE_V_X], (Y_RING_V_X - Y_CAGE_V_X) * sizeof *change);
