@@ -1,0 +1,171 @@
+"""Blind recovery of causes: synthetic failures whose cause a seed hides, and what `riveted-bearing causes` says of them.
+
+    python benchmarks/causes.py FOLDER 6207=fmus/RivetedBearing.fmu 6310=6310.fmu ...
+
+Each bearing has one pool of designs, seed 1, that all its failures share.  A hidden failure is a run of its own, of
+designs from another seed, in which all rivets break one after another.  Its cause is drawn evenly, its life is multiplied
+by a strength of the lot; what does not break within 1e5 h is nobody's failure and is drawn again.  So the shares of the
+causes among the failures are those of causes that are present evenly, as the posterior supposes.
+
+The findings are incomplete as in practice.  The shares were set before the first result:
+"""
+
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+from common import write
+
+from riveted_bearing.identify.findings import NONE, plan_causes
+from riveted_bearing.identify.pool import mission_scene, run_pool
+from riveted_bearing.identify.posterior import RESPONSES, answer, heavy, predicted, sound_medians
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import cluster
+
+KNOWN = {"place": 0.9, "order": 0.2, "hours": 0.35, "about hours": 0.35, "mark": 0.6, "inspection": 0.35, "loose": 0.7}
+CAUSES = [
+    "clearance",
+    "interference",
+    "preload lost",
+    "misalignment",
+    "impacts",
+    "overspeed",
+    "malformed rivet",
+    "ball sizes",
+]
+MISSIONS = {  # inputs: about as fast as the sound bearing bears
+    "6207": {},
+    "6310": {"shaft.omega": "7600 rev/min", "shaft.F_y": "6 kN", "shaft.F_x": "1 kN"},
+    "6004": {"shaft.omega": "30000 rev/min", "shaft.F_y": "1.1 kN", "shaft.F_x": "190 N"},
+    "6212": {"shaft.omega": "13500 rev/min", "shaft.F_y": "6 kN", "shaft.F_x": "1 kN"},
+}
+HIDDEN, EACH, FAILURES = 4711, 10, 40  # seed of the hidden designs, designs of each cause, failures in all
+
+
+def pools(name, path, folder, client, causes=CAUSES, samples=32):
+    """(study, document, model, scene, pool, hidden) of a bearing: Predicted of all designs, and Samples of the hidden."""
+    model = Model(path)
+    document = {"inputs": MISSIONS[name], "causes": list(causes), "samples": samples}
+    file = Path(f"{name}.toml")
+    scene = mission_scene(file, document, model)
+    study = plan_causes(file, document, model, scene)
+    pool = run_pool(study, model, document, folder / name, client)
+    long = document | {"breaks": study.Z, "prior": {}}
+    hidden = run_pool(
+        plan_causes(file, long, model, scene), model, long, folder / f"{name}_hidden", client, count=EACH, seed=HIDDEN
+    )
+    return study, document, model, scene, [predicted(one, study, model, scene) for one in pool], hidden
+
+
+def failure(rng, study, model, scene, hidden, sound, known=KNOWN):
+    """(cause, findings as a document) of a failure; None if nothing breaks within the hours."""
+    names = [cause.name for cause in study.causes]
+    cause = int(rng.integers(1, len(names)))  # the first one is the sound bearing
+    sample = rng.choice([one for one in hidden if one.cause == cause])
+    one = predicted(sample, study, model, scene)
+    breaks = [state for state in sample.history["states"] if state["hours"] is not None]
+    hours = one.hours + study.file.life_decades * rng.standard_normal()
+    n = int(rng.integers(1, study.Z + 1))
+    n = min(n, len(breaks))
+    if not n or hours[n - 1] > np.log10(study.file.within):
+        return None
+    shift = int(rng.integers(study.Z))
+    turned = [(state["rivet"] - 1 + shift) % study.Z + 1 for state in breaks[:n]]
+    broken = {"head": [], "middle": [], "unknown": []}
+    for rivet, state in zip(turned, breaks, strict=False):
+        place = ("head", "middle")[state["place"]] if rng.random() < known["place"] else "unknown"
+        broken[place].append(rivet)
+    if rng.random() < known["order"]:
+        broken["order"] = turned
+    found = {"broken": broken}
+    dice, time = rng.random(), hours[n - 1]
+    if dice < known["hours"]:
+        found["hours"] = f"{10.0**time:.6g} h"
+    elif dice < known["hours"] + known["about hours"]:
+        found["hours"] = f"about {10.0 ** (time + np.log10(2.0) * rng.standard_normal()):.6g} h"
+    if "hours" in found and float(found["hours"].split()[-2]) > study.file.within:
+        del found["hours"]
+    if rng.random() < known["loose"]:
+        standing = [k for k in range(1, study.Z + 1) if k not in turned]
+        found["loose"] = [k for k in standing if rng.random() < one.loose]
+    marks = {}
+    for name in RESPONSES:
+        p = heavy(one.responses[name], sound[name])
+        if rng.random() < known["mark"]:
+            marks[name] = "heavy" if rng.random() < p else "none"
+    measured = {}
+    for name, quantity in study.quantities.items():
+        value = one.values[name]
+        error = float(quantity.sd(value)) * rng.standard_normal()
+        if rng.random() < known["inspection"]:
+            measured[name] = value + error
+    return names[cause], found | {"marks": marks, "measured": measured}
+
+
+def recovery(bearings, count, seed=1, known=KNOWN):
+    """Rows of so many failures, dealt over the bearings: cause, what was said, and with which probability."""
+    rng, rows = np.random.default_rng(seed), []
+    while len(rows) < count:
+        name, (study, document, model, scene, pool, hidden) = list(bearings.items())[len(rows) % len(bearings)]
+        one = failure(rng, study, model, scene, hidden, sound_medians(study, pool), known)
+        if one is None:
+            continue
+        cause, found = one
+        own = plan_causes(study.path, document | found, model, scene)
+        said = answer(own, pool, inspect=False)
+        truth = said.names.index(cause)
+        rows.append(
+            {
+                "bearing": name,
+                "cause": cause,
+                "said": said.names[said.ranked[0]],
+                "probability of the cause": float(said.posterior[truth]),
+                "probability of what was said": float(said.posterior[said.ranked[0]]),
+                "in the 90 % set": truth in said.credible,
+                "size of the set": len(said.credible),
+                "decided": said.decided,
+                "findings": json.dumps(found),
+            }
+        )
+    return rows
+
+
+def reliability(rows, edges=(0.0, 0.4, 0.6, 0.8, 1.0)):
+    """(lowest, highest stated probability, failures, mean stated, share that was right) of the first cause."""
+    stated = np.array([row["probability of what was said"] for row in rows])
+    right = np.array([row["said"] == row["cause"] for row in rows])
+    found = []
+    for low, high in zip(edges, edges[1:], strict=False):
+        inside = (stated > low) & (stated <= high)
+        if inside.any():
+            found.append((low, high, int(inside.sum()), float(stated[inside].mean()), float(right[inside].mean())))
+    return found
+
+
+def main():
+    folder = Path(sys.argv[1])
+    with cluster(None, 1) as client:
+        bearings = {}
+        for argument in sys.argv[2:]:
+            name, path = argument.split("=")
+            bearings[name] = pools(name, path, folder, lambda: client)
+    rows = recovery(bearings, FAILURES)
+    write("causes", {"known": KNOWN, "failures": rows}, False)
+    print(summary(rows))
+
+
+def summary(rows):
+    """What came out, in lines."""
+    first = sum(row["said"] == row["cause"] for row in rows)
+    inside = sum(row["in the 90 % set"] for row in rows)
+    size = np.mean([row["size of the set"] for row in rows])
+    stated = np.mean([row["probability of what was said"] for row in rows])
+    lines = [f"{len(rows)} failures: cause first {first}, in the 90 % set {inside}, mean size of the set {size:.1f}"]
+    lines.append(f"mean stated probability of the first {stated:.2f}; none of these first {sum(r['said'] == NONE for r in rows)}")
+    lines += [f"{low:.1f} to {high:.1f}: {n} failures, stated {s:.2f}, right {r:.2f}" for low, high, n, s, r in reliability(rows)]
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    main()

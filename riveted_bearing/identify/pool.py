@@ -1,0 +1,223 @@
+"""The pool of a bearing: designs of each cause, in each of which rivet after rivet breaks in one simulation.
+
+A worker runs the whole cage over a window of turns, reads the damage rates of all heads and middles, and takes out the
+rivet whose place is the first to reach Miner's sum 1 (rivet[k].intact = 0).  The same simulation goes on: a few turns
+to settle, another window, the next break.  Damage adds up over the states.  No damage is accelerated, because after the
+first break lives of 1,000 h and 1 h stand side by side, which no single factor shows.
+
+Each place of each design has its own strength, from a normal distribution of its logarithm with SCATTER, that of rivets
+of one lot.  A strength s multiplies a damage rate by s^-k; k is the slope of the S-N curve at the amplitude that would do
+the same damage with one cycle a turn.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from fmpy.fmi1 import FMICallException
+
+from ..base.errors import UserError
+from ..running.fmu import Instance
+from ..running.scene import Scene, load_scene
+from ..studies.sweep import run_sweep, unpacked
+from ..studies.sweep_file import Sweep, beside, key_of, sections_of
+from .findings import OWN, designs
+from .order import next_break
+
+if TYPE_CHECKING:
+    from ..running.fmu import Model
+    from .findings import Study
+
+SETTLE, WINDOW, SETTLE_AGAIN, WINDOW_AGAIN = 9.0, 21.0, 3.0, 9.0  # turns of the shaft
+SCATTER = np.log(1.25) / 2.563  # of the logarithm of a rivet's strength: 90 % over 10 % is 1.25, FKM
+CURVE = ("fatigue.N_D", "fatigue.k_1", "fatigue.k_2")
+MEANS = {"loss.pockets": "pocket", "loss.land": "land"}  # outputs whose mean stands for a mark
+RESPONSES = ("pocket", "side", "land", "face")
+
+
+@dataclass(frozen=True)
+class Followed(Scene):
+    """A scene in which a worker takes out rivets; vars() is the key of its run."""
+
+    breaks: int = 4
+    turn: float = 0.0  # s
+    strengths: tuple = ()  # of the places, [Z][head, middle]
+
+
+def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followed:
+    """The Followed of a scene: its times in turns of its own shaft."""
+    omega = scene.inputs["shaft.omega"](0.0) if "shaft.omega" in scene.inputs else model.default(model.inputs["shaft.omega"])
+    if not abs(omega) > 0.0:
+        raise UserError(f"{scene.name}: shaft.omega = 0: nothing breaks at rest")
+    turn = 2.0 * np.pi / abs(float(omega))
+    settle = np.ceil(SETTLE * turn / scene.step) * scene.step
+    t_end = settle + (WINDOW + breaks * (SETTLE_AGAIN + WINDOW_AGAIN) + 1.0) * turn
+    values = {name: value for name, value in vars(scene).items() if name != "t_end"}
+    values["parameters"] = scene.parameters | {"start.settle": float(settle), "scene.stress": "fatigue"}
+    values["outputs"] = ()
+    return Followed(**values, t_end=float(t_end), breaks=breaks, turn=turn, strengths=strengths)
+
+
+def weakened(rates, strengths, curve, turns):
+    """Damage rates per hour of places with so much strength; curve: N_D, k_1, k_2; turns: of the shaft in an hour."""
+    N_D, k_1, k_2 = curve
+    damage = np.maximum(rates, 0.0) * N_D / turns  # of a cycle a turn, over that at the knee
+    amplitude = np.where(damage > 1.0, damage ** (1.0 / k_1), damage ** (1.0 / k_2)) / strengths
+    return np.where(amplitude > 1.0, amplitude**k_1, amplitude**k_2) * turns / N_D
+
+
+def perform_history(scene, fmu, _=None):
+    """Run a Followed through the FMU given as bytes; returns the measured part of the row."""
+    about = {"date": datetime.now(UTC).isoformat(timespec="milliseconds"), "message": ""}
+    try:
+        return about | {"status": "done", "history": json.dumps(history_of(unpacked(fmu), scene))}
+    except UserError as problem:
+        return about | {"status": "failed", "message": str(problem)}
+
+
+def history_of(model: Model, scene: Followed) -> dict[str, Any]:
+    """States of the cage, each with the rivets that are gone, damage rates per hour as they are simulated [Z][2], and
+    what breaks next after how many hours; responses of the whole cage; end: why no state follows.
+    """
+    with Instance(model) as instance:
+        instance.initialize(scene)
+        intact = [name for name in model.parameters if name.startswith("rivet[") and name.endswith("].intact")]
+        Z, now = len(intact), 0.0
+        gone = [k + 1 for k, name in enumerate(intact) if scene.parameters.get(name, 1) == 0]
+        strengths = np.array(scene.strengths) if len(scene.strengths) else np.ones((Z, 2))
+        curve = [float(scene.parameters.get(name, model.default(model.parameters[name]))) for name in CURVE]
+        damage_names = [f"rivet[{k}].damage_{place}" for k in range(1, Z + 1) for place in ("head", "mid")]
+        read = instance.reader(damage_names)
+        sides = [name for name in model.outputs if name.endswith("].Q_cx")]
+        watch = instance.reader([*MEANS, "cage.dislocation", *sides])
+        found: dict[str, Any] = {"Z": Z, "states": [], "end": "as many as asked for"}
+        damage = np.zeros((Z, 2))
+        damage[[k - 1 for k in gone]] = -np.inf
+
+        def march(turns, seen=None):
+            nonlocal now
+            for _ in range(round(turns * scene.turn / scene.step)):
+                instance.fmu.doStep(now, scene.step)
+                now += scene.step
+                if seen is not None:
+                    seen.append(np.array(watch()))
+
+        try:
+            march(scene.parameters["start.settle"] / scene.turn)
+            for state in range(scene.breaks):
+                seen = []
+                before = np.array(read())
+                march(WINDOW_AGAIN if state else WINDOW, None if state else seen)
+                hours = round((WINDOW_AGAIN if state else WINDOW) * scene.turn / scene.step) * scene.step / 3600.0
+                rates = ((np.array(read()) - before) / hours).reshape(Z, 2)
+                if not state:
+                    found |= responses_of(np.array(seen), instance, Z, hours)
+                effective = weakened(rates, strengths, curve, 3600.0 / scene.turn)
+                lasts, first = next_break(damage, effective)
+                row = {"gone": list(gone), "rates": rates.tolist(), "hours": float(lasts)}
+                if not np.isfinite(lasts):
+                    found["states"].append(row | {"hours": None})
+                    found["end"] = "nothing is damaged"
+                    break
+                found["states"].append(row | {"rivet": first[0] + 1, "place": first[1]})
+                damage = damage + lasts * effective
+                damage[first[0]] = -np.inf
+                gone.append(first[0] + 1)
+                if len(gone) == Z:
+                    found["end"] = "no rivet is left"
+                    break
+                instance.set_parameter(model.parameters[intact[first[0]]], 0)
+                march(SETTLE_AGAIN)
+        except FMICallException:
+            found["end"] = f"the halves part: {instance.complaints()}"
+        return found
+
+
+def responses_of(seen, instance, Z, hours):
+    """Means of the whole cage's window by the mark that they stand for, and the mean loss of preload per hour [N/h]."""
+    columns = dict(zip(MEANS.values(), seen.T, strict=False))
+    loss = instance.read([f"rivet[{k}].preload_loss" for k in range(1, Z + 1)])
+    return {name: float(np.mean(np.abs(values))) for name, values in columns.items()} | {
+        "face": float(np.mean(seen[:, len(MEANS)])),
+        "side": float(np.mean(np.abs(seen[:, len(MEANS) + 1 :]))),
+        "preload_loss": float(np.mean(list(loss.values()))) / hours,
+    }
+
+
+@dataclass(frozen=True)
+class Sample:
+    """A design of a cause with its history; strengths: of the places, [Z, 2]."""
+
+    cause: int
+    design: dict
+    history: dict
+    strengths: np.ndarray
+
+
+def mission_scene(path, document, model):
+    """The Scene of a file of findings, without findings."""
+    common = {key: document.get(key, {}) for key in ("parameters", "inputs", "simulation")}
+    return load_scene(beside(path, document.get("scene")), model, (str(path), common))
+
+
+def sampled(study: Study, model: Model, document: Any, count: int | None = None, seed: int | None = None) -> list[Any]:
+    """(number of the cause, design, strengths, Followed) of all designs; count, seed: those of the file by default."""
+    file, found = study.file, []
+    common = {"parameters": file.parameters, "inputs": file.inputs, "simulation": file.simulation}
+    source = beside(study.path, file.scene)
+    seed = file.seed if seed is None else seed
+    for number, cause in enumerate(study.causes):
+        own_seed = [seed, *cause.name.encode()]  # the same designs, whatever other causes are tried
+        for i, design in enumerate(designs(cause, count or file.samples, own_seed, model)):
+            rng = np.random.default_rng([*own_seed, i])
+            strengths = design.get("model.strength", 1.0) * np.exp(SCATTER * rng.standard_normal((study.Z, 2)))
+            strengths[0, 0] *= design.get("model.weak", 1.0)
+            strengths[:, 0] *= min(1.0, design.get("model.formed", 1.0))
+            settings = {name: value for name, value in design.items() if name not in OWN}
+            settings["start.seed"] = int(rng.integers(1, 2**31))
+            scene = load_scene(source, model, (str(study.path), common), (str(study.path), sections_of(settings, model)))
+            scene = replace(followed(scene, model, file.breaks, strengths.tolist()), name=cause.name)
+            found.append((number, design, strengths, scene))
+    return found
+
+
+def run_pool(study: Study, model: Model, document: Any, folder: Any, client: Any, progress: Any = None, **of: Any) -> list[Sample]:
+    """The Samples of a study; those of an earlier call are read from the folder."""
+    fmu = model.path.read_bytes()
+    planned = sampled(study, model, document, **of)
+    fingerprint = hashlib.sha256(fmu).hexdigest()
+    keys = [key_of(scene, fingerprint) for *_, scene in planned]
+    scenes = {key: scene for key, (*_, scene) in zip(keys, planned, strict=True)}
+    sweep = Sweep(
+        study.path.stem,
+        study.file.description,
+        model,
+        fmu,
+        document,
+        (),
+        scenes,
+        (None, history_field),
+        perform_history,
+        grows=True,
+    )
+    rows = run_sweep(sweep, folder, client, progress)
+    places = {key: i for i, key in enumerate(rows["key"])}
+    samples = []
+    for key, (number, design, strengths, _) in zip(keys, planned, strict=True):
+        row = places[key]
+        if rows["status"][row] != "done":
+            raise UserError(f"{study.path}: cause {study.causes[number].name}: the run failed: {rows['message'][row]}")
+        samples.append(Sample(number, design, json.loads(rows["history"][row]), strengths))
+    return samples
+
+
+def history_field():
+    """Field of the rows."""
+    import pyarrow as pa
+
+    return [pa.field("history", pa.string())]
