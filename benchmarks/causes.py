@@ -7,9 +7,11 @@ designs from another seed, in which all rivets break one after another.  Its cau
 by a strength of the lot; what does not break within 1e5 h is nobody's failure and is drawn again.  So the shares of the
 causes among the failures are those of causes that are present evenly, as the posterior supposes.
 
-The findings are incomplete as in practice.  The shares were set before the first result:
+The findings are incomplete as in practice, the shares were set before the first result.  Then a laboratory does three
+inspections, one after the other, each the one that the answer before it advises.
 """
 
+import itertools
 import json
 import sys
 from pathlib import Path
@@ -17,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from common import write
 
-from riveted_bearing.identify.findings import NONE, plan_causes
+from riveted_bearing.identify.findings import plan_causes
 from riveted_bearing.identify.pool import mission_scene, run_pool
 from riveted_bearing.identify.posterior import RESPONSES, answer, heavy, predicted, sound_medians
 from riveted_bearing.running.fmu import Model
@@ -41,6 +43,7 @@ MISSIONS = {  # inputs: about as fast as the sound bearing bears
     "6212": {"shaft.omega": "13500 rev/min", "shaft.F_y": "6 kN", "shaft.F_x": "1 kN"},
 }
 HIDDEN, EACH, FAILURES = 4711, 10, 40  # seed of the hidden designs, designs of each cause, failures in all
+ADVISED = 3  # inspections that follow, each the one that the answer before it advises
 
 
 def pools(name, path, folder, client, causes=CAUSES, samples=32):
@@ -59,7 +62,7 @@ def pools(name, path, folder, client, causes=CAUSES, samples=32):
 
 
 def failure(rng, study, model, scene, hidden, sound, known=KNOWN):
-    """(cause, findings as a document) of a failure; None if nothing breaks within the hours."""
+    """(cause, findings as a document, Hidden) of a failure; None if nothing breaks within the hours."""
     names = [cause.name for cause in study.causes]
     cause = int(rng.integers(1, len(names)))  # the first one is the sound bearing
     sample = rng.choice([one for one in hidden if one.cause == cause])
@@ -89,54 +92,73 @@ def failure(rng, study, model, scene, hidden, sound, known=KNOWN):
     if rng.random() < known["loose"]:
         standing = [k for k in range(1, study.Z + 1) if k not in turned]
         found["loose"] = [k for k in standing if rng.random() < one.loose]
-    marks = {}
-    for name in RESPONSES:
-        p = heavy(one.responses[name], sound[name])
-        if rng.random() < known["mark"]:
-            marks[name] = "heavy" if rng.random() < p else "none"
-    measured = {}
-    for name, quantity in study.quantities.items():
-        value = one.values[name]
-        error = float(quantity.sd(value)) * rng.standard_normal()
-        if rng.random() < known["inspection"]:
-            measured[name] = value + error
-    return names[cause], found | {"marks": marks, "measured": measured}
+    hidden_values = Hidden(rng, study, one, sound)
+    found |= {"marks": {}, "measured": {}}
+    for name in [*(f"mark: {name}" for name in RESPONSES), *study.quantities]:
+        if rng.random() < known["mark" if name.startswith("mark: ") else "inspection"]:
+            hidden_values.inspect(name, found)
+    return names[cause], found, hidden_values
 
 
-def recovery(bearings, count, seed=1, known=KNOWN):
-    """Rows of so many failures, dealt over the bearings: cause, what was said, and with which probability."""
+class Hidden:
+    """What an inspection finds on the hidden failure."""
+
+    def __init__(self, rng, study, one, sound):
+        self.rng, self.study, self.one, self.sound = rng, study, one, sound
+
+    def inspect(self, name, found):
+        """Add a mark or a measured value to the findings."""
+        if name.startswith("mark: "):
+            mark = name.removeprefix("mark: ")
+            p = heavy(self.one.responses[mark], self.sound[mark])
+            found["marks"][mark] = "heavy" if self.rng.random() < p else "none"
+        else:
+            value = self.one.values[name]
+            found["measured"][name] = value + float(self.study.quantities[name].sd(value)) * self.rng.standard_normal()
+
+
+def recovery(bearings, count, seed=1, known=KNOWN, advised=ADVISED):
+    """Rows of so many failures, dealt over the bearings: cause, what was said of the findings, and what after the
+    inspections that the answer before each advised.
+    """
     rng, rows = np.random.default_rng(seed), []
     while len(rows) < count:
         name, (study, document, model, scene, pool, hidden) = list(bearings.items())[len(rows) % len(bearings)]
         one = failure(rng, study, model, scene, hidden, sound_medians(study, pool), known)
         if one is None:
             continue
-        cause, found = one
-        own = plan_causes(study.path, document | found, model, scene)
-        said = answer(own, pool, inspect=False)
-        truth = said.names.index(cause)
-        rows.append(
-            {
-                "bearing": name,
-                "cause": cause,
-                "said": said.names[said.ranked[0]],
-                "probability of the cause": float(said.posterior[truth]),
-                "probability of what was said": float(said.posterior[said.ranked[0]]),
-                "in the 90 % set": truth in said.credible,
-                "size of the set": len(said.credible),
-                "decided": said.decided,
-                "findings": json.dumps(found),
-            }
-        )
+        cause, found, values = one
+        row = {"bearing": name, "cause": cause, "findings": json.dumps(found)}
+        for step in range(advised + 1):
+            said = answer(plan_causes(study.path, document | found, model, scene), pool)
+            if step in (0, advised):
+                row |= said_of(said, cause, "as found: " if step == 0 else "inspected: ")
+            if step < advised:
+                values.inspect(said.inspections[0][0], found)
+        rows.append(row)
     return rows
 
 
-def reliability(rows, edges=(0.0, 0.4, 0.6, 0.8, 1.0)):
+def said_of(said, cause, when):
+    """What an answer says, and whether it is right."""
+    first, truth = said.ranked[0], said.names.index(cause)
+    return {
+        f"{when}said": said.names[first],
+        f"{when}stated": float(said.posterior[first]),
+        f"{when}right": said.names[first] == cause,
+        f"{when}of the cause": float(said.posterior[truth]),
+        f"{when}in the 90 % set": truth in said.credible,
+        f"{when}size of the set": len(said.credible),
+        f"{when}decided": said.decided,
+    }
+
+
+def reliability(rows, when, edges=(0.0, 0.4, 0.6, 0.8, 1.0)):
     """(lowest, highest stated probability, failures, mean stated, share that was right) of the first cause."""
-    stated = np.array([row["probability of what was said"] for row in rows])
-    right = np.array([row["said"] == row["cause"] for row in rows])
+    stated = np.array([row[f"{when}stated"] for row in rows])
+    right = np.array([row[f"{when}right"] for row in rows])
     found = []
-    for low, high in zip(edges, edges[1:], strict=False):
+    for low, high in itertools.pairwise(edges):
         inside = (stated > low) & (stated <= high)
         if inside.any():
             found.append((low, high, int(inside.sum()), float(stated[inside].mean()), float(right[inside].mean())))
@@ -157,13 +179,22 @@ def main():
 
 def summary(rows):
     """What came out, in lines."""
-    first = sum(row["said"] == row["cause"] for row in rows)
-    inside = sum(row["in the 90 % set"] for row in rows)
-    size = np.mean([row["size of the set"] for row in rows])
-    stated = np.mean([row["probability of what was said"] for row in rows])
-    lines = [f"{len(rows)} failures: cause first {first}, in the 90 % set {inside}, mean size of the set {size:.1f}"]
-    lines.append(f"mean stated probability of the first {stated:.2f}; none of these first {sum(r['said'] == NONE for r in rows)}")
-    lines += [f"{low:.1f} to {high:.1f}: {n} failures, stated {s:.2f}, right {r:.2f}" for low, high, n, s, r in reliability(rows)]
+    lines = []
+    for when in ("as found: ", "inspected: "):
+        total = {
+            key: sum(row[f"{when}{key}"] for row in rows)
+            for key in ("right", "in the 90 % set", "size of the set", "stated", "decided")
+        }
+        wrong = sum(row[f"{when}decided"] and not row[f"{when}right"] for row in rows)
+        lines.append(
+            f"{when}{len(rows)} failures, cause first {total['right']}, in the 90 % set {total['in the 90 % set']}, "
+            f"mean size of the set {total['size of the set'] / len(rows):.1f}, mean stated {total['stated'] / len(rows):.2f}, "
+            f"decided {total['decided']}, of these wrong {wrong}"
+        )
+        lines += [
+            f"  {low:.1f} to {high:.1f}: {n} failures, stated {s:.2f}, right {r:.2f}"
+            for low, high, n, s, r in reliability(rows, when)
+        ]
     return "\n".join(lines)
 
 

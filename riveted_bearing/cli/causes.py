@@ -16,9 +16,13 @@ from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, pr
 def causes(
     findings: Annotated[
         Path,
-        typer.Argument(help="findings (TOML): broken rivets, hours, marks; see docs/failure.md", metavar="FINDINGS.toml"),
+        typer.Argument(
+            help="findings (TOML): broken rivets, hours, marks; see docs/failure.md", metavar="FINDINGS.toml"
+        ),
     ],
-    order: Annotated[bool, typer.Option("--order", help="what breaks next, from the broken rivets on, and no causes")] = False,
+    order: Annotated[
+        bool, typer.Option("--order", help="what breaks next, from the broken rivets on, and no causes")
+    ] = False,
     fmu: FMU = None,
     out: Annotated[
         Path | None, typer.Option(help="folder of runs, causes.json and page; default: results/FINDINGS")
@@ -66,6 +70,7 @@ def causes(
         console.print(f"inspect next: {escape(', '.join(best))}", soft_wrap=True)
     if states:
         print_table(ORDER, order_rows(states))
+        console.print(f"end: {states[-1].end}", soft_wrap=True)
     for label, path in (
         ("results", write_json(study, said, pool, states, basis, folder / "causes.json")),
         ("page", write_page(study, said, pool, states, basis, folder / "causes.html")),

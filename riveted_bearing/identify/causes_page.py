@@ -27,10 +27,22 @@ if TYPE_CHECKING:
 STRONG = 2.0  # a finding that changes the odds by this speaks for or against a cause
 LEAST = 0.01  # probability below which a cause is named without words
 RANKED = ("cause", "probability", "Monte Carlo interval", "", "for it", "against it")
-PREDICTED = ("cause", "hours, median", "80 %", "broke within", "middles", "beside a gap", "loose", "pocket", "side", "land", "face")
+PREDICTED = (
+    "cause",
+    "hours, median",
+    "80 %",
+    "broke within",
+    "middles",
+    "beside a gap",
+    "loose",
+    "pocket",
+    "side",
+    "land",
+    "face",
+)
 
 
-def ranked_rows(said: Answer) -> list[tuple[str, ...]]:
+def ranked_rows(said: Answer) -> Any:
     """Cause, probability with interval, place in the set, findings for and against, the most probable first."""
     rows = []
     for k in said.ranked:
@@ -41,7 +53,16 @@ def ranked_rows(said: Answer) -> list[tuple[str, ...]]:
         known = said.posterior[k] >= LEAST
         inside = "in the 90 % set" if k in said.credible else ""
         share = f"{100 * said.posterior[k]:.0f} %" if known else "< 1 %"
-        rows.append((said.names[k], share, f"{100 * low:.0f} ... {100 * high:.0f} %", inside, ", ".join(speaks[:4]), ", ".join(denies[:4])))
+        rows.append(
+            (
+                said.names[k],
+                share,
+                f"{100 * low:.0f} ... {100 * high:.0f} %",
+                inside,
+                ", ".join(speaks[:4]),
+                ", ".join(denies[:4]),
+            )
+        )
     return rows
 
 
@@ -58,32 +79,42 @@ def verdict(said: Answer) -> str:
     return f"Not decided. 90 % of the probability is shared by: {inside}. First is {said.names[first]}, {share}."
 
 
-def inspection_rows(said: Answer) -> list[tuple[str, ...]]:
+def inspection_rows(said: Answer) -> Any:
     """What to inspect next and the information that it is expected to give."""
     P = said.posterior[said.posterior > 0.0]
     entropy = float(-(P * np.log2(P)).sum())
-    return [(name, text, f"{bits:.2f}", f"{100 * bits / max(entropy, 1e-9):.0f} %") for name, text, bits in said.inspections]
+    return [
+        (name, text, f"{bits:.2f}", f"{100 * bits / max(entropy, 1e-9):.0f} %") for name, text, bits in said.inspections
+    ]
 
 
-def predicted_rows(study: Study, pool: list[Predicted], said: Answer) -> list[tuple[str, ...]]:
+def predicted_rows(study: Study, pool: list[Predicted], said: Answer) -> Any:
     """What each cause predicts for each finding."""
     n, rows, sound = max(study.findings.broken, 1), [], sound_medians(study, pool)
     for k in said.ranked:
         if k == len(study.causes):
             continue
         of = [one for one in pool if one.cause == k]
-        low, half, high = np.quantile([one.at(n) for one in of], [0.1, 0.5, 0.9])
+        low, half, high = np.quantile([one.at(n) for one in of], [0.1, 0.5, 0.9], method="inverted_cdf")
         within = np.mean([one.at(n) <= np.log10(study.findings.within) for one in of])
-        marks = [np.mean(heavy([one.responses[name] for one in of], sound[name])) for name in ("pocket", "side", "land", "face")]
-        middles = np.mean([np.mean(one.middle[:n]) for one in of if len(one.middle)] or [0.0])
-        near = np.mean([np.nanmean(one.beside) for one in of if np.isfinite(one.beside).any()] or [np.nan])
-        shares = (within, middles, near, np.mean([one.loose for one in of]), *marks)
+        marks = [
+            np.mean(heavy([one.responses[name] for one in of], sound[name]))
+            for name in ("pocket", "side", "land", "face")
+        ]
+        middles = mean_of([np.mean(one.middle[:n]) for one in of if len(one.middle)])
+        near = mean_of([np.nanmean(one.beside) for one in of if np.isfinite(one.beside).any()])
+        shares = map(float, (within, middles, near, np.mean([one.loose for one in of]), *marks))
         hours = (hours_text(10.0**half), f"{hours_text(10.0**low)} ... {hours_text(10.0**high)}")
         rows.append((study.causes[k].name, *hours, *("" if np.isnan(x) else f"{100 * x:.0f} %" for x in shares)))
     return rows
 
 
-def finding_rows(study: Study) -> list[tuple[str, str]]:
+def mean_of(values: list[Any]) -> float:
+    """Mean, not a number if there is none."""
+    return float(np.mean(values)) if values else np.nan
+
+
+def finding_rows(study: Study) -> Any:
     """What was found, in words."""
     found, rows = study.findings, []
     for name in ("head", "middle", "unknown"):
@@ -111,9 +142,12 @@ def places_text(found, name):
     return f"{found.counts[name]} rivets" if places is None else ", ".join(map(str, places)) or "none"
 
 
-def cause_rows(study: Study) -> list[tuple[str, ...]]:
+def cause_rows(study: Study) -> Any:
     """Causes with their ranges and sources."""
-    return [(cause.name, cause.text, cause.source, f"{100 * p:.1f} %") for cause, p in zip(study.causes, study.prior, strict=False)]
+    return [
+        (cause.name, cause.text, cause.source, f"{100 * p:.1f} %")
+        for cause, p in zip(study.causes, study.prior, strict=False)
+    ]
 
 
 def write_json(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
@@ -151,13 +185,17 @@ def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis:
     """Write the page, whole or not at all; returns the path."""
     pictures = [("What was found", charts.svg(lambda fig: cage(fig, study), (4.2, 4.2), "rivets on the table"))]
     if said is not None:
-        size = (6.4, 1.0 + 0.26 * len(said.names))
+        size = (4.6, 0.8 + 0.19 * len(said.names))
         pictures.append(("Causes", charts.svg(lambda fig: bars(fig, said), size, "probability of each cause")))
-        size = (6.4, 1.0 + 0.26 * len(said.inspections))
-        pictures.append(("What to inspect next", charts.svg(lambda fig: gains(fig, said), size, "expected information")))
+        size = (4.6, 0.8 + 0.19 * len(said.inspections))
+        pictures.append(
+            ("What to inspect next", charts.svg(lambda fig: gains(fig, said), size, "expected information"))
+        )
     if states:
         size = (2.3 * len(states), 2.7)
-        pictures.append(("What breaks next", charts.svg(lambda fig: cascade(fig, states), size, "rivets in order of breakage")))
+        pictures.append(
+            ("What breaks next", charts.svg(lambda fig: cascade(fig, states), size, "rivets in order of breakage"))
+        )
     return save_page(
         path,
         "causes.html",
@@ -173,6 +211,8 @@ def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis:
         inspections=inspection_rows(said) if said else [],
         causes=cause_rows(study),
         order=order_rows(states),
+        order_heads=ORDER,
+        end=states[-1].end if states else "",
         designs=len(pool or ()),
         decades=study.file.life_decades,
         within=hours_text(study.file.within),
@@ -183,12 +223,12 @@ def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis:
 ORDER = ("gone", "breaks", "place", "after", "sure", "largest head stress, MPa", "dislocation, um")
 
 
-def order_rows(states: list[State] | None) -> list[tuple[str, ...]]:
+def order_rows(states: list[State] | None) -> Any:
     """States in order: what is gone, what breaks next."""
     rows = []
     for state in states or ():
         next_one = (
-            (state.end or "", "", "", "")
+            ("none", "", "", "")
             if state.rivet is None
             else (str(state.rivet), str(state.place), hours_text(state.hours), f"{100 * (state.sure or 0.0):.0f} %")
         )
@@ -204,14 +244,22 @@ def ring(ax, Z):
     for radius in (0.82, 1.18):
         ax.plot(radius * np.cos(turn), radius * np.sin(turn), color=MUTED, lw=0.8, zorder=0)
     between = angle - np.pi / Z
-    ax.scatter(np.cos(between), np.sin(between), s=3200.0 / Z, color="#f3f4f6", edgecolor=MUTED, linewidth=0.6, zorder=1)
+    ax.scatter(
+        np.cos(between), np.sin(between), s=3200.0 / Z, color="#f3f4f6", edgecolor=MUTED, linewidth=0.6, zorder=1
+    )
     ax.set(xlim=(-1.45, 1.45), ylim=(-1.45, 1.45), aspect="equal", xticks=[], yticks=[])
     ax.spines[:].set_visible(False)
     ax.grid(False)
     return np.cos(angle), np.sin(angle)
 
 
-KINDS = {"head": (HEAD, "o"), "middle": (MIDDLE, "o"), "unknown": (FORCE, "o"), "loose": ("none", "o"), "missing": (MUTED, "x")}
+KINDS = {
+    "head": (HEAD, "o"),
+    "middle": (MIDDLE, "o"),
+    "unknown": (FORCE, "o"),
+    "loose": ("none", "o"),
+    "missing": (MUTED, "x"),
+}
 
 
 def cage(fig, study):
@@ -227,7 +275,13 @@ def cage(fig, study):
         ax.scatter(x[k - 1], y[k - 1], s=150 if kind else 60, color=colour, marker=marker, zorder=3, **plain_edge)
         first = f" ({found.order.index(k) + 1}.)" if k in found.order else ""
         ax.text(1.33 * x[k - 1], 1.33 * y[k - 1], f"{k}{first}", ha="center", va="center", fontsize=9)
-    words = {"head": "head", "middle": "middle", "unknown": "broken, place unknown", "loose": "loose", "missing": "never set"}
+    words = {
+        "head": "head",
+        "middle": "middle",
+        "unknown": "broken, place unknown",
+        "loose": "loose",
+        "missing": "never set",
+    }
     said = [(name, f"{found.counts[name]} {text}") for name, text in words.items() if found.counts[name]]
     for i, (name, text) in enumerate(said):
         height = 0.12 * (len(said) - 1) - 0.24 * i
@@ -245,7 +299,7 @@ def bars(fig, said):
     ax.hlines(y, ends[:, 0], ends[:, 1], color=FORCE, lw=1.2)
     ax.set_yticks(y, [said.names[k] for k in order])
     ax.invert_yaxis()
-    ax.set(xlabel="probability, %; line: Monte Carlo interval; red: 90 % set", xlim=(0.0, 100.0))
+    ax.set(xlabel="%; line: Monte Carlo interval; red: 90 % set", xlim=(0.0, 100.0))
 
 
 def gains(fig, said):
@@ -255,7 +309,7 @@ def gains(fig, said):
     ax.barh(y, [bits for *_, bits in said.inspections], color=MIDDLE, height=0.65)
     ax.set_yticks(y, [name for name, *_ in said.inspections])
     ax.invert_yaxis()
-    ax.set_xlabel("expected information on the cause, bits")
+    ax.set_xlabel("bits")
 
 
 def cascade(fig, states):

@@ -20,8 +20,9 @@ What is missing is not known.  "about" makes an uncertainty three times as large
 
 from __future__ import annotations
 
+import operator
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, reduce
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     from ..running.scene import Scene
 
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "causes.toml"
-HOURS = {"h": 1.0, "d": 1.0 / 24.0, "years": 1.0 / 8766.0}  # of one hour
+HOURS = {"h": (1.0, 0.0), "d": (1.0 / 24.0, 0.0), "years": (1.0 / 8766.0, 0.0)}
 OWN = {  # names that are none of the FMU's, with their values where nothing is out of order
     "model.strength": 1.0,
     "model.formed": 1.0,
@@ -52,6 +53,10 @@ OWN = {  # names that are none of the FMU's, with their values where nothing is 
 }
 ABOUT, ABOUT_HOURS = 3.0, np.log10(2.0)
 LOOSE = 0.3  # of the nominal preload: a rivet that rattles
+CASCADE = {  # keys of the cascade files of earlier versions, which `causes --order` reads apart from these
+    "case": "`riveted-bearing causes --order` has no cases: write a file for each, with its [parameters] and [inputs]",
+    "until": "write within in its place",
+}
 SOUND, NONE = "nothing out of order", "none of these"
 
 
@@ -244,7 +249,9 @@ def plan_causes(path: Path, document: dict[str, Any], model: Model, scene: Scene
         if name not in blocks:
             raise unknown(path, "cause", name, blocks)
         causes.append(cause_of(path, blocks[name], sound, names, model, scene))
-    quantities = {block.name: quantity_of(path, block, names, model) for block in [*shipped.inspection, *file.inspection]}
+    quantities = {
+        block.name: quantity_of(path, block, names, model) for block in [*shipped.inspection, *file.inspection]
+    }
     for name in file.prior:
         if name not in (allowed := [cause.name for cause in causes] + [NONE]):
             raise unknown(f"{path}: prior", "cause", name, allowed)
@@ -252,13 +259,14 @@ def plan_causes(path: Path, document: dict[str, Any], model: Model, scene: Scene
     if not prior[:-1].sum() > 0.0:
         raise refusal(path, "prior", file.prior, "one cause at least must be possible")
     Z = rivets_of(model)
-    return Study(
-        path, file, findings_of(path, file, Z, quantities, model), causes, quantities, prior / prior.sum(), Z
-    )
+    return Study(path, file, findings_of(path, file, Z, quantities, model), causes, quantities, prior / prior.sum(), Z)
 
 
 def checked_findings(path: Path, document: dict[str, Any]) -> FindingsFile:
     """The document by its schema."""
+    for key, way in CASCADE.items():
+        if key in document:
+            raise UserError(f"{path}: {key}: {way}")
     check_keys(path, document, FindingsFile.model_fields, "file of findings")
     return checked(FindingsFile, document, path)
 
@@ -283,9 +291,13 @@ def cause_of(path, block, sound, names, model, scene):
 def range_of(where, name, spec, model, scene):
     """The Range of [low, high] or of a table, in data/causes.toml."""
     table = spec if isinstance(spec, dict) else {"from": spec[0], "to": spec[1]} if is_pair(spec) else {}
-    kinds = [kind for kind in ("times", "plus") if is_pair(table.get(kind))] + ["from"] * ("from" in table and "to" in table)
+    kinds = [kind for kind in ("times", "plus") if is_pair(table.get(kind))] + ["from"] * (
+        "from" in table and "to" in table
+    )
     if len(kinds) != 1 or not set(table) <= {"from", "to", "times", "of", "plus", "spacing"}:
-        raise refusal(where, name, spec, "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed")
+        raise refusal(
+            where, name, spec, "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed"
+        )
     if kinds == ["from"]:
         low, high = pair_of(where, name, (table["from"], table["to"]), model)
     elif kinds == ["times"]:
@@ -377,7 +389,7 @@ def findings_of(path, file, Z, quantities, model):
     if len(set(broken.order)) < len(broken.order):
         twice = next(k for k in broken.order if broken.order.count(k) > 1)
         raise refusal(path, "broken.order", broken.order, f"rivet {twice} breaks twice")
-    if other := [k for k in broken.order if None in known or k not in sum(known, [])]:
+    if other := [k for k in broken.order if None in known or k not in reduce(operator.iadd, known, [])]:
         raise refusal(path, "broken.order", broken.order, f"rivet {other[0]} is not among the broken ones")
     hours = None
     if file.hours is not None:
@@ -412,7 +424,7 @@ def is_about(value):
     return False, value
 
 
-def designs(cause: Cause, count: int, seed: int, model: Model) -> list[dict[str, Any]]:
+def designs(cause: Cause, count: int, seed: Any, model: Model) -> list[dict[str, Any]]:
     """Values by name of so many designs: a Latin hypercube over the ranges, those with [*] each by itself."""
     single = [name for name in cause.ranges if "[*]" not in name]
     unit = qmc.LatinHypercube(d=max(len(single), 1), rng=seed).random(count)

@@ -51,7 +51,11 @@ class Followed(Scene):
 
 def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followed:
     """The Followed of a scene: its times in turns of its own shaft."""
-    omega = scene.inputs["shaft.omega"](0.0) if "shaft.omega" in scene.inputs else model.default(model.inputs["shaft.omega"])
+    omega = (
+        scene.inputs["shaft.omega"](0.0)
+        if "shaft.omega" in scene.inputs
+        else model.default(model.inputs["shaft.omega"])
+    )
     if not abs(omega) > 0.0:
         raise UserError(f"{scene.name}: shaft.omega = 0: nothing breaks at rest")
     turn = 2.0 * np.pi / abs(float(omega))
@@ -180,13 +184,17 @@ def sampled(study: Study, model: Model, document: Any, count: int | None = None,
             strengths[:, 0] *= min(1.0, design.get("model.formed", 1.0))
             settings = {name: value for name, value in design.items() if name not in OWN}
             settings["start.seed"] = int(rng.integers(1, 2**31))
-            scene = load_scene(source, model, (str(study.path), common), (str(study.path), sections_of(settings, model)))
+            scene = load_scene(
+                source, model, (str(study.path), common), (str(study.path), sections_of(settings, model))
+            )
             scene = replace(followed(scene, model, file.breaks, strengths.tolist()), name=cause.name)
             found.append((number, design, strengths, scene))
     return found
 
 
-def run_pool(study: Study, model: Model, document: Any, folder: Any, client: Any, progress: Any = None, **of: Any) -> list[Sample]:
+def run_pool(
+    study: Study, model: Model, document: Any, folder: Any, client: Any, progress: Any = None, **of: Any
+) -> list[Sample]:
     """The Samples of a study; those of an earlier call are read from the folder."""
     fmu = model.path.read_bytes()
     planned = sampled(study, model, document, **of)
@@ -202,8 +210,8 @@ def run_pool(study: Study, model: Model, document: Any, folder: Any, client: Any
         (),
         scenes,
         (None, history_field),
+        True,
         perform_history,
-        grows=True,
     )
     rows = run_sweep(sweep, folder, client, progress)
     places = {key: i for i, key in enumerate(rows["key"])}
@@ -212,7 +220,7 @@ def run_pool(study: Study, model: Model, document: Any, folder: Any, client: Any
         row = places[key]
         if rows["status"][row] != "done":
             raise UserError(f"{study.path}: cause {study.causes[number].name}: the run failed: {rows['message'][row]}")
-        samples.append(Sample(number, design, json.loads(rows["history"][row]), strengths))
+        samples.append(Sample(number, design, json.loads(str(rows["history"][row])), strengths))
     return samples
 
 

@@ -33,7 +33,7 @@ import numpy as np
 from scipy.special import betaln, comb
 from scipy.stats import norm
 
-from .findings import LOOSE, NONE, OWN, SOUND, own_value, quantity_at
+from .findings import LOOSE, NONE, SOUND, own_value, quantity_at
 from .pool import CURVE, RESPONSES, weakened
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ class Predicted:
 def predicted(sample: Sample, study: Study, model: Any, scene: Any) -> Predicted:
     """What a Sample predicts."""
     design, states, Z = sample.design, sample.history["states"], study.Z
-    turns = abs(own_value(study.path, "shaft.omega", model, scene)) / (2.0 * np.pi) * 3600.0
+    turns = abs(design.get("shaft.omega", own_value(study.path, "shaft.omega", model, scene))) / (2.0 * np.pi) * 3600.0
     curve = [own_value(study.path, name, model, scene) for name in CURVE]
     strengths = np.full((Z, 2), design.get("model.strength", 1.0))
     formed = min(1.0, design.get("model.formed", 1.0))
@@ -112,7 +112,10 @@ def predicted(sample: Sample, study: Study, model: Any, scene: Any) -> Predicted
         missing,
         float(np.mean(preload * np.array(factors) < LOOSE)),
         {name: sample.history.get(name, np.nan) for name in RESPONSES},
-        {name: quantity_at(q.quantity, design, own_or(q.quantity, study, model, scene)) for name, q in study.quantities.items()},
+        {
+            name: quantity_at(q.quantity, design, own_or(q.quantity, study, model, scene))
+            for name, q in study.quantities.items()
+        },
     )
 
 
@@ -310,14 +313,17 @@ def inspections(study, pool, members, weights, posterior, sound):
     for name in RESPONSES:
         if name not in found.marks:
             p = heavy([one.responses[name] for one in pool], sound[name])
-            heavy_of = [float(normalized(weights[m]) @ p[m]) if weights[m].sum() > 0.0 else 0.5 for m in members] + [0.5]
+            heavy_of = [float(normalized(weights[m]) @ p[m]) if weights[m].sum() > 0.0 else 0.5 for m in members] + [
+                0.5
+            ]
             bits.append((f"mark: {name}", "wear mark", information(P, np.array([[h, 1.0 - h] for h in heavy_of]))))
     return sorted(bits, key=lambda one: -one[2])
 
 
 def information(P, outcomes):
     """Mutual information [bits] of causes with probabilities P [K] and outcomes with probabilities [K, m]."""
-    mean = P @ outcomes
-    with np.errstate(divide="ignore", invalid="ignore"):
-        terms = np.where(outcomes > 0.0, outcomes * np.log2(outcomes / mean), 0.0)
-    return float(np.nansum(P[:, None] * terms))
+    possible = P > 0.0
+    P, outcomes = P[possible], outcomes[possible]
+    mean = np.broadcast_to(P @ outcomes, outcomes.shape)
+    ratio = np.divide(outcomes, mean, out=np.ones_like(mean), where=(outcomes > 0.0) & (mean > 0.0))
+    return float((P[:, None] * outcomes * np.log2(ratio)).sum())
