@@ -12,6 +12,7 @@ inspections, one after the other, each the one that the answer before it advises
 """
 
 import itertools
+import itertools
 import json
 import sys
 from pathlib import Path
@@ -121,8 +122,11 @@ def recovery(bearings, count, seed=1, known=KNOWN, advised=ADVISED):
     """Rows of so many failures, dealt over the bearings: cause, what was said of the findings, and what after the
     inspections that the answer before each advised.
     """
-    rng, rows = np.random.default_rng(seed), []
-    while len(rows) < count:
+    rows = []
+    for attempt in itertools.count():
+        if len(rows) == count:
+            return rows
+        rng = np.random.default_rng([seed, attempt])  # the same failures, whatever is inspected
         name, (study, document, model, scene, pool, hidden) = list(bearings.items())[len(rows) % len(bearings)]
         one = failure(rng, study, model, scene, hidden, sound_medians(study, pool), known)
         if one is None:
@@ -133,10 +137,9 @@ def recovery(bearings, count, seed=1, known=KNOWN, advised=ADVISED):
             said = answer(plan_causes(study.path, document | found, model, scene), pool)
             if step in (0, advised):
                 row |= said_of(said, cause, "as found: " if step == 0 else "inspected: ")
-            if step < advised:
+            if step < advised and said.inspections:
                 values.inspect(said.inspections[0][0], found)
         rows.append(row)
-    return rows
 
 
 def said_of(said, cause, when):

@@ -17,6 +17,7 @@ from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
 from .findings import NONE
 from .order import plain
+from .pool import RESPONSES
 from .posterior import heavy, sound_medians
 
 if TYPE_CHECKING:
@@ -96,14 +97,11 @@ def predicted_rows(study: Study, pool: list[Predicted], said: Answer) -> Any:
             continue
         of = [one for one in pool if one.cause == k]
         low, half, high = np.quantile([one.at(n) for one in of], [0.1, 0.5, 0.9], method="inverted_cdf")
-        within = np.mean([one.at(n) <= np.log10(study.findings.within) for one in of])
-        marks = [
-            np.mean(heavy([one.responses[name] for one in of], sound[name]))
-            for name in ("pocket", "side", "land", "face")
-        ]
+        within = mean_of([one.at(n) <= np.log10(study.findings.within) for one in of])
+        marks = [mean_of(heavy([one.responses[name] for one in of], sound[name]).tolist()) for name in RESPONSES]
         middles = mean_of([np.mean(one.middle[:n]) for one in of if len(one.middle)])
         near = mean_of([np.nanmean(one.beside) for one in of if np.isfinite(one.beside).any()])
-        shares = map(float, (within, middles, near, np.mean([one.loose for one in of]), *marks))
+        shares = (within, middles, near, mean_of([one.loose for one in of]), *marks)
         hours = (hours_text(10.0**half), f"{hours_text(10.0**low)} ... {hours_text(10.0**high)}")
         rows.append((study.causes[k].name, *hours, *("" if np.isnan(x) else f"{100 * x:.0f} %" for x in shares)))
     return rows
@@ -111,7 +109,7 @@ def predicted_rows(study: Study, pool: list[Predicted], said: Answer) -> Any:
 
 def mean_of(values: list[Any]) -> float:
     """Mean, not a number if there is none."""
-    return float(np.mean(values)) if values else np.nan
+    return float(np.mean(values)) if values else float("nan")
 
 
 def finding_rows(study: Study) -> Any:

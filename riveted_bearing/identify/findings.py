@@ -170,6 +170,7 @@ class Cause:
     source: str
     ranges: dict
     values: dict
+    sound: tuple = ()  # names of the sound ranges
 
 
 @dataclass(frozen=True)
@@ -285,7 +286,7 @@ def cause_of(path, block, sound, names, model, scene):
         if name not in names:
             raise unknown(where, "parameter or input", name, names)
     ranges = {n: range_of(where, n, spec, model, scene) for n, spec in (sound | given).items() if n not in values}
-    return Cause(block.name, block.text, block.source, ranges, values)
+    return Cause(block.name, block.text, block.source, ranges, values, tuple(sound))
 
 
 def range_of(where, name, spec, model, scene):
@@ -425,17 +426,27 @@ def is_about(value):
 
 
 def designs(cause: Cause, count: int, seed: Any, model: Model) -> list[dict[str, Any]]:
-    """Values by name of so many designs: a Latin hypercube over the ranges, those with [*] each by itself."""
+    """Values by name of so many designs: Latin hypercubes over the ranges, that of the sound ones the same for all causes,
+    so that causes differ in nothing but their own; names with [*] have one value for each rivet or ball, about the
+    middle of the range, over a part of the range that is drawn too.
+    """
     single = [name for name in cause.ranges if "[*]" not in name]
-    unit = qmc.LatinHypercube(d=max(len(single), 1), rng=seed).random(count)
+    shared = [name for name in single if name in cause.sound]
+    own = [name for name in single if name not in cause.sound]
+    cubes = [
+        qmc.LatinHypercube(d=max(len(n), 1), rng=s).random(count) for n, s in ((cause.sound, seed), (own, seed + 1))
+    ]
+    places = [cause.sound.index(name) for name in shared]
+    unit = np.hstack([cubes[0][:, places], cubes[1][:, : len(own)]])
     rng, known = np.random.default_rng(seed), [*model.parameters, *model.inputs]
     found = []
     for row in unit:
-        values = {name: float(cause.ranges[name].at(u)) for name, u in zip(single, row, strict=False)}
-        for name in cause.ranges.keys() - set(single):
+        values = {name: float(cause.ranges[name].at(u)) for name, u in zip([*shared, *own], row, strict=True)}
+        for name in (name for name in cause.ranges if "[*]" in name):
             begin, end = name.split("[*]")
             each = [n for n in known if n.startswith(f"{begin}[") and n.endswith(f"]{end}")]
-            values |= {n: float(x) for n, x in zip(each, cause.ranges[name].at(rng.random(len(each))), strict=True)}
+            u = 0.5 + rng.random() * (rng.random(len(each)) - 0.5)
+            values |= {n: float(x) for n, x in zip(each, cause.ranges[name].at(u), strict=True)}
         found.append(values | cause.values)
     return found
 

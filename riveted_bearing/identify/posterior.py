@@ -231,7 +231,9 @@ def answer(study: Study, pool: list[Predicted], seed: int = 1, inspect: bool = T
     kernel, density, even = measured(study, pool, of)
     rng = np.random.default_rng(seed)
     members = [np.flatnonzero(of == k) for k in range(len(study.causes))]
-    draws = [rng.integers(len(m), size=(RESAMPLES, len(m))) for m in members]
+    # designs of all causes have the same sound part: they are resampled together
+    common = rng.random((RESAMPLES, max(map(len, members))))
+    draws = [(common[:, : len(m)] * len(m)).astype(int) for m in members]
 
     def of_cause(values, k, draw=None):
         """Kernel mean of likelihoods of a cause's designs."""
