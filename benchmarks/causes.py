@@ -12,18 +12,22 @@ inspections, one after the other, each the one that the answer before it advises
 """
 
 import itertools
-import itertools
 import json
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
-from common import write
+from common import ROOT, write
+from scipy.stats import beta
 
+from riveted_bearing.base.files import write_atomically
+from riveted_bearing.identify.causes_page import bars, cage
 from riveted_bearing.identify.findings import plan_causes
 from riveted_bearing.identify.pool import mission_scene, run_pool
 from riveted_bearing.identify.posterior import RESPONSES, answer, heavy, predicted, sound_medians
 from riveted_bearing.running.fmu import Model
+from riveted_bearing.show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
 from riveted_bearing.studies.sweep import cluster
 
 KNOWN = {"place": 0.9, "order": 0.2, "hours": 0.35, "about hours": 0.35, "mark": 0.6, "inspection": 0.35, "loose": 0.7}
@@ -44,6 +48,7 @@ MISSIONS = {  # inputs: about as fast as the sound bearing bears
     "6212": {"shaft.omega": "13500 rev/min", "shaft.F_y": "6 kN", "shaft.F_x": "1 kN"},
 }
 HIDDEN, EACH, FAILURES = 4711, 10, 40  # seed of the hidden designs, designs of each cause, failures in all
+MANY = 200  # failures of the reliability diagram
 ADVISED = 3  # inspections that follow, each the one that the answer before it advises
 
 
@@ -135,8 +140,7 @@ def recovery(bearings, count, seed=1, known=KNOWN, advised=ADVISED):
         row = {"bearing": name, "cause": cause, "findings": json.dumps(found)}
         for step in range(advised + 1):
             said = answer(plan_causes(study.path, document | found, model, scene), pool)
-            if step in (0, advised):
-                row |= said_of(said, cause, "as found: " if step == 0 else "inspected: ")
+            row |= said_of(said, cause, f"{step} ")
             if step < advised and said.inspections:
                 values.inspect(said.inspections[0][0], found)
         rows.append(row)
@@ -168,6 +172,66 @@ def reliability(rows, when, edges=(0.0, 0.4, 0.6, 0.8, 1.0)):
     return found
 
 
+def summary(rows):
+    """What came out, in lines: for each number of inspections that followed, then by the stated probability."""
+    lines = []
+    for step in range(ADVISED + 1):
+        mean = {
+            key: np.mean([row[f"{step} {key}"] for row in rows])
+            for key in ("right", "in the 90 % set", "size of the set", "stated", "decided")
+        }
+        wrong = sum(row[f"{step} decided"] and not row[f"{step} right"] for row in rows)
+        lines.append(
+            f"{step} inspections: of {len(rows)} the cause is first in {mean['right']:.0%}, stated {mean['stated']:.0%}, "
+            f"in the 90 % set {mean['in the 90 % set']:.0%}, causes in it {mean['size of the set']:.1f}, "
+            f"decided {mean['decided']:.0%}, of these wrong {wrong}"
+        )
+        lines += [
+            f"  stated {low:.1f} to {high:.1f}: {n} failures, mean {s:.2f}, right {r:.2f}"
+            for low, high, n, s, r in reliability(rows, f"{step} ")
+        ]
+    return "\n".join(lines)
+
+
+def picture(rows, path, shown):
+    """A page's rivets and causes, shown(figure, figure), beside the reliability diagram, as PNG."""
+    with plt.rc_context(STYLE):
+        figure = plt.figure(figsize=(13, 4.4), layout="constrained")
+        left, middle, right = figure.subfigures(1, 3, width_ratios=[1, 1.15, 1])
+        shown(left, middle)
+        ax = right.subplots()
+        ax.plot([0, 100], [0, 100], color=MUTED, lw=0.8)
+        for step, colour in ((0, HEAD), (ADVISED, MIDDLE)):
+            found = reliability(rows, f"{step} ")
+            n, stated, share = (np.array(each, float) for each in list(zip(*found, strict=True))[2:])
+            ends = 100.0 * np.array(beta.ppf([[0.16], [0.84]], share * n + 0.5, n - share * n + 0.5))
+            label = f"{step} inspections followed"
+            ax.vlines(100.0 * stated, *ends, color=colour, lw=1.0)
+            ax.plot(100.0 * stated, 100.0 * share, "o", color=colour, label=label)
+        ax.set(
+            xlabel="stated probability of the first cause, %",
+            ylabel="share that was right, %",
+            title=f"{len(rows)} hidden failures",
+        )
+        ax.legend()
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=100))
+        plt.close(figure)
+
+
+def example(study, document, model, scene, pool):
+    """The findings of docs/failure.md on a bearing's pool, for the picture."""
+    text = (ROOT / "docs" / "failure.md").read_text(encoding="utf-8")
+    found = tomllib.loads(text.split("```toml")[1].split("```")[0])
+    own = plan_causes(study.path, document | found, model, scene)
+    said = answer(own, pool)
+
+    def shown(left, right):
+        cage(left, own)
+        bars(right, said)
+
+    return shown
+
+
 def main():
     folder = Path(sys.argv[1])
     with cluster(None, 1) as client:
@@ -177,28 +241,10 @@ def main():
             bearings[name] = pools(name, path, folder, lambda: client)
     rows = recovery(bearings, FAILURES)
     write("causes", {"known": KNOWN, "failures": rows}, False)
-    print(summary(rows))
-
-
-def summary(rows):
-    """What came out, in lines."""
-    lines = []
-    for when in ("as found: ", "inspected: "):
-        total = {
-            key: sum(row[f"{when}{key}"] for row in rows)
-            for key in ("right", "in the 90 % set", "size of the set", "stated", "decided")
-        }
-        wrong = sum(row[f"{when}decided"] and not row[f"{when}right"] for row in rows)
-        lines.append(
-            f"{when}{len(rows)} failures, cause first {total['right']}, in the 90 % set {total['in the 90 % set']}, "
-            f"mean size of the set {total['size of the set'] / len(rows):.1f}, mean stated {total['stated'] / len(rows):.2f}, "
-            f"decided {total['decided']}, of these wrong {wrong}"
-        )
-        lines += [
-            f"  {low:.1f} to {high:.1f}: {n} failures, stated {s:.2f}, right {r:.2f}"
-            for low, high, n, s, r in reliability(rows, when)
-        ]
-    return "\n".join(lines)
+    many = recovery(bearings, MANY, seed=2)
+    study, document, model, scene, pool, _ = bearings["6207"]
+    picture(many, folder / "failure.png", example(study, document, model, scene, pool))
+    print(summary(rows), summary(many), sep="\n")
 
 
 if __name__ == "__main__":

@@ -11,8 +11,9 @@ from scipy import stats
 
 from riveted_bearing import UserError
 from riveted_bearing.identify import pool as pools
+from riveted_bearing.identify.candidates import SOUND, Range, designs, quantity_at
 from riveted_bearing.identify.causes_page import ranked_rows, verdict, write_json, write_page
-from riveted_bearing.identify.findings import NONE, SOUND, Range, designs, plan_causes, quantity_at
+from riveted_bearing.identify.findings import NONE, plan_causes
 from riveted_bearing.identify.order import State, bench_of, follow, next_break, run_order
 from riveted_bearing.identify.pool import Sample, followed, history_of, mission_scene, run_pool, sampled, weakened
 from riveted_bearing.identify.posterior import (
@@ -420,8 +421,8 @@ def test_a_few_causes_are_recovered(fmu, tmp_path, monkeypatch):
     with cluster(None, 1) as client:
         found = bench.pools("6207", fmu, tmp_path, lambda: client, ["interference", "misalignment", "preload lost"], 16)
     rows = bench.recovery({"6207": found}, 12)
-    assert sum(row["inspected: right"] for row in rows) >= 8
-    assert sum(row["inspected: in the 90 % set"] for row in rows) >= 9
+    assert sum(row["3 right"] for row in rows) >= 8
+    assert sum(row["3 in the 90 % set"] for row in rows) >= 9
 
 
 def test_scatter_of_strengths():

@@ -26,7 +26,7 @@ from ..running.fmu import Instance
 from ..running.scene import Scene, load_scene
 from ..studies.sweep import run_sweep, unpacked
 from ..studies.sweep_file import Sweep, beside, key_of, sections_of
-from .findings import OWN, designs
+from .candidates import OWN, designs
 from .order import next_break
 
 if TYPE_CHECKING:
@@ -167,7 +167,7 @@ class Sample:
     strengths: np.ndarray
 
 
-def mission_scene(path, document, model):
+def mission_scene(path: Any, document: dict[str, Any], model: Model) -> Scene:
     """The Scene of a file of findings, without findings."""
     common = {key: document.get(key, {}) for key in ("parameters", "inputs", "simulation")}
     return load_scene(beside(path, document.get("scene")), model, (str(path), common))

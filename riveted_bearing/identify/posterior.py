@@ -33,7 +33,8 @@ import numpy as np
 from scipy.special import betaln, comb
 from scipy.stats import norm
 
-from .findings import LOOSE, NONE, SOUND, own_value, quantity_at
+from .candidates import SOUND, own_value, quantity_at
+from .findings import LOOSE, NONE
 from .pool import CURVE, RESPONSES, weakened
 
 if TYPE_CHECKING:

@@ -96,7 +96,7 @@ def perform(scene, fmu, measure=None):
     return about | summary | sampled | (measure(result) if measure else {})
 
 
-def unpacked(fmu):
+def unpacked(fmu: bytes) -> Model:
     """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one Model a process."""
     from distributed import get_worker
 
