@@ -131,7 +131,7 @@ def recovery(bearings, count, seed=1, known=KNOWN, advised=ADVISED):
     for attempt in itertools.count():
         if len(rows) == count:
             return rows
-        rng = np.random.default_rng([seed, attempt])  # the same failures, whatever is inspected
+        rng = np.random.default_rng([HIDDEN, seed, attempt])  # the same failures, whatever is inspected
         name, (study, document, model, scene, pool, hidden) = list(bearings.items())[len(rows) % len(bearings)]
         one = failure(rng, study, model, scene, hidden, sound_medians(study, pool), known)
         if one is None:
@@ -218,32 +218,32 @@ def picture(rows, path, shown):
         plt.close(figure)
 
 
-def example(study, document, model, scene, pool):
-    """The findings of docs/failure.md on a bearing's pool, for the picture."""
-    text = (ROOT / "docs" / "failure.md").read_text(encoding="utf-8")
-    found = tomllib.loads(text.split("```toml")[1].split("```")[0])
-    own = plan_causes(study.path, document | found, model, scene)
-    said = answer(own, pool)
+def example(path, folder, client):
+    """Panels of the findings in docs/failure.md on the 6207, against all causes."""
+    file = ROOT / "docs" / "failure.md"
+    document = tomllib.loads(file.read_text(encoding="utf-8").split("```toml")[1].split("```")[0])
+    model = Model(path)
+    scene = mission_scene(file, document, model)
+    study = plan_causes(file, document, model, scene)
+    said = answer(
+        study, [predicted(one, study, model, scene) for one in run_pool(study, model, document, folder, client)]
+    )
 
     def shown(left, right):
-        cage(left, own)
+        cage(left, study)
         bars(right, said)
 
     return shown
 
 
 def main():
-    folder = Path(sys.argv[1])
+    folder, paths = Path(sys.argv[1]), dict(argument.split("=") for argument in sys.argv[2:])
     with cluster(None, 1) as client:
-        bearings = {}
-        for argument in sys.argv[2:]:
-            name, path = argument.split("=")
-            bearings[name] = pools(name, path, folder, lambda: client)
-    rows = recovery(bearings, FAILURES)
+        bearings = {name: pools(name, path, folder, lambda: client) for name, path in paths.items()}
+        shown = example(paths["6207"], folder / "6207", lambda: client)
+    rows, many = recovery(bearings, FAILURES), recovery(bearings, MANY, seed=2)
     write("causes", {"known": KNOWN, "failures": rows}, False)
-    many = recovery(bearings, MANY, seed=2)
-    study, document, model, scene, pool, _ = bearings["6207"]
-    picture(many, folder / "failure.png", example(study, document, model, scene, pool))
+    picture(many, folder / "failure.png", shown)
     print(summary(rows), summary(many), sep="\n")
 
 

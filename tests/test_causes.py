@@ -253,8 +253,8 @@ def test_stated_probabilities_are_those_of_a_known_world(fmu):
         stated.append(said.posterior[said.ranked[0]])
         inside.append(cause in said.credible)
     scatter = np.sqrt(np.mean(np.array(stated) * (1.0 - np.array(stated))) / len(stated))
-    assert abs(np.mean(right) - np.mean(stated)) < 3.0 * scatter  # 0.80 against 0.80, scatter 0.018
-    assert np.mean(inside) > CREDIBLE - 3.0 * scatter
+    assert abs(np.mean(right) - np.mean(stated)) < 3.0 * scatter  # 0.858 against 0.832, scatter 0.018
+    assert np.mean(inside) > CREDIBLE - 3.0 * scatter  # 0.98: sets of whole causes hold more than they state
 
 
 # ---- files ------------------------------------------------------------------------------------------------------------
@@ -335,8 +335,8 @@ def test_other_causes_do_not_change_the_designs_of_one(fmu):
 
 def test_a_rivet_taken_out_in_the_run_equals_one_that_is_gone_from_the_start(fmu, record_property):
     """Eight seeds, tilted shaft: the damage rates after the first break in the same simulation against those of a run
-    that starts without this rivet.  Their logarithms agree in the mean over rivets and seeds within 0.3 decades; the
-    scatter of the mean is 0.1, that of single rivets 0.5.
+    that starts without this rivet.  Their logarithms agree in the mean over rivets and seeds within 0.06 decades, four
+    times the scatter of the mean, 0.015; observed: 0.000.
     """
     model = Model(fmu)
     changes = {"inputs": {"shaft.tilt_z": "0.15 deg"}}
@@ -351,7 +351,7 @@ def test_a_rivet_taken_out_in_the_run_equals_one_that_is_gone_from_the_start(fmu
         whole = [k for k in range(9) if k + 1 != first["rivet"]]
         decades.append(np.log10(np.array(second["rates"])[whole, 0] / np.array(restarted["rates"])[whole, 0]))
     record_property("decades", [float(np.mean(decades)), float(np.std(np.mean(decades, axis=1)) / np.sqrt(8))])
-    assert abs(np.mean(decades)) < 0.3
+    assert abs(np.mean(decades)) < 0.06
     rise = np.array(second["rates"])[:, 0].max() / np.array(first["rates"])[:, 0].max()
     assert rise > 2.0  # the neighbours carry more than before
 
