@@ -34,7 +34,7 @@ def causes(
     call does only missing runs.
     """
     from ..base.errors import UserError
-    from ..identify.causes_page import ORDER, order_rows, ranked_rows, verdict, write_json, write_page
+    from ..identify.causes_page import ORDER, RANKED, order_rows, ranked_rows, verdict, write_json, write_page
     from ..identify.findings import plan_causes
     from ..identify.order import bench_of, run_order
     from ..identify.pool import mission_scene, run_pool
@@ -64,7 +64,7 @@ def causes(
     basis = list(bench.basis())
     print_basis(basis)
     if said is not None:
-        print_table(("cause", "probability", "Monte Carlo", "", "for it", "against it"), ranked_rows(said)[:10])
+        print_table(RANKED, ranked_rows(said)[:10])
         console.print(escape(verdict(said)), soft_wrap=True)
         best = [f"{name} ({bits:.2f} bits)" for name, _, bits in said.inspections[:3]]
         console.print(f"inspect next: {escape(', '.join(best))}", soft_wrap=True)

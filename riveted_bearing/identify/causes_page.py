@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 STRONG = 2.0  # a finding that changes the odds by this speaks for or against a cause
 LEAST = 0.01  # probability below which a cause is named without words
-RANKED = ("cause", "probability", "Monte Carlo interval", "", "for it", "against it")
+RANKED = ("cause", "probability", "Monte Carlo interval", "90 % set", "for it", "against it")
 PREDICTED = (
     "cause",
     "hours, median",
@@ -52,7 +52,7 @@ def ranked_rows(said: Answer) -> Any:
         speaks = [f"{name} (x {ratio:.2g})" for ratio, name in ratios if ratio >= STRONG]
         denies = [f"{name} (x {ratio:.2g})" for ratio, name in reversed(ratios) if ratio <= 1.0 / STRONG]
         known = said.posterior[k] >= LEAST
-        inside = "in the 90 % set" if k in said.credible else ""
+        inside = "yes" if k in said.credible else ""
         share = f"{100 * said.posterior[k]:.0f} %" if known else "< 1 %"
         rows.append(
             (
