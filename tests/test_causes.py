@@ -3,16 +3,27 @@
 import functools
 import json
 import re
+import tomllib
 
 import numpy as np
 import pytest
 from library import ROOT
+from pictures import faults
 from scipy import stats
 
 from riveted_bearing import UserError
 from riveted_bearing.identify import pool as pools
 from riveted_bearing.identify.candidates import SOUND, Range, designs, quantity_at
-from riveted_bearing.identify.causes_page import ranked_rows, verdict, write_json, write_page
+from riveted_bearing.identify.causes_page import (
+    bars,
+    cage,
+    cascade,
+    gains,
+    ranked_rows,
+    verdict,
+    write_json,
+    write_page,
+)
 from riveted_bearing.identify.findings import NONE, plan_causes
 from riveted_bearing.identify.order import State, bench_of, follow, next_break, run_order
 from riveted_bearing.identify.pool import Sample, followed, history_of, mission_scene, run_pool, sampled, weakened
@@ -27,6 +38,7 @@ from riveted_bearing.identify.posterior import (
     predicted,
 )
 from riveted_bearing.running.fmu import Model
+from riveted_bearing.show.plot import STYLE, plt
 from riveted_bearing.studies.sweep import cluster
 
 # ---- what breaks next -------------------------------------------------------------------------------------------------
@@ -296,6 +308,39 @@ def test_what_cannot_be_is_refused_by_name(fmu, document, words):
     model = Model(fmu)
     with pytest.raises(UserError, match=re.escape(words)):
         plan_causes("f.toml", document, model, mission_scene("f.toml", {}, model))
+
+
+def test_the_pages_file_is_read_and_drawn(fmu):
+    """The findings of docs/failure.md; no text of its pictures lies on another or is cut."""
+    text = (ROOT / "docs" / "failure.md").read_text(encoding="utf-8").split("```toml")[1].split("```")[0]
+    study = study_of(fmu, **{key: value for key, value in tomllib.loads(text).items() if key != "prior"})
+    assert study.findings.gone == [1, 2, 3, 8, 9] and study.findings.order == (2, 1)
+    said = answer(study, [one(study, k) for k in (0, 1, 2) for _ in range(8)])
+    states = follow(states_by(lambda gone: [[1e-3 * (1.0 + k), 0.0] for k in range(9)]), 3)
+    for draw, size in ((lambda fig: cage(fig, study), (4.2, 4.2)), (lambda fig: bars(fig, said), (4.6, 1.6))):
+        assert_in_order(draw, size)
+    assert_in_order(lambda fig: gains(fig, said), (4.6, 4.0))
+    assert_in_order(lambda fig: cascade(fig, states), (2.3 * len(states), 2.7))
+
+
+def assert_in_order(draw, size):
+    """A picture without faults."""
+    with plt.rc_context(STYLE):
+        figure = plt.figure(figsize=size, layout="constrained")
+        draw(figure)
+        assert not list(faults(figure))
+        plt.close(figure)
+
+
+def test_a_mission_that_varies_in_time_is_refused(fmu):
+    """Inputs over time have no lives to compare; a mission's own acceleration of damage does not count."""
+    model = Model(fmu)
+    ramp = {"inputs": {"shaft.omega": {"t": [0.0, 0.1], "value": [1000.0, 1500.0]}}}
+    with pytest.raises(UserError, match=r"shaft\.omega varies in time"):
+        followed(mission_scene("f.toml", ramp, model), model, 2, ())
+    fast = {"parameters": {"scene.stress": "fatigue", "scene.breakage": "on", "fatigue.acceleration": 1e9}}
+    plain, accelerated = (followed(mission_scene("f.toml", document, model), model, 2, ()) for document in ({}, fast))
+    assert plain.parameters == accelerated.parameters
 
 
 def test_designs_fill_their_ranges(fmu):

@@ -70,6 +70,8 @@ def ranked_rows(said: Answer) -> Any:
 def verdict(said: Answer) -> str:
     """The answer in a sentence."""
     first = said.ranked[0]
+    if not said.posterior.sum() > 0.0:
+        return "No cause in the list can produce the findings, and none of these has the prior 0."
     low, high = said.interval(first)
     share = f"{100 * said.posterior[first]:.0f} % ({100 * low:.0f} to {100 * high:.0f} % by the Monte Carlo error)"
     if said.decided and said.names[first] != NONE:

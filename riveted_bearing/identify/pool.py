@@ -36,6 +36,7 @@ if TYPE_CHECKING:
 SETTLE, WINDOW, SETTLE_AGAIN, WINDOW_AGAIN = 9.0, 21.0, 3.0, 9.0  # turns of the shaft
 SCATTER = np.log(1.25) / 2.563  # of the logarithm of a rivet's strength: 90 % over 10 % is 1.25, FKM
 CURVE = ("fatigue.N_D", "fatigue.k_1", "fatigue.k_2")
+ACCELERATED = ("scene.breakage", "fatigue.acceleration")  # of a mission: rivets are taken out here, at true rates
 MEANS = {"loss.pockets": "pocket", "loss.land": "land"}  # outputs whose mean stands for a mark
 RESPONSES = ("pocket", "side", "land", "face")
 
@@ -58,11 +59,17 @@ def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followe
     )
     if not abs(omega) > 0.0:
         raise UserError(f"{scene.name}: shaft.omega = 0: nothing breaks at rest")
+    for name, history in scene.inputs.items():
+        if history.changing_time():
+            raise UserError(f"{scene.name}: {name} varies in time: give the point of the mission that does the damage")
+    if scene.changes:
+        raise UserError(f"{scene.name}: change: parameters that change in the run are not for causes")
     turn = 2.0 * np.pi / abs(float(omega))
     settle = np.ceil(SETTLE * turn / scene.step) * scene.step
     t_end = settle + (WINDOW + breaks * (SETTLE_AGAIN + WINDOW_AGAIN) + 1.0) * turn
     values = {name: value for name, value in vars(scene).items() if name != "t_end"}
-    values["parameters"] = scene.parameters | {
+    kept = {name: value for name, value in scene.parameters.items() if name not in ACCELERATED}
+    values["parameters"] = kept | {
         "start.settle": float(settle),
         "scene.stress": "fatigue",
         "scene.statistics": "off",
@@ -221,23 +228,23 @@ def run_pool(
     samples = []
     for key, (number, design, strengths, _) in zip(keys, planned, strict=True):
         row = places[key]
-        if rows["status"][row] == "done":
-            samples.append(Sample(number, design, json.loads(str(rows["history"][row])), strengths))
+        history = json.loads(str(rows["history"][row])) if rows["status"][row] == "done" else {"states": []}
+        if history["states"]:
+            samples.append(Sample(number, design, history, strengths))
     check_starts(study, planned, samples, rows)
     return samples
 
 
 def check_starts(study, planned, samples, rows):
-    """UserError for a cause most of whose designs the FMU refuses; the few of others are left out."""
+    """UserError for a cause most of whose designs do not start or stop at once; the few of others are left out."""
     for number, cause in enumerate(study.causes):
         started = sum(sample.cause == number for sample in samples)
         if 2 * started < sum(plan[0] == number for plan in planned):
-            message = next(
-                m
-                for m, name, s in zip(rows["message"], rows["scene"], rows["status"], strict=True)
-                if name == cause.name and s == "failed"
+            failed = zip(rows["message"], rows["scene"], rows["status"], strict=True)
+            why = next(
+                (m for m, name, status in failed if name == cause.name and status == "failed"), "they stop at once"
             )
-            raise UserError(f"{study.path}: cause {cause.name}: most designs fail: {message}")
+            raise UserError(f"{study.path}: cause {cause.name}: most designs do not run: {why}")
 
 
 def history_field():
