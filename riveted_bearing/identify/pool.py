@@ -27,6 +27,7 @@ from ..running.scene import Scene, load_scene
 from ..studies.sweep import run_sweep, unpacked
 from ..studies.sweep_file import Sweep, beside, key_of, sections_of
 from .candidates import OWN, designs
+from .findings import rivets_of
 from .order import next_break
 
 if TYPE_CHECKING:
@@ -101,67 +102,78 @@ def history_of(model: Model, scene: Followed) -> dict[str, Any]:
     """
     with Instance(model) as instance:
         instance.initialize(scene)
-        intact = [name for name in model.parameters if name.startswith("rivet[") and name.endswith("].intact")]
-        Z, now = len(intact), 0.0
-        gone = [k + 1 for k, name in enumerate(intact) if scene.parameters.get(name, 1) == 0]
-        strengths = np.array(scene.strengths) if len(scene.strengths) else np.ones((Z, 2))
-        curve = [float(scene.parameters.get(name, model.default(model.parameters[name]))) for name in CURVE]
-        damage_names = [f"rivet[{k}].damage_{place}" for k in range(1, Z + 1) for place in ("head", "mid")]
-        read = instance.reader(damage_names)
-        sides = [name for name in model.outputs if name.endswith("].Q_cx")]
-        watch = instance.reader([*MEANS, "cage.dislocation", *sides])
-        found: dict[str, Any] = {"Z": Z, "states": [], "end": "as many as asked for"}
-        damage = np.zeros((Z, 2))
-        damage[[k - 1 for k in gone]] = -np.inf
-
-        def march(turns, seen=None):
-            nonlocal now
-            for _ in range(round(turns * scene.turn / scene.step)):
-                instance.fmu.doStep(now, scene.step)
-                now += scene.step
-                if seen is not None:
-                    seen.append(np.array(watch()))
-
+        cage = Cage(instance, scene)
+        found: dict[str, Any] = {"states": [], "end": "as many as asked for"}
+        damage = np.zeros((cage.Z, 2))
+        damage[[k - 1 for k in cage.gone]] = -np.inf
         try:
-            march(scene.parameters["start.settle"] / scene.turn)
-            for state in range(scene.breaks):
-                seen = []
-                before = np.array(read())
-                march(WINDOW_AGAIN if state else WINDOW, None if state else seen)
-                hours = round((WINDOW_AGAIN if state else WINDOW) * scene.turn / scene.step) * scene.step / 3600.0
-                rates = ((np.array(read()) - before) / hours).reshape(Z, 2)
-                if not state:
-                    found |= responses_of(np.array(seen), instance, Z, hours)
-                effective = weakened(rates, strengths, curve, 3600.0 / scene.turn)
-                lasts, first = next_break(damage, effective)
-                row = {"gone": list(gone), "rates": rates.tolist(), "hours": float(lasts)}
-                if not np.isfinite(lasts):
+            cage.run(scene.parameters["start.settle"] / scene.turn)
+            while len(found["states"]) < scene.breaks and len(cage.gone) < cage.Z:
+                if found["states"]:
+                    cage.run(SETTLE_AGAIN)
+                    rates = cage.rates(WINDOW_AGAIN)
+                else:
+                    rates = cage.rates(WINDOW)
+                    found |= cage.responses()
+                effective = weakened(rates, cage.strengths, cage.curve, 3600.0 / scene.turn)
+                hours, first = next_break(damage, effective)
+                row = {"gone": list(cage.gone), "rates": rates.tolist()}
+                if not np.isfinite(hours):
                     found["states"].append(row | {"hours": None})
                     found["end"] = "nothing is damaged"
                     break
-                found["states"].append(row | {"rivet": first[0] + 1, "place": first[1]})
-                damage = damage + lasts * effective
+                found["states"].append(row | {"hours": float(hours), "rivet": first[0] + 1, "place": first[1]})
+                damage = damage + hours * effective
                 damage[first[0]] = -np.inf
-                gone.append(first[0] + 1)
-                if len(gone) == Z:
-                    found["end"] = "no rivet is left"
-                    break
-                instance.set_parameter(model.parameters[intact[first[0]]], 0)
-                march(SETTLE_AGAIN)
+                cage.take_out(first[0] + 1)
         except FMICallException:
             found["end"] = f"the halves part: {instance.complaints()}"
         return found
 
 
-def responses_of(seen, instance, Z, hours):
-    """Means of the whole cage's window by the mark that they stand for, and the mean loss of preload per hour [N/h]."""
-    columns = dict(zip(MEANS.values(), seen.T, strict=False))
-    loss = instance.read([f"rivet[{k}].preload_loss" for k in range(1, Z + 1)])
-    return {name: float(np.mean(np.abs(values))) for name, values in columns.items()} | {
-        "face": float(np.mean(seen[:, len(MEANS)])),
-        "side": float(np.mean(np.abs(seen[:, len(MEANS) + 1 :]))),
-        "preload_loss": float(np.mean(list(loss.values()))) / hours,
-    }
+class Cage:
+    """An instance that runs turn by turn: gone, numbers of the rivets that are gone; curve: of CURVE."""
+
+    def __init__(self, instance, scene):
+        self.instance, self.scene, self.steps, self.seen = instance, scene, 0, []
+        model = instance.model
+        self.Z = rivets_of(model)
+        numbers = range(1, self.Z + 1)
+        self.gone = [k for k in numbers if scene.parameters.get(f"rivet[{k}].intact", 1) == 0]
+        self.strengths = np.array(scene.strengths) if len(scene.strengths) else np.ones((self.Z, 2))
+        self.curve = [float(scene.parameters.get(name, model.default(model.parameters[name]))) for name in CURVE]
+        self.damage = instance.reader([f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")])
+        sides = [name for name in model.outputs if name.endswith("].Q_cx")]
+        self.watched = instance.reader([*MEANS, "cage.dislocation", *sides])
+        self.lost = instance.reader([f"rivet[{k}].preload_loss" for k in numbers])
+
+    def run(self, turns):
+        """So many turns of the shaft in communication steps; returns the hours that they take."""
+        step, count = self.scene.step, round(turns * self.scene.turn / self.scene.step)
+        for _ in range(count):
+            self.instance.fmu.doStep(self.steps * step, step)
+            self.steps += 1
+            self.seen.append(self.watched().copy())
+        return count * step / 3600.0
+
+    def rates(self, turns):
+        """Damage rates per hour of a window."""
+        before, lost = self.damage().copy(), self.lost().mean()
+        self.seen.clear()
+        hours = self.run(turns)
+        self.loss = (self.lost().mean() - lost) / hours
+        return ((self.damage() - before) / hours).reshape(self.Z, 2)
+
+    def responses(self):
+        """Means over the last window by the mark that they stand for, and the mean loss of preload per hour [N/h]."""
+        sizes = np.abs(self.seen).mean(axis=0)
+        marks = dict(zip([*MEANS.values(), "face"], sizes.tolist(), strict=False))
+        return marks | {"side": float(sizes[len(MEANS) + 1 :].mean()), "preload_loss": float(self.loss)}
+
+    def take_out(self, k):
+        """Rivet k is gone from now on."""
+        self.instance.set_parameter(self.instance.model.parameters[f"rivet[{k}].intact"], 0)
+        self.gone.append(k)
 
 
 @dataclass(frozen=True)
