@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from .posterior import Answer, Predicted
 
 STRONG = 2.0  # a finding that changes the odds by this speaks for or against a cause
+FEW = 4.0  # designs: below it the Monte Carlo interval itself is a guess
 LEAST = 0.01  # probability below which a cause is named without words
 RANKED = ("cause", "probability", "Monte Carlo interval", "90 % set", "for it", "against it")
 PREDICTED = (
@@ -74,12 +75,14 @@ def verdict(said: Answer) -> str:
         return "No cause in the list can produce the findings, and none of these has the prior 0."
     low, high = said.interval(first)
     share = f"{100 * said.posterior[first]:.0f} % ({100 * low:.0f} to {100 * high:.0f} % by the Monte Carlo error)"
-    if said.decided and said.names[first] != NONE:
-        return f"Most probable cause: {said.names[first]}, {share}."
-    if said.decided:
+    if said.decided and said.names[first] == NONE:
         return f"None of the causes explains the findings: {share}. Name further causes in the file."
     inside = ", ".join(said.names[k] for k in said.credible)
-    return f"Not decided. 90 % of the probability is shared by: {inside}. First is {said.names[first]}, {share}."
+    known = said.names[first] == NONE or said.effective[first] >= FEW
+    more = "" if known else f" Only {said.effective[first]:.0f} designs bear it: raise samples."
+    if said.decided:
+        return f"Most probable cause: {said.names[first]}, {share}.{more}"
+    return f"Not decided. 90 % of the probability is shared by: {inside}. First is {said.names[first]}, {share}.{more}"
 
 
 def inspection_rows(said: Answer) -> Any:

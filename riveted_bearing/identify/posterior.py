@@ -143,9 +143,10 @@ def beta_binomial(k, n, p, trust=TRUST):
 
 
 def heavy(responses, sound):
-    """Probability of a heavy mark."""
+    """Probability of a heavy mark; a half where sound bearings have nothing that marks, as without lands."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.clip(norm.cdf(np.log(np.asarray(responses) / (2.0 * sound)) / np.log(2.0)), *SURE)
+        p = np.clip(norm.cdf(np.log(np.asarray(responses) / (2.0 * sound)) / np.log(2.0)), *SURE)
+    return np.where(np.isnan(p), 0.5, p)
 
 
 def likelihoods(found: Findings, pool: list[Predicted], Z: int, decades: float, sound: dict) -> dict[str, tuple]:
