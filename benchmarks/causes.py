@@ -25,7 +25,7 @@ from riveted_bearing.base.files import write_atomically
 from riveted_bearing.identify.causes_page import bars, cage
 from riveted_bearing.identify.findings import plan_causes
 from riveted_bearing.identify.pool import mission_scene, run_pool
-from riveted_bearing.identify.posterior import RESPONSES, answer, heavy, predicted, sound_medians
+from riveted_bearing.identify.posterior import RESPONSES, answer, heavy, predictions, sound_medians
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
 from riveted_bearing.studies.sweep import cluster
@@ -53,7 +53,7 @@ ADVISED = 3  # inspections that follow, each the one that the answer before it a
 
 
 def pools(name, path, folder, client, causes=CAUSES, samples=32):
-    """(study, document, model, scene, pool, hidden) of a bearing: Predicted of all designs, and Samples of the hidden."""
+    """(study, document, model, scene, pool, hidden) of a bearing: Predicted of all designs, Samples of the hidden with theirs."""
     model = Model(path)
     document = {"inputs": MISSIONS[name], "causes": list(causes), "samples": samples}
     file = Path(f"{name}.toml")
@@ -64,15 +64,22 @@ def pools(name, path, folder, client, causes=CAUSES, samples=32):
     hidden = run_pool(
         plan_causes(file, long, model, scene), model, long, folder / f"{name}_hidden", client, count=EACH, seed=HIDDEN
     )
-    return study, document, model, scene, [predicted(one, study, model, scene) for one in pool], hidden
+    return (
+        study,
+        document,
+        model,
+        scene,
+        predictions(pool, study, model, scene),
+        [*zip(hidden, predictions(hidden, study, model, scene), strict=True)],
+    )
 
 
 def failure(rng, study, model, scene, hidden, sound, known=KNOWN):
     """(cause, findings as a document, Hidden) of a failure; None if nothing breaks within the hours."""
     names = [cause.name for cause in study.causes]
     cause = int(rng.integers(1, len(names)))  # the first one is the sound bearing
-    sample = rng.choice([one for one in hidden if one.cause == cause])
-    one = predicted(sample, study, model, scene)
+    of_cause = [pair for pair in hidden if pair[0].cause == cause]
+    sample, one = of_cause[int(rng.integers(len(of_cause)))]
     breaks = [state for state in sample.history["states"] if state["hours"] is not None]
     hours = one.hours + study.file.life_decades * rng.standard_normal()
     n = int(rng.integers(1, study.Z + 1))
@@ -225,9 +232,7 @@ def example(path, folder, client):
     model = Model(path)
     scene = mission_scene(file, document, model)
     study = plan_causes(file, document, model, scene)
-    said = answer(
-        study, [predicted(one, study, model, scene) for one in run_pool(study, model, document, folder, client)]
-    )
+    said = answer(study, predictions(run_pool(study, model, document, folder, client), study, model, scene))
 
     def shown(left, right):
         cage(left, study)

@@ -35,7 +35,7 @@ from riveted_bearing.identify.posterior import (
     beta_binomial,
     groups,
     information,
-    predicted,
+    predictions,
 )
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.show.plot import STYLE, plt
@@ -371,7 +371,7 @@ def test_other_causes_do_not_change_the_designs_of_one(fmu):
     scene = mission_scene("f.toml", {}, model)
     few, many = ({"causes": names} for names in (["misalignment"], ["clearance", "misalignment", "wear"]))
     plans = [sampled(plan_causes("f.toml", file, model, scene), model, file) for file in (few, many)]
-    tilted = [[entry[3] for entry in plan if entry[3].name == "misalignment"] for plan in plans]
+    tilted = [[entry[-1] for entry in plan if entry[-1].name == "misalignment"] for plan in plans]
     assert tilted[0] == tilted[1] and len(tilted[0]) == 32
 
 
@@ -421,7 +421,7 @@ def test_a_pool_is_kept_and_answers(fmu, tmp_path):
         samples = run_pool(study, model, document, tmp_path, lambda: client)
     again = run_pool(study, model, document, tmp_path, lambda: pytest.fail("no run is missing"))
     assert [each.history for each in again] == [each.history for each in samples] and len(samples) == 32
-    pool = [predicted(each, study, model, scene) for each in samples]
+    pool = predictions(samples, study, model, scene)
     said = answer(study, pool)
     assert said.names[said.ranked[0]] == "misalignment" and "misalignment" in ranked_rows(said)[0]
     stored = json.loads(
@@ -437,21 +437,24 @@ def test_a_pool_is_kept_and_answers(fmu, tmp_path):
     assert weak.strengths[0, 0] < weak.strengths[1:, 0].min()
 
 
-def test_wear_takes_its_hours_and_a_share_stretches_them(fmu):
+def test_wear_takes_its_hours_and_a_share_mixes_rates(fmu):
     """30 N of preload, 10 of which are left: 20 N over a loss of 0.1 N an hour are 200 h before the rates of the design
-    count; a cause that acts in a tenth of the hours makes them ten times as long.
+    count.  A cause that breaks a rivet in 1000 h, where the sound design of the same number lasts 9000 h, does so in
+    1/(0.1/1000 + 0.9/9000) = 5000 h if it acts in a tenth of the time; without that design in 10,000 h.
     """
     study, model = study_of(fmu), Model(fmu)
     scene = mission_scene("f.toml", {}, model)
-    rates = np.full((9, 2), 1e-3).tolist()
-    history = {"states": [{"gone": [], "rates": rates, "hours": 1000.0, "rivet": 1, "place": 0}], "preload_loss": 0.1}
-    plain = predicted(Sample(0, {}, history, np.ones((9, 2))), study, model, scene)
+
+    def sample(cause, number, design, hours):
+        state = {"gone": [], "rates": np.full((9, 2), 1e-3).tolist(), "hours": hours, "rivet": 1, "place": 0}
+        return Sample(cause, number, design, {"states": [state], "preload_loss": 0.1}, np.ones((9, 2)))
+
     worn = {"model.worn": 30.0, "joint.preload": 10.0}
-    assert 10.0 ** predicted(Sample(0, worn, history, np.ones((9, 2))), study, model, scene).at(1) == pytest.approx(
-        1200.0
-    )
-    rare = predicted(Sample(0, {"model.share": 0.1}, history, np.ones((9, 2))), study, model, scene)
-    assert (plain.at(1), rare.at(1)) == pytest.approx((3.0, 4.0)) and plain.middle[0] == pytest.approx(0.5)
+    samples = [sample(0, 0, {}, 9000.0), sample(1, 0, worn, 1000.0)]
+    samples += [sample(2, number, {"model.share": 0.1}, 1000.0) for number in (0, 7)]
+    found = predictions(samples, study, model, scene)
+    np.testing.assert_allclose([10.0 ** each.at(1) for each in found], [9000.0, 1200.0, 5000.0, 10000.0])
+    assert found[0].middle[0] == pytest.approx(0.5)
 
 
 @pytest.mark.slow

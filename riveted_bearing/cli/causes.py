@@ -38,7 +38,7 @@ def causes(
     from ..identify.findings import plan_causes
     from ..identify.order import bench_of, run_order
     from ..identify.pool import mission_scene, run_pool
-    from ..identify.posterior import answer, predicted
+    from ..identify.posterior import answer, predictions
     from ..running.fmu import Model
 
     if not findings.is_file():
@@ -59,7 +59,7 @@ def causes(
             states = run_order(bench, study.Z, study.file.breaks, study.findings.gone, study.file.within)
         else:
             samples = run_pool(study, model, document, folder, client, progress)
-            pool = [predicted(one, study, model, scene) for one in samples]
+            pool = predictions(samples, study, model, scene)
             said = answer(study, pool, study.file.seed)
     basis = list(bench.basis())
     print_basis(basis)

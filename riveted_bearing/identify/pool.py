@@ -178,9 +178,10 @@ class Cage:
 
 @dataclass(frozen=True)
 class Sample:
-    """A design of a cause with its history; strengths: of the places, [Z, 2]."""
+    """A design of a cause with its history; number: of the design in its cause; strengths: of the places, [Z, 2]."""
 
     cause: int
+    number: int
     design: dict
     history: dict
     strengths: np.ndarray
@@ -193,7 +194,7 @@ def mission_scene(path: Any, document: dict[str, Any], model: Model) -> Scene:
 
 
 def sampled(study: Study, model: Model, document: Any, count: int | None = None, seed: int | None = None) -> list[Any]:
-    """(number of the cause, design, strengths, Followed) of all designs; count, seed: those of the file by default."""
+    """(number of the cause, number of the design, design, strengths, Followed) of all designs; count, seed: those of the file by default."""
     file, found = study.file, []
     common = {"parameters": file.parameters, "inputs": file.inputs, "simulation": file.simulation}
     source = beside(study.path, file.scene)
@@ -210,7 +211,7 @@ def sampled(study: Study, model: Model, document: Any, count: int | None = None,
                 source, model, (str(study.path), common), (str(study.path), sections_of(settings, model))
             )
             scene = replace(followed(scene, model, file.breaks, strengths.tolist()), name=cause.name)
-            found.append((number, design, strengths, scene))
+            found.append((number, i, design, strengths, scene))
     return found
 
 
@@ -238,11 +239,11 @@ def run_pool(
     rows = run_sweep(sweep, folder, client, progress)
     places = {key: i for i, key in enumerate(rows["key"])}
     samples = []
-    for key, (number, design, strengths, _) in zip(keys, planned, strict=True):
+    for key, (cause, number, design, strengths, _) in zip(keys, planned, strict=True):
         row = places[key]
         history = json.loads(str(rows["history"][row])) if rows["status"][row] == "done" else {"states": []}
         if history["states"]:
-            samples.append(Sample(number, design, history, strengths))
+            samples.append(Sample(cause, number, design, history, strengths))
     check_starts(study, planned, samples, rows)
     return samples
 

@@ -26,7 +26,7 @@ six decades, marks by a coin, values anywhere.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -73,8 +73,28 @@ class Predicted:
         return float(self.hours[min(n, len(self.hours)) - 1]) if len(self.hours) else np.inf
 
 
+def predictions(samples: list[Sample], study: Study, model: Any, scene: Any) -> list[Predicted]:
+    """What Samples predict.  Where a cause acts in a share of the hours, the sound design of the same number has the rest."""
+    found = [predicted(sample, study, model, scene) for sample in samples]
+    sound = {s.number: p.hours for s, p in zip(samples, found, strict=True) if study.causes[s.cause].name == SOUND}
+    return [
+        replace(p, hours=shared(p.hours, sound.get(s.number, np.array([])), s.design.get("model.share", 1.0)))
+        for s, p in zip(samples, found, strict=True)
+    ]
+
+
+def shared(decades, others, share):
+    """log10 of the hours of breaks that have those of `decades` in a share of the time, and of `others` in the rest."""
+    if share == 1.0:
+        return decades
+    rates = np.zeros((2, max(len(decades), len(others))))
+    rates[0, : len(decades)], rates[1, : len(others)] = 10.0**-decades, 10.0**-others
+    with np.errstate(divide="ignore"):
+        return -np.log10(np.array([share, 1.0 - share]) @ rates)
+
+
 def predicted(sample: Sample, study: Study, model: Any, scene: Any) -> Predicted:
-    """What a Sample predicts."""
+    """What a Sample predicts if its cause acts all the time."""
     design, states, Z = sample.design, sample.history["states"], study.Z
     turns = abs(design.get("shaft.omega", own_value(study.path, "shaft.omega", model, scene))) / (2.0 * np.pi) * 3600.0
     curve = [own_value(study.path, name, model, scene) for name in CURVE]
@@ -94,7 +114,7 @@ def predicted(sample: Sample, study: Study, model: Any, scene: Any) -> Predicted
         if state["hours"] is not None:
             order.append(state["rivet"])
             hours.append(state["hours"])
-    total = np.cumsum(hours) / design.get("model.share", 1.0)
+    total = np.cumsum(hours)
     if worn := design.get("model.worn", 0.0):
         lost = max(0.0, worn - design["joint.preload"])
         total = total + lost / max(sample.history["preload_loss"], 1e-300)
