@@ -56,7 +56,8 @@ def causes(
         make_folder(folder)
         bench = bench_of(findings, document, model, folder / "order", client, progress)
         if order:
-            states = run_order(bench, study.Z, study.file.breaks, study.findings.gone, study.file.within)
+            within = study.file.within if "within" in document else float("inf")
+            states = run_order(bench, study.Z, study.file.breaks, study.findings.gone, within)
         else:
             samples = run_pool(study, model, document, folder, client, progress)
             pool = predictions(samples, study, model, scene)

@@ -92,7 +92,7 @@ class FindingsFile(Seeded):
     missing: Rivets | None = Field(None, description="rivets that were never set; [] for none")
     hours: Any = Field(None, description='until the rivets were found broken: "900 h", "about 900 h"')
     within: Annotated[float, Number(HOURS, above=0.0, words="a time above 0 h is needed")] = Field(
-        1e5, description="what breaks later is never found; hours"
+        1e5, description="what breaks later is never found; hours; --order follows all breaks without it"
     )
     marks: Marks = Marks()
     measured: Named = Field({}, description="by the name of an inspection, with unit")
