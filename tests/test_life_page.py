@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from riveted_bearing.base.toml_files import read_toml
-from riveted_bearing.design.cascade import plan_cascade
 from riveted_bearing.design.optimize import plan_optimize
 from riveted_bearing.design.sensitivity import plan_sensitivity
 from riveted_bearing.duty.mission import load_mission
@@ -40,7 +39,6 @@ def test_files_can_be_read(folder):
     readers = {
         "life": lambda path: read_tolerances(load_mission(path, model), model),
         "sensitivity": lambda path: plan_sensitivity(path, read_toml(path), model),
-        "cascade": lambda path: plan_cascade(path, read_toml(path)),
         "optimize": lambda path: plan_optimize(path, read_toml(path), model),
     }
     for line in COMMANDS:
@@ -72,7 +70,6 @@ def test_commands_do_what_the_page_says(folder, line):
         "life": ("life.json", "life.html", "life.png", "runs.parquet"),
         "sensitivity": ("sensitivity.json",),
         "optimize": ("optimize.json", "optimize.png"),
-        "cascade": ("cascade.json", "cascade.png"),
     }
     for file in expected[name] + (("bearings.json", "weibull.png") if path == "tolerance.toml" else ()):
         assert (made / file).is_file(), file

@@ -31,7 +31,6 @@ from riveted_bearing.bearing.plausible import doubts
 from riveted_bearing.cli import program
 from riveted_bearing.cli.info_tables import geometry, oil
 from riveted_bearing.design.bench import Bench
-from riveted_bearing.design.cascade import default_document
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
 from riveted_bearing.running import preload, summary
@@ -351,20 +350,6 @@ def test_info_of_an_fmu_has_what_its_file_gave(fmu, own, tmp_path, monkeypatch):
 
 
 # Studies --------------------------------------------------------------------------------------------------------------
-
-
-def test_a_cascade_without_a_file_is_the_fmus_own(model, own):
-    """The 6207's by the paper's fits; of another FMU its own fit, loads and speed, long enough for its settling."""
-    shipped = {
-        "seeds": 4,
-        "breaks": 3,
-        "simulation": {"t_end": 0.25},
-        "case": [{"name": "clearance"}],
-        "description": "",
-    }
-    assert default_document(model, shipped) is shipped
-    found = default_document(Model(own), shipped)
-    assert "case" not in found and "scene" not in found and found["simulation"]["t_end"] == 0.25
 
 
 def test_a_damages_basis_has_its_curve(model, tmp_path):

@@ -17,7 +17,6 @@ from riveted_bearing.base.schema import json_schema
 from riveted_bearing.base.toml_files import check_integers, read_toml
 from riveted_bearing.bearing import bearing_file
 from riveted_bearing.cli.schema import FILES, model_of, page
-from riveted_bearing.design.cascade import plan_cascade
 from riveted_bearing.design.optimize import plan_optimize
 from riveted_bearing.design.sensitivity import plan_sensitivity
 from riveted_bearing.duty.mission import plan_mission
@@ -36,7 +35,6 @@ READERS = {  # of a document, which reads the file itself where the program can 
     "tolerance": lambda path, document, model: read_tolerances(plan_mission("FILE", document, model, path), model),
     "sensitivity": plan_sensitivity,
     "optimize": plan_optimize,
-    "cascade": lambda path, document, model: plan_cascade(path, document),
     "identify": plan_identify,
 }
 CHANGED = {  # old message: new one
@@ -83,12 +81,6 @@ CHANGED = {  # old message: new one
         "FILE: change: write [[change]] with its keys below it"
     ),
     "FILE: vary: write [[vary]] with a name and a list below it": "FILE: vary: write [[vary]] with its keys below it",
-    "FILE: case = {'name': 'a'}: [[case]] tables with name, [case.parameters] and [case.inputs] are needed": (
-        "FILE: case: write [[case]] with its keys below it"
-    ),
-    'FILE: until = \'20 N\': unit "N" does not fit; allowed: h, d, years; a time is needed, as "20000 h"': (
-        "FILE: until = '20 N': unit \"N\" does not fit; allowed: h, d, years"
-    ),
     "FILE: sample: between = 3: not a table": "FILE: sample.between = 3: not a table",
     'FILE: target 1: unknown key "weight"; allowed: measure, line, frequency, width, value, point, over, minus, uncertainty, held_out': (
         'FILE: target 1: unknown key "weight"; allowed: point, over, minus, uncertainty, held_out, measure, line, frequency, width, value'

@@ -13,7 +13,6 @@ from commands import command
 import riveted_bearing as rb
 from riveted_bearing import UserError
 from riveted_bearing.bearing.assumed import assumed_ranges
-from riveted_bearing.design.cascade import Cascade, State, run_single
 from riveted_bearing.duty.notes import oil_in_pockets
 from riveted_bearing.running.fmu import Model
 
@@ -48,15 +47,6 @@ def test_range_of_the_clearance_leaves_room_for_the_sphere():
     assert ranges["cage.pocket_clearance"] == pytest.approx((0.147e-3, 0.56e-3), rel=1e-9)
     assert "cage.guide_clearance" not in ranges
     assert assumed_ranges(Model())["cage.pocket_clearance"][0] == pytest.approx(0.1e-3, rel=1e-9)
-
-
-def test_a_break_that_is_too_late_for_one_simulation_is_refused(tmp_path, fmu):
-    """Damage of 1e-18 an hour: it would have to be accelerated beyond what fatigue.acceleration allows."""
-    rates = [[1e-18, 0.0]] * 9
-    state = State((), rates, [1e8] * 9, 1e-6, False, 1e18, 1, "head", 1.0)
-    document = {"scene": "demo", "seeds": 1, "breaks": 1, "simulation": {"t_end": "60 ms"}}
-    with pytest.raises(UserError, match=r"c\.toml: c: .* --single needs fatigue\.acceleration = .*at most 1e\+15"):
-        run_single(tmp_path / "c.toml", document, Model(fmu), tmp_path, lambda: None, [Cascade("c", (state,))])
 
 
 def test_python_interface_knows_the_cage():
@@ -97,7 +87,7 @@ RUNS = {  # what is asked for -> arguments, and a file that it leaves
     "summary": ("summary mission.toml", "results/mission/summary.html"),
     "sensitivity": ("sensitivity decides.toml", "results/decides/sensitivity.json"),
     "optimize": ("optimize choose.toml", "results/choose/optimize.json"),
-    "cascade": ("cascade rivets.toml --single", "results/rivets/cascade.json"),
+    "causes": ("causes rivets.toml --order", "results/rivets/causes.json"),
     "identify": ("identify rig.toml", "results/rig/identify.html"),
     "compare": ("compare --long 0 --out results/compare.png", None),
 }
@@ -151,10 +141,10 @@ def test_report_and_spectrum(folder):
 
 @pytest.mark.slow
 def test_rivets_break_one_after_the_other(folder):
-    """The cascade of the restarted runs names two rivets, those of one simulation the same first one or a neighbour."""
-    found = json.loads(left_by(folder, "cascade").read_text(encoding="utf-8"))["rivets"]
-    assert len(found["order"]) == 2 and all(1 <= each["rivet"] <= 8 for each in found["order"])
-    assert found["single"]
+    """The order names two rivets of eight."""
+    found = json.loads(left_by(folder, "causes").read_text(encoding="utf-8"))["order"]
+    first, second = [state["rivet"] for state in found][:2]
+    assert 1 <= first <= 8 and 1 <= second <= 8 and first != second
 
 
 @pytest.mark.slow

@@ -69,7 +69,7 @@ WRONG = {
     "run demo --set shaft.omega=200krpm": ["shaft.omega = '200krpm'", "-143.239 ... 143.239 krpm"],
     "life none.toml": ["none.toml", "no such mission file"],
     "sensitivity none.toml": ["none.toml", "no such study file"],
-    "cascade none.toml": ["none.toml", "no such cascade file"],
+    "causes none.toml": ["none.toml", "no such file of findings"],
     "optimize none.toml": ["none.toml", "no such study file"],
     "identify none.toml": ["none.toml", "no such study file"],
     "dataset none.toml": ["none.toml", "no such dataset file"],

@@ -15,7 +15,7 @@ KINDS = {  # keys that only such a file has, and the command that reads it
     "sweep": (("vary", "sample", "repeats"), "riveted-bearing sweep {}"),
     "sensitivity study": (("morris", "sobol", "responses"), "riveted-bearing sensitivity {}"),
     "search for best values": (("objectives", "trials", "limits"), "riveted-bearing optimize {}"),
-    "cascade": (("breaks", "case"), "riveted-bearing cascade {}"),
+    "file of findings": (("broken", "measured", "marks", "loose", "missing"), "riveted-bearing causes {}"),
 }
 
 

@@ -16,7 +16,7 @@ __all__ = ["COMMANDS", "program"]
 
 COMMANDS = (
     "build",
-    "cascade",
+    "causes",
     "compare",
     "compare_designs",
     "cookbook",

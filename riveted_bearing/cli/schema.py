@@ -20,8 +20,8 @@ FILES = {  # kind of file: module and model
     "sn": "bearing.strength:StrengthFile",
     "sensitivity": "design.sensitivity:SensitivityFile",
     "optimize": "design.optimize:OptimizeFile",
-    "cascade": "design.cascade:CascadeFile",
     "identify": "identify.study:IdentifyFile",
+    "causes": "identify.findings:FindingsFile",
 }
 
 

@@ -96,7 +96,7 @@ def perform(scene, fmu, measure=None):
     return about | summary | sampled | (measure(result) if measure else {})
 
 
-def unpacked(fmu):
+def unpacked(fmu: bytes) -> Model:
     """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one Model a process."""
     from distributed import get_worker
 
@@ -187,7 +187,7 @@ def run_missing(sweep, store, client, progress, keys):
     # as a task, so that Dask makes it again if its workers die
     fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")
     futures = [
-        client.submit(perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}")
+        client.submit(sweep.perform or perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}")
         for key in keys
         if key not in finished
     ]

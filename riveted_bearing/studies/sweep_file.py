@@ -87,6 +87,7 @@ class Sweep:
     # further columns of a row: function of a run's Result that gives them by name, and function that gives their fields
     further: tuple = ()
     grows: bool = False  # whether further runs may join the design: rows that do not belong to it are kept
+    perform: Any = None  # what a worker does with a scene and the FMU as bytes; default: a run and its row
 
 
 def load_sweep(path: str | Path, model: Model) -> Sweep:

@@ -1,0 +1,87 @@
+"""riveted-bearing causes: from broken rivets to ranked causes."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.markup import escape
+from rich.table import Column, Table
+
+from ..base.files import make_folder
+from ..base.toml_files import read_toml
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+
+
+@command
+def causes(
+    findings: Annotated[
+        Path,
+        typer.Argument(
+            help="findings (TOML): broken rivets, hours, marks; see docs/failure.md", metavar="FINDINGS.toml"
+        ),
+    ],
+    order: Annotated[
+        bool, typer.Option("--order", help="what breaks next, from the broken rivets on, and no causes")
+    ] = False,
+    fmu: FMU = None,
+    out: Annotated[
+        Path | None, typer.Option(help="folder of runs, causes.json and page; default: results/FINDINGS")
+    ] = None,
+    scheduler: SCHEDULER = None,
+    workers: WORKERS = None,
+):
+    """Why did it break? Causes ranked by broken rivets, marks, hours and measurements, and what to inspect next; a second
+    call does only missing runs.
+    """
+    from ..base.errors import UserError
+    from ..identify.causes_page import ORDER, RANKED, order_rows, ranked_rows, verdict, write_json, write_page
+    from ..identify.findings import plan_causes
+    from ..identify.order import bench_of, run_order
+    from ..identify.pool import mission_scene, run_pool
+    from ..identify.posterior import answer, predictions
+    from ..running.fmu import Model
+
+    if not findings.is_file():
+        raise UserError(f"{findings}: no such file of findings")
+    model, document = Model(fmu), read_toml(findings)
+    scene = mission_scene(findings, document, model)
+    study = plan_causes(findings, document, model, scene)
+    folder = out or Path("results") / findings.stem
+    said, pool, states = None, [], None
+    if order and study.findings.gone is None:
+        raise UserError(f"{findings}: broken: --order needs the numbers of the broken rivets")
+    if not order and not study.findings.broken:
+        raise UserError(f"{findings}: broken: no rivet is broken; --order tells which one breaks first")
+    with design_runs(findings.stem, folder, scheduler, workers) as (client, progress):
+        make_folder(folder)
+        bench = bench_of(findings, document, model, folder / "order", client, progress)
+        if order:
+            within = study.file.within if "within" in document else float("inf")
+            states = run_order(bench, study.Z, study.file.breaks, study.findings.gone, within)
+        else:
+            samples = run_pool(study, model, document, folder, client, progress)
+            pool = predictions(samples, study, model, scene)
+            said = answer(study, pool, study.file.seed)
+    basis = list(bench.basis())
+    print_basis(basis)
+    if said is not None:
+        print_table(RANKED, ranked_rows(said)[:10])
+        console.print(escape(verdict(said)), soft_wrap=True)
+        best = [f"{name} ({bits:.2f} bits)" for name, _, bits in said.inspections[:3]]
+        console.print(f"inspect next: {escape(', '.join(best))}", soft_wrap=True)
+    if states:
+        print_table(ORDER, order_rows(states))
+        console.print(f"end: {states[-1].end}", soft_wrap=True)
+    for label, path in (
+        ("results", write_json(study, said, pool, states, basis, folder / "causes.json")),
+        ("page", write_page(study, said, pool, states, basis, folder / "causes.html")),
+    ):
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+
+
+def print_table(heads, rows):
+    """A table of texts."""
+    table = Table(heads[0], *(Column(head) for head in heads[1:]), box=None, pad_edge=False)
+    for row in rows:
+        table.add_row(*map(escape, row))
+    console.print(table)
