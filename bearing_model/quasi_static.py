@@ -300,7 +300,7 @@ class QuasiStatic:
 
 
 def admit(owner, obj, name, test, allowed):
-    """Raise ValueError that names owner.name, its value and what is allowed, unless it is a finite number that passes
+    """Raise ValueError that names owner.name, its value and the allowed range, unless it is a finite number that passes
     the test.
     """
     value = getattr(obj, name)

@@ -75,7 +75,7 @@ typedef struct {
     ball_array pull, push;
     scalar dissipated;  // by their damping [W]
 
-    // what bonded joints of halves that bend would carry in the plane (r, t) [N]
+    // loads of bonded joints between halves that bend, in the plane (r, t) [N]
     ball_array bonded_V[2];
 
     // joints that open: (N, M_r, M_t) of the joint and (T, m_r, m_t) of its rivet, force between the plates

@@ -122,7 +122,7 @@ static Squeeze squeeze_of(const Work *w, int h)
     return of;
 }
 
-// The convex sum along V + s x: velocities of the points, its slope without the bent film at s = 0 and what that rises by with s.
+// The convex sum along V + s x: velocities of the points, its slope without the bent film at s = 0 and the derivative of that slope by s.
 typedef struct {
     wide W[BENT_PACKETS], w[BENT_PACKETS];
     double slope, rise;
@@ -145,7 +145,7 @@ static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const doubl
     }
 }
 
-// Slope at s and what it rises by.
+// Slope at s and its derivative by s.
 static void slope_at(const Squeeze *of, const SqueezeLine *line, double s, double slope[2])
 {
     wide sum[EIGHTHS][2];
@@ -210,7 +210,7 @@ static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const d
     return wide_eight_sum(sum);
 }
 
-// What a step of Newton's method has come to.
+// Outcome of a step of Newton's method.
 typedef enum { GOES_ON, DONE, LOST } SqueezeEnd;  // LOST: the step has left the model's range
 
 // One step from V by the law there, whose force it takes along; `shorten`: as long as the sum falls.

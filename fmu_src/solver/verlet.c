@@ -98,7 +98,7 @@ static void correct_positions(const Model *model, double gamma, const double *de
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
 }
 
-// The right-hand side with what moves beside the state: a housing on springs, whose acceleration it sets, and the turn of
+// The right-hand side with the motions beside the state: a housing on springs, whose acceleration it sets, and the turn of
 // balls with spalls, whose rates it sets.
 static __attribute__((noinline)) void rhs_beside(const Model *model, double t, VerletState *now, Work *w)
 {

@@ -45,13 +45,13 @@ void pocket_films_follow(const Model *model, double t, double d, double *v,
                          double halves[2 * RELATIVE_MOTIONS], double pushed[2 * RELATIVE_MOTIONS],
                          PocketFilmsStep *step);
 
-// Adds to accelerations of the modes and of the halves what the films have changed by since the step's start.
+// Adds to accelerations of the modes and of the halves the part by the change of the films' forces since the step's start.
 #define pocket_films_foreseen FOR_ISA(pocket_films_foreseen)
 void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
                            double halves[2 * RELATIVE_MOTIONS]);
 
-// At the step's end y, w, behind the evaluation: takes from the rates f and the pockets' forces what the films there have too much at the
-// predicted velocities, and returns the power that this saves [W].  step: those that followed in substeps, NULL without.
+// At the step's end y, w, behind the evaluation: takes the excess of the films' forces at the predicted velocities from the rates f and
+// the pockets' forces, and returns the power that this saves [W].  step: films that followed in substeps, NULL without.
 #define pocket_films_arrive FOR_ISA(pocket_films_arrive)
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
                            const PocketFilms *before, const double *y, Work *w, double *f,

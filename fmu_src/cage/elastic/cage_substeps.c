@@ -35,9 +35,9 @@
 // substeps too: sampled at the ends of the steps and held, it would feed vibrations that turn by more than a
 // little, by 120/s at 12,000 r/min.
 //
-// The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
-// end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  What they and the modes' damping dissipate is
-// summed over the substeps.  docs/method.md has the measured reasons.
+// The friction states follow the joints' motion and are mapped back onto those that friction bears under the loads at the
+// end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  The energy that the slip and the modes' damping
+// dissipate is summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
 #include "cage/common/cage_joint.h"

@@ -23,7 +23,7 @@ typedef struct {
     double now[2][RIM];                  // forces in the present substep
     double begun[2][RIM];                // velocities of the shapes at the start
     double acceleration[2][2],
-        by_film[2][2];       // of the lands along their half's axes by slow forces; what films change of them
+        by_film[2][2];       // of the lands along their half's axes by slow forces; their change by films
     double impulse[2][RIM];  // so far
 } RimFilmsStep;
 
