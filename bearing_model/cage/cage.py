@@ -319,7 +319,7 @@ def cage_widened(w):
 
 
 def cage_widening(w, frame_omega_dot):
-    """Its rate [W]."""
+    """Rate of cage_widened [W]."""
     J, J_dot = sum(w.cage.elastic.more_J), sum(w.cage.elastic.more_J_dot)
     return w.frame_omega * (0.5 * J_dot * w.frame_omega + J * frame_omega_dot)
 

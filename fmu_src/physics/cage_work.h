@@ -89,7 +89,7 @@ typedef struct {
     mode_array shape[2][Z];
 } FilmWork;
 
-// Those of the kind of cage that runs; the others are not written.
+// Results of the kind of cage that runs; those of the other kind are not written.
 typedef struct {
     FilmWork films;
     TwoHalfWork two_half;

@@ -139,7 +139,7 @@ INLINE LandMotion land_motion(const Rotor *h0, const Rotor *h1, wide x_land)
                         wide_pair(h0->Omega[0], h1->Omega[0])};
 }
 
-// The same against the outer ring's material, along its axes.
+// Position and velocity of the lands' middles against the outer ring's material, along its axes.
 INLINE LandMotion land_motion_against(const Rotor *outer, const Rotor *h0, const Rotor *h1, wide x_land)
 {
     const Rotor *half[2] = {h0, h1};

@@ -40,7 +40,7 @@ static inline void housing_reaction(const Work *w, scalar F[3], scalar M[3])
     }
 }
 
-// The same about the outer ring's centre.
+// Force and moment on the housing, the moment about the outer ring's centre.
 static inline void housing_wrench(const Model *model, const Work *w, scalar F[3], scalar M[3])
 {
     const scalar *x = model->ring_load->outer_x;

@@ -124,7 +124,7 @@ static void rhs_now(const Model *model, double t, VerletState *now, Work *w)
         rhs(model, t, now->y, now->f, w);
 }
 
-// Where the housing is at the end of the step, with predicted velocities.
+// Place of the housing at the end of the step, with predicted velocities.
 static void housing_predict(double h, const Housing *from, Housing *to)
 {
     for (int i = 0; i < HOUSING_DOF; i++) {
@@ -135,7 +135,7 @@ static void housing_predict(double h, const Housing *from, Housing *to)
     }
 }
 
-// Its velocities there: the trapezoidal rule.
+// Velocities of the housing at the end of the step, by the trapezoidal rule.
 static void housing_correct(double gamma, const Housing *from, Housing *to)
 {
     for (int i = 0; i < HOUSING_DOF; i++) to->v[i] = from->v[i] + gamma * (from->a[i] + to->a[i]);

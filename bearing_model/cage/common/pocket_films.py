@@ -49,7 +49,7 @@ RIGID = np.zeros((3, Z, 0))  # motions of a rigid wall by no mode
 
 @dataclass
 class PocketFilms:
-    """Those of both halves at an evaluation: D, u, F [2, Z], m [2, 3, Z], shape [2, Z, n]; the largest D over the mass of its wall at the end
+    """Films of both halves at an evaluation: D, u, F [2, Z], m [2, 3, Z], shape [2, Z, n]; the largest D over the mass of its wall at the end
     of a step, over the least mass of any wall where lands guide the cage [1/s]."""
 
     D: np.ndarray = field(default_factory=lambda: np.zeros((2, Z)))
@@ -132,7 +132,7 @@ class PocketFilmsStep:
         return film.impulse / self.middle - film.F_0
 
     def accelerations(self, n):
-        """Those of modes [2, n] and halves [6, 2] by the change of the films' forces up to the end."""
+        """Accelerations of modes [2, n] and halves [6, 2] by the change of the films' forces up to the end."""
         modes, rows = np.zeros((2, n)), np.zeros((6, 2))
         for film in self.films:
             more = self.foreseen(film) - film.F_0

@@ -82,7 +82,7 @@ def follow_places(before, now, joints, y):
 
 
 def slow_rates(model, f):
-    """Those of the modes [2, n]."""
+    """Slow rates of the modes [2, n]."""
     return np.array([f[MODE_S_DOT][: model.modes.n], f[MODE_D_DOT][: model.modes.n]])
 
 

@@ -20,7 +20,7 @@ typedef struct {
     double h;
 } StepFrom;
 
-// Its end, of which the cage sets its own rows: state, rates, their change over the step / its length, errors; residual of the
+// End of a step, of which the cage sets its own rows: state, rates, their change over the step / its length, errors; residual of the
 // velocities at the prediction and the change delta that the linear solve makes of it.  The rates are those of the evaluation on entry.
 typedef struct {
     double *y, *f, *jerk, *error, *residual, *delta;

@@ -15,7 +15,7 @@ typedef struct {
     double rate;
 } PocketFilms;
 
-// Those of a step that follow in the substeps.
+// Films that follow in the substeps of a step.
 typedef struct {
     int count, half[2 * Z], ball[2 * Z];
     double middle;                          // of the step [s]
@@ -32,7 +32,7 @@ typedef struct {
 #define pocket_films_split FOR_ISA(pocket_films_split)
 void pocket_films_split(const Model *model, const Work *w, PocketFilms *films);
 
-// Those of a step of length h under the rates f.  state: velocities in the middle of the step; y: positions at its end; w:
+// Finds the films of a step of length h under the rates f.  state: velocities in the middle of the step; y: positions at its end; w:
 // kinematics of the halves in the middle.
 #define pocket_films_find FOR_ISA(pocket_films_find)
 void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,

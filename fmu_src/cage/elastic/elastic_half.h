@@ -170,7 +170,7 @@ typedef struct {
 #define ribbon_alike FOR_ISA(ribbon_alike)
 void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike);
 
-// Their motion (x, r, t) at the place of a lane, on the side t < 0 (back) or t > 0 of a pocket.
+// Motion (x, r, t) by these coordinates at the place of a lane, on the side t < 0 (back) or t > 0 of a pocket.
 #define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
 void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes, int lane,
                        const RibbonAlike *alike, scalar u[3]);
@@ -234,7 +234,7 @@ INLINE scalar elastic_sum(const scalar *x, const scalar *y)
     return wide_eight_sum(part);
 }
 
-// The same with constants.
+// Sum over the modes as elastic_sum, with constants x.
 INLINE scalar elastic_dot(const double *x, const scalar *y)
 {
     wide part[EIGHTHS];

@@ -33,7 +33,7 @@ typedef struct {
     ball_array load[3], move[3], rivet[3];
 } Answers;
 
-// Those by to->load; a broken joint carries nothing.
+// Moves and rivet loads by the loads to->load; a broken joint carries nothing.
 static void answer(const Derived *d, const ball_array P, Answers *to)
 {
     const JointLaw *law = &rivet_table.half.law;

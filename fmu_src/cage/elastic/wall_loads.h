@@ -23,7 +23,7 @@ typedef struct {
     mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
 
-// Those of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
+// Finds the loads of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
 // end, coordinates of the modes at its start; w: kinematics of the halves in the middle.
 #define wall_loads_find FOR_ISA(wall_loads_find)
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,

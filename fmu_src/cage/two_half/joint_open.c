@@ -49,7 +49,7 @@ INLINE void want(Wanted *wanted, int k, int mask)
         if (mask & 1 && k < Z) wanted->joint[wanted->count++] = k;
 }
 
-// The same where all joints move alike.
+// Loads L_0 where all joints move alike: the bonded loads less those that the moves of the other joints relieve.
 static void find_trial_uniform(const JointLaw *law, ball_array bonded[3], const scalar at[UNIFORM_WIDTH],
                                wide trial[PACKETS][3])
 {
