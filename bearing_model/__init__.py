@@ -1,4 +1,4 @@
-"""The bearing in Python: reference of the C core, quasi-static equilibrium, and the readers of what both need.
+"""The bearing in Python: reference of the C core, quasi-static equilibrium, and the readers of the data that both need.
 
     from bearing_model import Bearing, Load, Model, Parameters, simulate
     from bearing_model.quasi_static import quasi_static

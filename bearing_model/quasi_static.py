@@ -300,7 +300,7 @@ class QuasiStatic:
 
 
 def admit(owner, obj, name, test, allowed):
-    """Raise ValueError that names owner.name, its value and what is allowed, unless it is a finite number that passes
+    """Raise ValueError that names owner.name, its value and the allowed range, unless it is a finite number that passes
     the test.
     """
     value = getattr(obj, name)
@@ -496,7 +496,7 @@ class Potential:
 
 
 class LinearPotential(Potential):
-    """The same with the displacements of the inner groove linear in the ring's coordinates.  ISO/TS 16281:2008, 4.2;
+    """The potential with the displacements of the inner groove linear in the ring's coordinates.  ISO/TS 16281:2008, 4.2;
     its psi is any tilt here.
 
     Seen from the ball j in its half-plane the groove centre moves by  x - d_m/2 (tilt_z cos psi_j - tilt_y sin psi_j)  along the bearing's axis and by

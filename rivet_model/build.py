@@ -85,7 +85,7 @@ def made_half(elastic, alone, progress=lambda done, total: None):
 
 
 def made_modes(elastic, alone, cage, count, progress=lambda done, total: None):
-    """HalfModes of a condensed half and what the header says of their error; cage: HalfData."""
+    """HalfModes of a condensed half and the header's entries on their error; cage: HalfData."""
     modes, found = half_modes.half_modes(elastic, alone, count, progress)
     inertia = half_shape.Inertia(cage.m, cage.x_c, cage.J_p, cage.J_t)
     return half_modes.with_law(modes, alone), impacts.modes_error(elastic.g, inertia, modes, found)

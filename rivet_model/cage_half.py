@@ -1,7 +1,7 @@
-"""Elastic cage half: one pitch by solid finite elements, condensed to what loads it, repeated Z times (cyclic symmetry,
+"""Elastic cage half: one pitch by solid finite elements, condensed to its loads, repeated Z times (cyclic symmetry,
 waves m = 0...Z-1).
 
-A load pattern is a set of nodal loads on one pitch; what the half does under it is measured by the patterns themselves
+A load pattern is a set of nodal loads on one pitch; the response of the half is measured by the patterns themselves
 (work), so the compliance between patterns is symmetric.  In the frames of the pitches a load on pitch 0 is the sum of
 all waves exp(2 pi i m k/Z)/Z, and each wave meets itself at the cuts through the webs: u(far) = turn(2 pi/Z) exp(2 pi i
 m/Z) u(near).  Inside, the pitch is eliminated once:
@@ -161,7 +161,7 @@ class CyclicSolid:
         """Rigid motions of wave m that held patterns prevent, freed of those that stay free (orthogonal to them over
         the mass): [6, count].
 
-        A load does work on them with what inertia takes of it along the free ones already counted.
+        The work of a load on them already counts the part of the load that inertia balances along the free ones.
         """
         rigid, chosen = self._rigid(m), motions.get(m, [])
         held, free = rigid[:, chosen], np.delete(rigid, chosen, axis=1)
@@ -175,7 +175,7 @@ class CyclicSolid:
 
         motions: wave -> which of its two rigid motions they prevent; inertia balances the other, which does not move
         them. Returns by waves: stiffness of the held patterns [waves, rows, rows]; their reactions to all patterns
-        [waves, rows, patterns], as loads that the half gives to what holds it; compliance of all patterns [waves,
+        [waves, rows, patterns], as loads of the half on its supports; compliance of all patterns [waves,
         patterns, patterns].
         """
         K, R, G = [], [], []

@@ -1,4 +1,4 @@
-"""One cage half as a solid: its mesh; half_shape.py has its mass, its inertia and the limits of what can be built.
+"""One cage half as a solid: its mesh; half_shape.py has its mass, its inertia and the limits of its shape.
 
     x ^   pocket 0            bar, rivet             pocket 1         A pitch of the half, from pocket to pocket, seen from outside.
       |   ______________________________________________

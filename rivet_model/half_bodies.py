@@ -1,4 +1,4 @@
-"""What both shapes of a cage half share: how limits are stated, inertia, and the bodies of revolution about the rivets."""
+"""Parts common to both shapes of a cage half: statement of limits, inertia, and the bodies of revolution about the rivets."""
 
 import math
 from collections.abc import Callable
@@ -10,8 +10,8 @@ LEAST_WALL = 0.2e-3  # m of metal around the seat or the head: assumed, the leas
 
 
 class Limit(NamedTuple):
-    """margin(g) >= 0 must hold [m]; keys: the values that it is about, the one to blame first; reason: what would be
-    impossible.
+    """margin(g) >= 0 must hold [m]; keys: the values that it is about, the one to blame first; reason: the feature
+    that would be impossible.
     """
 
     keys: tuple

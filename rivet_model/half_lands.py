@@ -1,4 +1,4 @@
-"""What a film on the guiding land does to a half: radial motion of its rim there, by modes and by static loads.
+"""Response of a half to a film on its guiding land: radial motion of its rim there, by modes and by static loads.
 
 The film's pressure on the outer rim is a radial line load at the land's middle x, P(theta) [N/rad], outward.  Both it
 and the motion w(theta) of the rim there are kept as harmonics.  Those of wave n of a ring of Z pitches are

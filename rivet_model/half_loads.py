@@ -1,9 +1,9 @@
-"""What bonded joints carry, by the elastic half: pocket forces over the wall's angle, centrifugal load; and the numbers
+"""Loads of bonded joints by the elastic half: pocket forces over the wall's angle, centrifugal load; and the numbers
 of the joint's law.
 
 Rows of a joint's loads (on the +x half, frame (x, r, t) at the rivet):
 
-    N, V_r, V_t, M_r, M_t   of the joint whose pads do not move: N, M of what holds the pads along x, V of what holds them in the plane
+    N, V_r, V_t, M_r, M_t   of the joint whose pads do not move: N, M of the supports that hold the pads along x, V of those in the plane
     dP, dm_r, dm_t          of its rivet: the seat's bottom gives under a load nearby, though the pad does not move; dP is the change of preload that
                             would shift the head as much, dm the bending moment of the shank
 
@@ -51,7 +51,7 @@ class JointAlone:
         )
         B = np.linalg.inv(own)  # of the pad's hats alone
         B = 0.5 * (B + B.T)
-        self.B_ph = B @ to_head  # hats by the head: what the held pad gives back undoes it
+        self.B_ph = B @ to_head  # hats by the head: the reaction of the held pad undoes it
         self.rivet = rivet or rivet_compliance(elastic.g)
         c_rivet = np.diag(np.array(self.rivet)[[0, 1, 1]])
         self.clamped = 0.5 * (clamped + clamped.T) + c_rivet  # of the head with its rivet, the pad held
@@ -169,7 +169,7 @@ def bolt_group(d_m, wrench, c, s):
 
 def rigid_rows(elastic, place):
     """N, V_r, V_t [3, Z, 3] of rigid halves per unit force (x, r, t) at a place (x, r, t) of pocket 0; inertia balances
-    what joints leave free.
+    the part of the load along motions that joints leave free.
     """
     Z, I = elastic.Z, rigid_inertia(elastic)
     angle = 2 * np.pi * (np.arange(Z) + 0.5) / Z
@@ -222,8 +222,8 @@ def law_length(g):
 
 
 def law_coefficients(knots, width, length, answer):
-    """Coefficients [tau, q, psi, width] of splines through answer(load, P, near) = (values, what helps with the next
-    tau), per newton.
+    """Coefficients [tau, q, psi, width] of splines through answer(load, P, near) = (values, starting point for the
+    next tau), per newton.
     """
     sites = [splines.sites(knots[name]) for name in AXES]
     values = np.zeros((*(len(s) for s in sites), width))

@@ -67,7 +67,7 @@ class Places:
         pad[p.pad, 0], pad[p.pad, 4], pad[p.pad, 5] = spread.T
         pad[p.plane, 1:3] = np.eye(2)
         pad[p.twist, 3] = 1.0
-        # the head against its pad, the pad's own bending taken back; then what the rivet makes of it
+        # the head against its pad, the pad's own bending taken back; then the rivet's loads by this shift
         shift = np.zeros((patterns, 3))
         shift[head] = np.eye(3)
         bent = alone.own @ alone.B_ph
@@ -255,8 +255,8 @@ def half_modes(elastic, alone, count, progress=lambda done, total: None):
 
 
 def with_law(modes, alone):
-    """HalfModes with the law of their joints around the stiffness that they leave, and what of the land's film they leave
-    to the joints; alone: JointAlone.
+    """HalfModes with the law of their joints around the residual stiffness, and with the residual motions of the joints by the
+    land's film; alone: JointAlone.
     """
     R = joint_residual(modes)
     # the other elements are 0: mirroring in the rivet's plane changes their sign
@@ -309,8 +309,8 @@ def wall_compliance(elastic, C, line=0):
     """Compliance [nodes] along the normal under the contact, without the indentation of the half-space that Hertz's
     formula counts.
 
-    C [nodes, 3, nodes, 3]: of the wall at the nodes of one radius, the `line`-th.  Indentation is what a point load
-    does to the half-space at a distance s, (1 - nu^2)/(pi E s); the rest of the compliance between two places varies
+    C [nodes, 3, nodes, 3]: of the wall at the nodes of one radius, the `line`-th.  Indentation is the displacement
+    of the half-space by a unit load at a distance s, (1 - nu^2)/(pi E s); the rest of the compliance between two places varies
     slowly, so that of the neighbours on both sides of a node stands for its own (of the ends: the nearest one's).
     """
     g, (chi, radii) = elastic.g, half_loads.places(elastic.g)

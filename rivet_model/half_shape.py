@@ -1,4 +1,4 @@
-"""Shape of one cage half in closed form: what can be built, mass, place of the centre of mass, moments of inertia.
+"""Shape of one cage half in closed form: limits, mass, place of the centre of mass, moments of inertia.
 
 The machined half, of which half.py has sketch and mesh; limits_of, check_half and half_inertia are the doors of both
 shapes, the other one is ribbon_shape.py.
@@ -44,7 +44,7 @@ def narrowest_half_bar(g):
 
 
 def pad_half_length(g):
-    """Half length of a pad along the circle [m]: patch_radius, or what the bar has room for."""
+    """Half length of a pad along the circle [m]: patch_radius, or less if the bar has no room for it."""
     return min(g.patch_radius, narrowest_half_bar(g) - 0.5 * LEAST_WALL)
 
 

@@ -1,4 +1,4 @@
-"""What bonded joints carry over time if balls hit the pockets, by the modes of both halves: the error that a number of
+"""Loads of bonded joints over time if balls hit the pockets, by the modes of both halves: the error that a number of
 modes has.
 
 Impacts are those of Hertz's law, F = peak sin(pi t/duration)^1.5, along the normal of the wall at an angle from the
@@ -7,7 +7,7 @@ the loads of both halves, each half of it, moves the halves as mirror images, wh
 difference moves them against each other, which gives V_r, V_t.
 
 Transfer functions from the pockets to the joints at complex frequencies s, then Laplace's inversion by FFT on the line
-s = sigma + i omega, sigma PERIOD = 6: what the next period would add is e^-6 of it.  Frequencies end smoothly between
+s = sigma + i omega, sigma PERIOD = 6: the next period adds e^-6 of its values.  Frequencies end smoothly between
 BAND[0] and BAND[1].  The stiffness is (1 + DAMPING s) K.
 """
 

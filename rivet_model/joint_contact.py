@@ -93,8 +93,8 @@ class JointContact:
         self.e = self._shortening()
 
     def _rigid(self):
-        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3], what
-        inertia takes of it left out.
+        """Work of the patterns on (motion along x, rotations about y, z of the whole half) [Z, patterns, 3],
+        without the part that inertia balances.
 
         Joints that are all alike: on the motion along x alone [1, patterns, 1].
         """

@@ -46,7 +46,7 @@ def spin_tension(elastic, alone, speeds):
 def spin_preload(half, elastic, alone):
     """Spin row [8] with its dP, and S [STEPS]."""
 
-    # per newton of preload: what the law needs to carry the direct tension
+    # per newton of preload: the preload at which the law's tension is the direct one
     def needed(square, T):
         c = np.abs(half.spin[4]) * square / half.law.length
         return brentq(lambda P: half.law.uniform.at(c, P)[1][3] - T, 1e-6 * T, 2.0 * T + 1.0)

@@ -356,8 +356,8 @@ class Joint:
         """Shortening of the rivet between its heads [m] and tilt of one head against the other [rad] that give the
         shank the tension T and the moment m.
 
-        The plates stay closed and carry the rest, so this is the rivet of any joint: what opens the plates is not
-        asked.
+        The plates stay closed and carry the rest, so this is the rivet of any joint, whatever load opens its
+        plates.
         """
         if not hasattr(self, "_shank"):
             contact, member = self.problems["plane"]

@@ -39,7 +39,7 @@ class Curve:
     label: str
     unit: str
     scale: float  # x in `unit` / x in SI
-    loads: str  # what is held, with units
+    loads: str  # loads that are held, with units
     figure: str  # of the paper that shows the same, "" if none does
     kind: str  # of the material at the bore, "" if it makes no difference
     x: np.ndarray
@@ -49,7 +49,7 @@ class Curve:
 
     @property
     def title(self):
-        """What the curve shows, under which loads, and where the paper shows it."""
+        """Quantity of the curve, its loads, and its place in the paper."""
         return f"Stress over {self.label}{self.kind and f', {self.kind}'}: {self.loads}{self.source}"
 
     @property
@@ -394,7 +394,7 @@ def plot_modes(g, count=8, largest=2.5e-3):
     """Figure: the first shapes in which a free cage half vibrates, one of each pair, by coarse elements without the
     rivets' mass (2 % off in frequency).
 
-    largest: what the largest displacement of each shape is drawn as [m].
+    largest: length as which the largest displacement of each shape is drawn [m].
     """
     from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection

@@ -108,7 +108,7 @@ def sample(joint, knots, workers=2, progress=None):
 
 @dataclass(frozen=True)
 class Load:
-    """What the shank carries at one load of the hold-out set [N, N.m, m]; direction: angle of m to the axis across V
+    """Loads of the shank in one case of the hold-out set [N, N.m, m]; direction: angle of m to the axis across V
     [rad], 0 bends in the plane of V.
     """
 

@@ -42,7 +42,7 @@ def head_friction(joint, P=REFERENCE, F=2.0):
     [1/m2]: p1, von Mises.
 
     Uniform tractions drag the upper head by +F along x and the lower one by -F; bores open; the couple is balanced by
-    the heads' pressures. The slip of the halves is what keeps heads and flanges together: 2 t q_4 - t q_9 + elastic
+    the heads' pressures. The slip of the halves keeps heads and flanges together: 2 t q_4 - t q_9 + elastic
     displacements.
     """
     g, rivet, flange = joint.geometry, joint.rivet, joint.flange

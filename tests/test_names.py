@@ -59,12 +59,13 @@ WORD = re.compile(r"(?<![\w.\\^{$/-])[A-Za-z]\w*[a-z]_[a-z]\w+(?![\w/*{-])")
 VARIABLE = re.compile(r"([a-z]+(?:\[\w+\])?\.[A-Za-z]\w*)(?: = .*)?")
 NAMES = variables.PARAMETERS | variables.INPUTS | variables.OUTPUTS | variables.LOCALS
 GROUPS = {name.partition(".")[0].partition("[")[0] for name in NAMES}
-COMMENTED = sorted(
-    path
-    for folder in ("fmu_src", "bearing_model")
-    for path in (ROOT / folder).rglob("*.[chp]*")
-    if "generated" not in path.parts and path.suffix in (".c", ".h", ".py")
-)
+WHAT = 0.5  # times the noun may stand in 1,000 words of a folder's comments; observed 0
+
+
+def sources(folder):
+    """Files of a folder whose comments are read."""
+    files = (path for path in (ROOT / folder).rglob("*.*") if path.suffix in (".c", ".h", ".py"))
+    return sorted(path for path in files if "generated" not in path.parts)
 
 
 @cache
@@ -129,10 +130,21 @@ def test_names_of_a_page(page):
     assert not missing
 
 
-@pytest.mark.parametrize("path", COMMENTED, ids=lambda path: path.relative_to(ROOT).as_posix())
+@pytest.mark.parametrize(
+    "path", [*sources("fmu_src"), *sources("bearing_model")], ids=lambda path: path.relative_to(ROOT).as_posix()
+)
 def test_names_in_comments(path):
     comments = parted(path)[1]
     assert not missing_files(comments) | missing_words(comments)
+
+
+@pytest.mark.parametrize("folder", ["fmu_src", "bearing_model", "rivet_model"])
+def test_what_is_no_noun_in_comments(folder):
+    """The thing has its name: "what is left" is "the rest"."""
+    lines = [line for path in sources(folder) for line in parted(path)[1].split("\n")]
+    found = [line.strip() for line in lines for _ in re.findall(r"\bwhat\b", line, re.I)]
+    count = sum(len(line.split()) for line in lines)
+    assert count > 10_000 and len(found) <= WHAT * count / 1000, f"{len(found)} in {count} words\n" + "\n".join(found)
 
 
 def test_a_name_that_is_gone_is_found():

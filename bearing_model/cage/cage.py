@@ -210,7 +210,7 @@ def cage_end(model, step, start, end, error, w):
 
 def cage_slide(model, before, y, w):
     """Maps the friction states back at the end y of a step of another method, whose evaluation is w and whose start is `before`;
-    changes y.  Returns what the slip dissipates, and normal force times slip of each joint [Z] [J].
+    changes y.  Returns the energy that the slip dissipates, and normal force times slip of each joint [Z] [J].
     """
     joints = JointStep(np.array([before[row] for row in STATES]))
     lost = (elastic_slide if model.modes else two_half_slide)(model, w, y, joints)
@@ -312,26 +312,26 @@ def cage_energy(model, y, w):
 
 
 def cage_widened(w):
-    """What the centrifugal load of a turning frame has done as it widened the halves [J].  Of the modes' powers this one
+    """Work of a turning frame's centrifugal load, which has widened the halves [J].  Of the modes' powers this one
     counts as a potential, because modes turn by much more than pi in a step.
     """
     return 0.5 * sum(w.cage.elastic.more_J) * w.frame_omega**2
 
 
 def cage_widening(w, frame_omega_dot):
-    """Its rate [W]."""
+    """Rate of cage_widened [W]."""
     J, J_dot = sum(w.cage.elastic.more_J), sum(w.cage.elastic.more_J_dot)
     return w.frame_omega * (0.5 * J_dot * w.frame_omega + J * frame_omega_dot)
 
 
 def cage_drawn(w, frame_omega_dot):
-    """Power that the frame's rate draws from what the widened halves have gained of inertia [W]."""
+    """Power that the frame's angular acceleration draws from the moment of inertia that the halves have gained by widening [W]."""
     gained = zip(w.cage.elastic.more_J, w.half, strict=True)
     return sum(more_J * frame_omega_dot * (half.s + w.frame_omega) for more_J, half in gained)
 
 
 def cage_losses(model, w):
-    """Powers that the damping of joints and modes dissipates [W] by name, each [..., 1].  What friction loses is no function
+    """Powers that the damping of joints and modes dissipates [W] by name, each [..., 1].  The loss by friction is no function
     of a state: it is the work of a step's slip (cage_slide).
     """
     return {"modes": w.cage.elastic.dissipated} if model.modes else {"joints": w.cage.two_half.dissipated}

@@ -1,7 +1,7 @@
 """Energy of balls, cage halves and everything elastic between them and the rings.
 
     contacts  (2/5) K delta^2.5, of races that are not perfect as in race_surface.py; in pockets shared between the halves as in pocket.py
-    cage      halves, pockets, joints and modes (cage.py), less what a turning frame's centrifugal load has done (cage_widened)
+    cage      halves, pockets, joints and modes (cage.py), less the work of a turning frame's centrifugal load (cage_widened)
 
 The rings are outside this balance: their motions put the power -F.v - M.Omega into balls and cage, with F and M of
 contacts and films on the ring, and the inner ring's growth the power -K delta^1.5 n.e dR_g/dt (race_contact.py).  In a

@@ -1,4 +1,4 @@
-"""Events: what the model's laws do not cover, or what a user wants to know at once; counted from the results of one
+"""Events: conditions that the model's laws do not cover, or that a user wants to know at once; counted from the results of one
 evaluation.
 
 land contact   land of a half beyond the guide clearance: e > C                                            (land_film: dry contact)
@@ -6,7 +6,7 @@ pocket exit    centre of a ball outside the cage's section D_i/2 ... D_o/2: a re
 ellipse cut    |alpha| + a/R_m > arccos(1 - h D/r_g): the contact ellipse reaches over the shoulder         (race_contact: Hertz uncut)
 overpressure   p_max > bearing.p_limit at a race: permanent deformation, which Hertz' law does not know     ISO 76
 joint open     plates of a joint apart: u_x > P/k_plate
-energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained
+energy off     the energy's residual passes 2 % of the losses, or energy is gained instead of lost
 no clearance   speed, temperatures and fits leave a diametral clearance below 0: the bearing is preloaded
 
 The core also counts the onsets of events and reports them to the log, and finds rivets that yield from their peak

@@ -1,4 +1,4 @@
-"""Where the energy goes: what was supplied, stored and lost since the start, term by term.
+"""Where the energy goes: the energy supplied, stored and lost since the start, term by term.
 
     sum of supplied + sum of changed = change of energy + sum of lost
 
@@ -21,7 +21,7 @@ STEP = 1e-30  # of the complex step [s]
 
 
 def exchange_terms(model, w):
-    """What the shaft gives, by the output that has its mean over a communication step."""
+    """Torque and power of the shaft, by the output that has the mean of each over a communication step."""
     return {"bearing.friction_torque": friction_torque(w), "shaft.power": shaft_power(w)}
 
 
@@ -74,7 +74,7 @@ class Ledger:
             self.stored[name] = self.stored.get(name, 0.0) + energy[-1, 0] - energy[0, 0]
 
     def add_friction(self, lost):
-        """Add what the joints' friction has dissipated [J]."""
+        """Add the energy that the joints' friction has dissipated [J]."""
         self.lost["joints"] = self.lost.get("joints", 0.0) + lost
 
     def copy(self):

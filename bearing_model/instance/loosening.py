@@ -12,7 +12,7 @@ PRELOAD_SHARE = 1e-3
 
 @dataclass
 class Loosening:
-    """Preload lost by each rivet since the start, and what of it the constants have [N]."""
+    """Preload lost by each rivet since the start, and the part of it that the constants contain [N]."""
 
     loss: np.ndarray = field(default_factory=lambda: np.zeros(Z))
     in_force: np.ndarray = field(default_factory=lambda: np.zeros(Z))
@@ -32,8 +32,8 @@ class Loosening:
         return p
 
     def update(self, preload, P):
-        """Put the loss in force if that is worth it; returns whether it has been.  preload: joint.preload at temperature [N], P: what
-        each rivet has of it.
+        """Put the loss in force if it has grown enough; returns whether it has been.  preload: joint.preload at temperature [N], P:
+        preload of each rivet at present [N].
         """
         off = np.any((self.loss - self.in_force > PRELOAD_SHARE * preload) & (P > 0.0))
         if off:

@@ -236,7 +236,7 @@ def energy_outputs(model, y, w, energy_start, energy_change):
 
 def outputs(model, w, y, y_dot, energy_start, energy_change=0.0):
     """All outputs but peaks, statistics, fatigue, onsets and the solver's, at the states y.  energy_start: energy_total
-    at the start, energy_change: what changes of parameters have added since [J].
+    at the start, energy_change: energy that changes of parameters have added since [J].
     """
     values = {"bearing.Z": np.full(y.shape[:-1], float(Z))}
     values |= (

@@ -1,4 +1,4 @@
-"""Spalls on balls: the turn of a ball, and what a spall that meets a race does to ball and rings.
+"""Spalls on balls: the turn of a ball, and the forces on ball and rings while a spall meets a race.
 
            ___                     k      rolling axis of the ball, across t and across the mean of the normals
          /  |  \\  spall            chi    angle of the spall's middle from the outer contact about k

@@ -129,7 +129,7 @@ ROUGH = 1e-3  # part of a film's load on asperities whose friction counts
 
 
 def squeeze_slope(pressure, grid, by, free, V, step):
-    """Function of s: slope of the merit sum (V - free)^2/(2 by) + Psi(V), F = -dPsi/dV, at V + s step, and what it rises by with s."""
+    """Function of s: slope of the merit sum (V - free)^2/(2 by) + Psi(V), F = -dPsi/dV, at V + s step, and its derivative by s."""
     b, weight, _, gap = grid
     stiff = weight * pressure.kappa_C3 / pressure.C**3 / gap**3
     W, w, held = bent_dot(V, b), bent_dot(step, b), by > 0.0  # a shape that no mode has stays
@@ -194,9 +194,9 @@ def bent_foresee(p, pressure, by, before, film, rough):
 
 
 def bent_solve(p, pressure, gamma, by, residual, V):
-    """The implicit step of one land and its bent rim: velocities change by the residual [6] with the film's force at the
-    evaluation, and by times what the law has at the end beyond it.  pressure: of this half; by: change of the velocities per force [6];
-    V: squeeze velocities to begin with [6].
+    """The implicit step of one land and its bent rim: velocities change by the residual [6], which has the film's force at
+    the evaluation, and by `by` times the excess of the law's force at the end over that force.  pressure: of this half; by: change of the
+    velocities per force [6]; V: squeeze velocities to begin with [6].
 
     Returns squeeze velocities, their change, impulse of the film and its force [6], its rates [6, 6].
     """

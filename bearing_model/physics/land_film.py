@@ -167,7 +167,7 @@ def land_load(e, V, q2, force, dry):
 
 @dataclass
 class LandPressure:
-    """What decides the pressure on the rims of elastic halves, along their axes, [..., half]; vectors [i, ..., half]."""
+    """Variables of the pressure on the rims of elastic halves, along their axes, [..., half]; vectors [i, ..., half]."""
 
     e: np.ndarray  # eccentricity [m]
     V: np.ndarray  # pure squeeze velocity [m/s]
@@ -177,7 +177,7 @@ class LandPressure:
     rim: np.ndarray  # motion of the rim's shapes [m]
     rim_v: np.ndarray  # its velocity [m/s]
     rim_V: np.ndarray  # its squeeze velocity [m/s]
-    by_spin: np.ndarray  # what the squeeze velocities of land and rim gain by the spin [6, ..., half] [m]
+    by_spin: np.ndarray  # change of the squeeze velocities of land and rim per spin [6, ..., half] [m]
     bends: np.ndarray = None  # whether the bending of each rim counts in its film [half]
     at: np.ndarray = None  # squeeze velocities to which film and rates belong [6, ..., half] [m/s]
     film: np.ndarray = None  # force of the film on land and rim [6, ..., half] [N]
@@ -265,7 +265,7 @@ def bent_lands(model, w, pressure, back, motion, heated):
 
 
 def rim_squeeze(model, w, e, omega):
-    """Motion of both rims' shapes, its velocity and their squeeze velocities [4, ..., half]; what those of land and rim gain by the spin."""
+    """Motion of both rims' shapes, its velocity and their squeeze velocities [4, ..., half]; change of those of land and rim per spin."""
     rim, rim_v = (
         np.moveaxis(np.concatenate([q @ model.modes.rim for q in both], axis=-2), -1, 0)
         for both in (w.cage.elastic.q, w.cage.elastic.q_dot)
@@ -376,7 +376,7 @@ def land_film_force(model, w):
     film[land]: rates yy, yz, zz of its film, -dF/dv [N.s/m], and spin, -dM/domega [N.m.s], [..., 1] each, for the
     integrator's Jacobian.  pressure: LandPressure.  land: of rigid halves the
     harmonics of the loads on the rims, Re and Im G_p [..., half, p].  land_growth:
-    what growth adds to the elastic energy per change of the half's speed [J.s], [..., half].
+    elastic energy that growth adds per change of the half's speed [J.s], [..., half].
     """
     p, d = model.p, model.d
     if not d.guided:

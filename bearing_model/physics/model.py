@@ -38,7 +38,7 @@ class Work(SimpleNamespace):
 
 @dataclass
 class Model:
-    """What the right-hand side needs beside time and state: parameters, constants derived from them, loads and speed."""
+    """All that the right-hand side needs beside time and state: parameters, constants derived from them, loads and speed."""
 
     p: Parameters  # at the present temperatures (temperature.py)
     d: Derived

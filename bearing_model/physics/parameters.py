@@ -190,7 +190,7 @@ def check_limits(p, limits, where=""):
 
 
 def check_geometry(p):
-    """Refuse parameters that contradict each other: ValueError naming one of them, its value and what is allowed."""
+    """Refuse parameters that contradict each other: ValueError naming one of them, its value and the allowed range."""
     check_limits(in_force(p), [limit for limit in LIMITS if limit.at == "everywhere"])
     if p.cage.shape == variables.CageShape.RIBBON:
         squares = sum(sine**2 for sine in spheres_seams(p))

@@ -2,7 +2,7 @@
 losses.
 
 All forces on balls and cage together accelerate them; the outer ring carries the forces that the inner ring puts on
-balls and cage less the sum of what acts on them.  Gravity and the frame's inertia forces are not among these forces.
+balls and cage less the sum of the forces on them.  Gravity and the frame's inertia forces are not among these forces.
 """
 
 from bearing_model.cage.cage import cage_drawn, cage_losses
@@ -97,5 +97,5 @@ def supply_terms(model, w):
 
 
 def net_power(model, w):
-    """Net power into balls and cage [W], [..., 1]: by the rings' motions and the frame, less what is dissipated."""
+    """Net power into balls and cage [W], [..., 1]: by the rings' motions and the frame, less the dissipated power."""
     return sum(supply_terms(model, w).values()) - power_loss(model, w)

@@ -59,7 +59,7 @@ def perfect_contacts(model, w, R_g):
 
 
 def rough_contacts(model, w, R_g):
-    """The same where a race is not perfect or a ball has a spall; further the turn of the balls and their places on both
+    """Contacts where a race is not perfect or a ball has a spall; further the turn of the balls and their places on both
     races, None if no ball has one.
     """
     d, given, places = model.d, model.ring_load, []

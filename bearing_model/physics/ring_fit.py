@@ -32,7 +32,7 @@ class RingFit:
     growth: float  # by rotation with a loose shaft / omega^2 [m.s2]
     per_fit: float  # per radial interference of the tight shaft
     fit: float  # radial interference at standstill [m]
-    loosening: float  # what the rotation takes of it / omega^2 [m.s2]
+    loosening: float  # its loss by rotation / omega^2 [m.s2]
 
 
 @dataclass(frozen=True)

@@ -146,7 +146,7 @@ def pulse_next_edge(p, t):
 
 @dataclass(frozen=True)
 class MotionHistory:
-    """What was given so far: velocities at the begin of the last communication step, their mean rates over the step
+    """Motions that were given so far: velocities at the begin of the last communication step, their mean rates over the step
     before, the length of the last step.
     """
 
@@ -164,7 +164,7 @@ def velocities(given):
 
 
 def motion_remember(given, h, history=None):
-    """The history with what was given at the begin of a step of length h [s]."""
+    """The history with the motions that were given at the begin of a step of length h [s]."""
     return MotionHistory(velocities(given), history and history.rate(given), max(h, SHORTEST_MOTION))
 
 

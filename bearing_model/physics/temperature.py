@@ -84,7 +84,7 @@ def heat_cage(p, e_c, e_e, e_b, hot):
 
 
 def heat_fits(p, u, T_a, hot):
-    """Fits at temperature; what the housing takes from groove and land of the outer ring."""
+    """Fits at temperature; contraction of groove and land of the outer ring by the housing."""
     expansion = p.bearing.expansion
     hot.shaft.interference = p.shaft.interference + (p.shaft.expansion - expansion) * (
         u.ring.T_i - T_a
@@ -116,8 +116,8 @@ def temperature_apply(p, u, table):
 def check_temperatures(u, hot):
     """ValueError unless oil and bearing bear the temperatures in the Inputs u, at which the Parameters are `hot`.
 
-    Viscosity within its limits, cage neither on the outer ring nor on the balls, no interference beyond what parameters
-    may have.
+    Viscosity within its limits, cage neither on the outer ring nor on the balls, no interference beyond the limits of
+    the parameters.
     """
     names = ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")
     there = ", ".join(f"{name} = {value_of(u, name):g} K" for name in names) + ": there "

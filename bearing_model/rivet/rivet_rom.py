@@ -17,7 +17,7 @@ RIVET_YIELDS, FLANGE_YIELDS, RIVET_OUTSIDE = 1, 2, 8  # 4 meant a compressed joi
 
 @dataclass
 class RivetLoad:
-    """What rivets carry [N, N.m]: tension, transverse load and bending moment of the shank at the split (on the +x
+    """Loads of rivets [N, N.m]: tension, transverse load and bending moment of the shank at the split (on the +x
     half), head friction.
     """
 
@@ -46,7 +46,7 @@ class JointLoads:
 
     @property
     def rivet(self):
-        """What the stress table takes."""
+        """The loads of the rivet alone, which the stress table takes."""
         return RivetLoad(T=self.T, V_y=self.V_r, V_z=self.V_t, m_y=self.m_r, m_z=self.m_t, F_head=self.F_head)
 
 

@@ -2,7 +2,7 @@
 reference read it here.
 
 The file is JSON text.  Sections: `header` {format, kind (one of KINDS), note, geometry, geometry_hash, Z, units,
-errors, digest}, `shank` (knots and spline coefficients of the stress over what the shank carries, see
+errors, digest}, `shank` (knots and spline coefficients of the stress over the loads of the shank, see
 fmu_src/rivet/rivet_rom.h; constants of head friction and yield), `fit_eff` (interference with plasticity), `joint`
 (stiffnesses for the dynamics), `half` (the cage half: masses, load path and law of its joints, see half_path.py and
 joint_law.py), `modes` (its vibration, see half_modes.py; closed forms have none). Units in the file are SI except
@@ -35,7 +35,7 @@ JOINT_KEYS = ("A", "d_m", "d", "grip", "seat", "k_t_plate", "k_t_head", "k_stack
 
 @dataclass
 class ShankTable:
-    """Stress of the rivet over what its shank carries: sigma = s T(a, c, xi), s = tension + V, a = V/s, c = |m|/(length
+    """Stress of the rivet over the loads of its shank: sigma = s T(a, c, xi), s = tension + V, a = V/s, c = |m|/(length
     tension), xi = fit_eff/s.
     """
 
@@ -46,7 +46,7 @@ class ShankTable:
 
 @dataclass
 class HalfData:
-    """What the table holds of the elastic cage half: see half_path.py and joint_law.py."""
+    """Data of the elastic cage half in the table: see half_path.py and joint_law.py."""
 
     m: float  # mass of one half with its half of the rivets [kg]
     x_c: float  # place of its centre of mass [m]

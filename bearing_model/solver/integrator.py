@@ -49,7 +49,7 @@ FIRST_STEP = 1e-6  # [s]
 
 @dataclass
 class Results:
-    """What a simulation returns.
+    """Results of a simulation.
 
     t: communication points [s]; y: states there [points, N_STATES]; outputs: name of the variable table -> [points] or
     [points, Z]; statistics: stat.* and the damage of the rivets at the end; ledger: where the energy went, each term
@@ -205,15 +205,15 @@ def no_stress():
 
 
 class Integration:
-    """One run in progress: state, step size and what has been recorded."""
+    """One run in progress: state, step size and records."""
 
     def __init__(self, p, t, y, tolerance, method):
         self.p, self.t, self.y, self.tolerance, self.method = p, t, y, tolerance, method
         self.step_size, self.steps, self.rhs_evals = FIRST_STEP, 0, 0
 
     def segment(self, model, t_end):
-        """Accepted steps from here to t_end under one ring load: their times and states, without the start; what friction has
-        dissipated in all of them [J]; normal force times slip of the joints in each [steps, Z] [J].
+        """Accepted steps from here to t_end under one ring load: their times and states, without the start; energy that
+        friction has dissipated in all of them [J]; normal force times slip of the joints in each [steps, Z] [J].
         """
         rtol = 100.0 * np.finfo(float).eps  # the smallest that SciPy accepts: in effect only atol counts
         options = {"rtol": rtol, "atol": self.tolerance * model.d.scale}
@@ -244,9 +244,9 @@ class Integration:
         return np.array(times), np.array(states), lost, np.array(rubbed)
 
     def slide(self, model, solver):
-        """Maps the joints' friction states at the end of the solver's step back; what cage_slide returns, and the reason if the
-        step has led out of the bearing.  The rates there depend on what friction holds of them alone, so that those of the
-        solver stay.
+        """Maps the joints' friction states at the end of the solver's step back; returns the results of cage_slide, and the reason
+        if the step has led out of the bearing.  The rates there depend only on the part of the states that friction bears, so that
+        those of the solver stay.
         """
         w, y = Work(), solver.y.copy()
         rhs(model, solver.t, y, w)
@@ -396,8 +396,8 @@ def at_temperature(p, model, from_, u, run, table):
 
 
 def rederive(record, model, u, run, table, ledger):
-    """The Model with the parameters in force and the rivets that hold, at the temperatures in the Inputs u, and what that
-    adds to its energy [J].
+    """The Model with the parameters in force and the rivets that hold, at the temperatures in the Inputs u, and the
+    energy that the change adds [J].
     """
     new, terms = Model.under(record.standing, u, model.ring_load, table=table), []
     for each in (model, new):
@@ -410,7 +410,7 @@ def rederive(record, model, u, run, table, ledger):
 
 
 def at_speed(model, u, run):
-    """What a jump to the speed in the Inputs u adds to the elastic energy [J], because the inner ring grows at once."""
+    """Elastic energy that a jump to the speed in the Inputs u adds [J], because the inner ring grows at once."""
     loads, fit = (model.ring_load, replace(model.ring_load, omega=u.shaft.omega)), model.d.fit
     before, after = (ring_fit_growth(fit, ring_fit_speed(load)) for load in loads)
     if before == after:

@@ -74,7 +74,7 @@ class Equilibrium:
         outer, prescribed = ring_load.outer_omega, p.ring.motion == RingMotion.PRESCRIBED
         omega_0 = outer + 0.5 * (ring_load.omega - outer) * (1.0 - p.bearing.D / p.bearing.d_m) + ring_load.frame_omega
         self.F_c = model.d.m * self.r * omega_0**2 + F_0
-        # what the field of the frame does to ring and balls at rest, and where the outer ring is at each ball
+        # forces of the frame's field on ring and balls at rest, and place of the outer ring at each ball
         (f_x, f_y, f_z), (x_e, y_e, z_e) = ring_load.field, ring_load.outer_x
         self.F = np.array(ring_load.F) + p.ring.m * np.array(ring_load.field)
         self.F_x, self.F_r = model.d.m * f_x, model.d.m * (f_y * self.cos_theta + f_z * self.sin_theta)

@@ -4,7 +4,7 @@ verlet.c and implicit.c.
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
     v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (cage_begin)
-    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    one linear solve, A ~ -da/dv, K ~ -da/dq of what is stiff (jacobian_blocks)
+    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
@@ -75,7 +75,7 @@ RING = velocities("RING_V_X", "RING_V_Y", "RING_V_Z", "RING_BETA_DOT", "RING_GAM
 
 @dataclass
 class VerletState:
-    """A state and what the method remembers of the way there."""
+    """A state and the method's memory of the way there."""
 
     y: np.ndarray  # state [N_STATES]
     f: np.ndarray  # its dy/dt; after a step: accelerations, mean rates of the friction states over the step, power
@@ -83,7 +83,7 @@ class VerletState:
     h: float = 0.0  # length of that step [s], 0: none yet
     cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
-    # what the shaft gives there, by the forces that move the balls: torque about its axis [N.m], power [W]
+    # exchange with the shaft there, by the forces that move the balls: torque about its axis [N.m], power [W]
     exchange: np.ndarray = None
 
     def __post_init__(self):
@@ -229,8 +229,8 @@ def masked_jacobian(model, t, y, w, gamma):
 
 
 def ring_wrench(model, w, gamma, delta):
-    """Adds to the wrench of the race contacts on the ring in w what the solve's result delta adds to their forces on the
-    balls: it becomes the wrench that moved them.
+    """Adds to the wrench of the race contacts on the ring in w the part by the forces that the solve's result delta adds on
+    the balls: it becomes the wrench that moved them.
     """
     sliced, V = model.p.scene.traction == Traction.SLICED, delta[RING] * ring_coupled(model, w, gamma)
     for j in range(Z):
@@ -247,7 +247,7 @@ def ring_wrench(model, w, gamma, delta):
 
 
 def exchange_at(w):
-    """What the shaft gives by the forces on the ring in w: torque [N.m], power [W]."""
+    """Exchange with the shaft by the forces on the ring in w: torque [N.m], power [W]."""
     return np.array([friction_torque(w)[0], shaft_power(w)[0]])
 
 
@@ -267,7 +267,7 @@ def predict(h, start):
 
 
 def dissipation_correction(model, w, gamma, residual, delta):
-    """delta.M A delta [W] of balls and cage: the power that v^ dissipates beyond what v_{n+1} does, of one sign, where
+    """delta.M A delta [W] of balls and cage: the power that v^ dissipates beyond that of v_{n+1}, of one sign, where
     rates are linear.
 
     The residual gives delta.M (A + gamma K) delta; the part of the races' springs, which dissipate nothing, is taken

@@ -3,7 +3,7 @@
 // These functions serve two kinds of cage; cage.c, cage_setup.c and cage_read.c choose between them:
 //   two_half/   two rigid halves held by springs and friction of their joints; a static load path to the rivets
 //   elastic/    two halves that vibrate; their joints follow from the motion of both pads
-// common/ has what both share: poses and accelerations of the halves, films, pockets, joints' friction.
+// common/ has the parts of both kinds: poses and accelerations of the halves, films, pockets, joints' friction.
 //
 //              half 0 (-x)   half 1 (+x)
 //        ball --> wall | joint k | wall <-- ball        joint k between the pockets k and k + 1
@@ -18,8 +18,8 @@
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Carried from an evaluation to the next step; of rigid halves what is elastic is 0.  Part of the saved state: no member is aligned beyond a
-// double, so that nothing lies between them.
+// Carried from an evaluation to the next step; of rigid halves the elastic members are 0.  Part of the saved state: no member is aligned beyond a
+// double, so that there is no padding between them.
 typedef struct {
     HalvesMemory halves;
     ElasticMemory elastic;
@@ -31,14 +31,14 @@ typedef struct {
     ElasticStep elastic;
 } CageStep;
 
-// ---- what the parameters ask for ----------------------------------------------------------------------------
+// ---- the cage of the parameters ------------------------------------------------------------------------------
 // The reason why there is no such cage, or NULL.
 const char *cage_refusal(const Parameters *p);
 
 // Bytes of memory that the cage needs beside its constants; 0: none.
 size_t cage_size(const Parameters *p);
 
-// Derives the cage's own constants into `memory` of cage_size bytes; returns what Model.modes has to be.
+// Derives the cage's own constants into `memory` of cage_size bytes; returns the value for Model.modes.
 const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memory);
 
 // Whether the state has modes.
@@ -126,7 +126,7 @@ void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 // Kinetic energy of the halves, elastic energy of pockets, joints and modes [J], less cage_widened.
 scalar cage_energy(const Model *model, const scalar *y, const Work *w);
 
-// What the centrifugal load of a turning frame has done as it widened the halves [J], and its rate [W].  Of the modes'
+// Work of a turning frame's centrifugal load, which has widened the halves [J], and its rate [W].  Of the modes'
 // powers this one counts as a potential, because modes turn by much more than pi in a step.
 INLINE scalar cage_widened(const Work *w)
 {
@@ -142,7 +142,7 @@ INLINE scalar cage_widening(const Work *w, scalar frame_omega_dot)
     return power;
 }
 
-// Power that the frame's rate draws from what the widened halves have gained of inertia [W].
+// Power that the frame's angular acceleration draws from the moment of inertia that the halves have gained by widening [W].
 INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
 {
     scalar power = 0.0;
@@ -151,7 +151,7 @@ INLINE scalar cage_drawn(const Work *w, scalar frame_omega_dot)
     return power;
 }
 
-// Power that the halves' vibrations and the damping between rigid halves lose [W].  What friction loses is no function of
+// Power that the halves' vibrations and the damping between rigid halves lose [W].  The loss by friction is no function of
 // a state: it is the work of a step's slip (cage_end).
 INLINE scalar cage_vibrations_lose(const Work *w)
 {

@@ -47,7 +47,7 @@ static scalar pocket_energy(const Model *model, const Work *w)
     return ball_array_sum(stored);
 }
 
-// The same of a ribbon cage.
+// Elastic energy in the pockets of a ribbon cage.
 static scalar spheres_energy(const Model *model, const Work *w)
 {
     const Spheres *s = &model->d->spheres;

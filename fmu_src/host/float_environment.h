@@ -2,8 +2,8 @@
 // precision, status flags.
 //
 // The core computes in the default environment of IEEE 754: to nearest, no traps, denormals kept.  The host
-// may have set anything. float_enter saves what the host has and sets the default; float_leave gives the host
-// back what it had, so that not even a status flag is left behind.  Reading a control register takes about a
+// may have set anything. float_enter saves the host's environment and sets the default; float_leave restores
+// the host's environment, so that not even a status flag is left behind.  Reading a control register takes about a
 // nanosecond, writing one several, so each is written only where it differs.
 #pragma once
 
@@ -106,7 +106,7 @@ static inline void float_leave(const FloatEnvironment *host)
     if (present.status != host->status) __asm__ volatile("msr fpsr, %0" : : "r"(host->status) : "memory");
 }
 
-#else  // what C17 offers
+#else  // by the functions of C17
 #include <fenv.h>
 
 typedef fenv_t FloatEnvironment;

@@ -3,8 +3,8 @@
 //
 // fmi2_wrapper.c makes three things of this table: the check of the call order, the names in messages, and
 // the exported functions.  An exported function gives the core its floating-point environment, checks the
-// call order, calls the function of the same name without "fmi2", and gives the host's environment back; what
-// is not in this table is not exported.
+// call order, calls the function of the same name without "fmi2", and gives the host's environment back.  A
+// function that is not in this table is not exported.
 #pragma once
 
 typedef enum {

@@ -26,7 +26,7 @@ static const Variable *differentiable_input(Instance *m, fmi2ValueReference refe
     return NULL;
 }
 
-// They hold for the next step, from its beginning on; without them an input stays where it is.
+// The derivatives hold for the next step, from its beginning on; an input without derivatives keeps its value.
 fmi2Status slave_SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                                          const fmi2Integer order[], const fmi2Real value[])
 {

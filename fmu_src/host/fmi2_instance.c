@@ -35,7 +35,7 @@ enum { N_CATEGORIES = sizeof CATEGORIES / sizeof CATEGORIES[0], ALL_CATEGORIES =
 enum { ALWAYS_SENT = 1 << LOG_ERROR };
 
 // Hosts read the message as a printf format and '#' as the start of a value reference: both are doubled.  The
-// logger runs in the host's floating-point environment; what it leaves is what the host has from then on.
+// logger runs in the host's floating-point environment; the host keeps the environment that the logger leaves.
 static void send(const fmi2CallbackFunctions *callbacks, FloatEnvironment *host_floats, const char *instance,
                  LogCategory category, const char *message)
 {

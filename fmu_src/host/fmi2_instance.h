@@ -25,7 +25,7 @@ typedef struct {
     double stop_time;      // [s], infinite if none
     double tolerance;      // 0: solver.tol
     uint64_t step_status;  // fmi2Status of the last step
-} Session;                 // what the saved state holds beside the part
+} Session;                 // saved with the state of the part
 
 typedef struct {
     Part *part;

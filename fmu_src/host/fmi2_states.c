@@ -110,7 +110,7 @@ static const char *session_problem(const Session *s, const Part *part)
     return NULL;
 }
 
-// Whether a block of this model, from outside, holds what an instance can go on from: tried on a part of its own.
+// Whether a block of this model, from outside, holds a state from which an instance can go on: tried on a part of its own.
 static bool blob_can_be_restored(const unsigned char *blob, char *reason, size_t size)
 {
     Reason kept = {reason, size};

@@ -330,7 +330,7 @@ static void change_temperature(Bearing *b, const Inputs *from, const Inputs *u)
 }
 
 // Derives all constants again, at the temperatures in u, after the parameters in force or the rivets that hold have
-// changed since the energy was `before`.  What that adds to the energy is a term of its own in the balance.
+// changed since the energy was `before`.  The energy that the change adds is a term of its own in the balance.
 static void rederive(Bearing *b, const Inputs *u, double before)
 {
     derive_at(b, u);
@@ -470,7 +470,7 @@ static void end_trajectory(Bearing *b)
 }
 
 // The values that the inputs' own polynomials have at time t, which the host reads back and which hold from there
-// on; motions that are given without derivatives keep what the host gave.
+// on; motions that are given without derivatives keep the host's values.
 static void inputs_reach(const Parameters *p, double t_0, double t, Inputs u[INPUT_ORDERS + 1])
 {
     InputTrajectory given;

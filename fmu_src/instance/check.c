@@ -47,7 +47,7 @@ static bool check_reached(Bearing *b, const Inputs *u)
     return inputs_lie_within(u) || variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
 }
 
-// Checks what the frame's arm makes of its rotation: the bearing's centre is accelerated no more than frame.a_* may be.
+// Checks the acceleration of the bearing's centre, which the frame's arm makes of its rotation: at most the limit of frame.a_*.
 static bool check_frame(Bearing *b, const Inputs *u)
 {
     const double most = INPUT_LIMITS[offsetof(Inputs, frame.a_y) / sizeof(double)][1],
@@ -95,7 +95,7 @@ static void report_hot(void *context, const char *message)
 }
 
 // Checks that oil and bearing bear the temperatures in u: viscosity within its limits, cage neither on the
-// outer ring nor on the balls, no interference beyond what parameters may have.
+// outer ring nor on the balls, no interference beyond the limits of the parameters.
 static bool check_temperatures(Bearing *b, const Inputs *u)
 {
     static const char *const VALUES[] = {"oil.eta", "cage.guide_clearance", "cage.pocket_clearance"};

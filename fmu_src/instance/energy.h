@@ -1,5 +1,5 @@
-// Energy of balls and cage: kinetic and elastic, less what a turning frame's centrifugal load has widened the cage by
-// (cage_widened).  Its change is the net work of the state `work`.
+// Energy of balls and cage: kinetic and elastic, less the work of a turning frame's centrifugal load, which has widened the
+// cage (cage_widened).  Its change is the net work of the state `work`.
 #pragma once
 
 #include "physics/model.h"
@@ -8,7 +8,7 @@
 scalar energy_total(const Model *model, const scalar *y, const Work *w);
 
 #ifndef DUAL
-// What a jump of the speed from `before` to `after`, both in the fixed frame, adds to the elastic energy of
-// the inner race contacts [J], at the state y: the ring grows at once.
+// Elastic energy that a jump of the speed from `before` to `after`, both in the fixed frame, adds to the inner race
+// contacts [J], at the state y: the ring grows at once.
 double energy_of_speed(const Model *model, const double *y, double before, double after);
 #endif

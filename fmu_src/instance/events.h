@@ -17,10 +17,10 @@
 //   cage yield     the largest pocket force since the last communication point exceeds the one under which a half of a
 //                  ribbon cage begins to yield (rivet_model/half_strength.py); displacements are elastic
 //   step too long  equal steps have errors in the mean with which statistics were wrong (integrator.c)
-//   energy off     the energy's residual passes 2 % of what is lost, or nothing is lost but gained: the integration is wrong.
+//   energy off     the energy's residual passes 2 % of the losses, or energy is gained instead of lost: the integration is wrong.
 //                  Errors of the start and of pulses are small beside the energy that moves: 1 % of that in the bearing
-//                  and 0.4 % of that which the shaft has exchanged are allowed in any case, beside what the trapezoidal rule
-//                  makes of powers that jump with the inputs
+//                  and 0.4 % of that which the shaft has exchanged are allowed in any case, beside the error of the
+//                  trapezoidal rule for powers that jump with the inputs
 //   motion lag     a given motion jumps or contradicts its velocity, and is caught up with over more than the
 //                  communication step (motion_trajectory in ring_load.h)
 #pragma once

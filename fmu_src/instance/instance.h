@@ -18,7 +18,7 @@ static const double STRESS_FLOOR = 1e3;  // [Pa]
 // Channels of the stress statistics: each rivet, and the worst rivet at each instant.
 enum { WORST_RIVET = Z, STRESS_CHANNELS = Z + 1 };
 
-// What the statistics count at the end of a step: pocket forces [N], stresses of each rivet and of the worst one [Pa].
+// Values that the statistics count at the end of a step: pocket forces [N], stresses of each rivet and of the worst one [Pa].
 typedef struct {
     int force_known, stress_known;  // else there was no step yet, or none with stress
     double force[Z], head[STRESS_CHANNELS], mid[STRESS_CHANNELS];
@@ -60,7 +60,7 @@ typedef struct Part Bearing;  // this FMU's part (part.h)
 struct Part {
     PartHost host;
     InstanceState s;
-    Parameters hot;  // s.p_now at the temperatures in s.u_now, without broken rivets: what the model sees
+    Parameters hot;  // s.p_now at the temperatures in s.u_now, without broken rivets: those of the model
     Derived d;
     Inputs start;  // start values of the variable table
     InputTrajectory trajectory;
@@ -101,6 +101,6 @@ bool check_change(Bearing *b);
 // must leave the bearing its clearances and the oil a viscosity within its limits.
 bool check_inputs(Bearing *b, double h);
 
-// Whether b->s, copied from bytes of unknown origin, is what a run can have left there, as far as single
-// values tell.
+// Whether b->s, copied from bytes of unknown origin, is a state that a run can have left there, as far as
+// single values tell.
 bool check_saved(Bearing *b);

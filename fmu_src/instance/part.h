@@ -15,7 +15,7 @@ typedef enum {
     PART_OK = 0,
     PART_WARNING,  // done, with a warning in the log
     PART_DISCARD,  // the solver cannot go on: time and outputs are those of the last good state
-    PART_ERROR,    // refused: the log names variable, value and what is allowed; nothing has changed
+    PART_ERROR,    // refused: the log names variable, value and allowed range; nothing has changed
     PART_FATAL     // out of memory
 } PartStatus;
 
@@ -68,7 +68,7 @@ size_t part_saved_size(void);
 void part_save(const Part *part, void *saved);
 void part_restore(Part *part, const void *saved);
 
-// The same from bytes of unknown origin: false, with the reason in the log, unless every count, index, choice
+// Restores a state from bytes of unknown origin: false, with the reason in the log, unless every count, index, choice
 // and time lies in its range, all values are numbers, and so are all outputs there.  A part that refuses can
 // only be reset or destroyed.
 bool part_restore_unknown(Part *part, const void *saved);

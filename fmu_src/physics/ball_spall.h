@@ -1,4 +1,4 @@
-// Spalls on balls: the turn of a ball, and what a spall that meets a race does to ball and rings.
+// Spalls on balls: the turn of a ball, and the forces on ball and rings while a spall meets a race.
 //
 //           ___                     k      rolling axis of the ball, across t and across the mean of the normals
 //         /  |  \  spall            chi    angle of the spall's middle from the outer contact about k
@@ -30,7 +30,7 @@
 #include "physics/race_surface.h"
 #include "physics/traction.h"
 
-// What the turn of a packet of balls needs of a contact: normal, rolling direction, axis of the ring, approach and spin as in
+// Values of a contact for the turn of a packet of balls: normal, rolling direction, axis of the ring, approach and spin as in
 // Contact, distance r from the ring's axis, cos and sin of the angle on the race, spin of the ring.
 typedef struct {
     vec n, t, a, approach, spin;

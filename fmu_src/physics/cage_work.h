@@ -75,7 +75,7 @@ typedef struct {
     ball_array pull, push;
     scalar dissipated;  // by their damping [W]
 
-    // what bonded joints of halves that bend would carry in the plane (r, t) [N]
+    // loads of bonded joints between halves that bend, in the plane (r, t) [N]
     ball_array bonded_V[2];
 
     // joints that open: (N, M_r, M_t) of the joint and (T, m_r, m_t) of its rivet, force between the plates
@@ -89,7 +89,7 @@ typedef struct {
     mode_array shape[2][Z];
 } FilmWork;
 
-// Those of the kind of cage that runs; the others are not written.
+// Results of the kind of cage that runs; those of the other kind are not written.
 typedef struct {
     FilmWork films;
     TwoHalfWork two_half;

@@ -3,7 +3,7 @@
 //   m x'' = F - F_0 - k (x - x_b) - c (x' - x_b') + m (field - field_0)      along X, Y and Z
 //   J b'' = M - M_0 - k_t (b - b_b) - c_t (b' - b_b')                        tilts about Y and Z, direction cosines beta and gamma
 //
-// F, M: what balls, cage and oil put on the outer ring about its centre (powers.h); x_b, b_b: motion of the base, the inputs
+// F, M: load of balls, cage and oil on the outer ring about its centre (powers.h); x_b, b_b: motion of the base, the inputs
 // housing.*.  F_0, M_0 belong to the start: there the springs carry the load, and the housing rests at its base's place.
 // The turn about X is given by housing.omega.
 //

@@ -5,14 +5,14 @@
 //     V = V^ + r + gamma Y (F(V) - F^)     V^, F^: at the evaluation, r: residual with F^, Y: mobilities of land and rim
 //
 // V minimizes the convex sum of (V - free)^2/(2 gamma Y) and Psi(V), free = V^ + r - gamma Y F^.  Newton's method takes one or two
-// iterations: from the evaluation, whose law is known, or, if the film's ends move, from the V of the last step.  It ends when the points of the sums that its step moves over the film's ends carry less than 1 % of
-// F.  Where a closed gap makes gamma Y D a million, steps would run to and fro over the ends: from the third on they are as long as
-// the sum falls.
+// iterations: from the evaluation, whose law is known, or, if the film's ends move, from the V of the last step.  The
+// iteration ends when the points of the sums that its step moves over the film's ends carry less than 1 % of F.  Where a closed gap
+// makes gamma Y D a million, steps would run to and fro over the ends: from the third on they are as long as the sum falls.
 //
-// There F(V^) would be a thousand kilonewtons too.  Y omits second-order tilt terms (1e-5 of F), which would remain as an error.
+// In a closed gap F(V^) would be a thousand kilonewtons too.  Y omits second-order tilt terms (1e-5 of F), which would remain as an error.
 // And asperities bear a part of F, whose friction is no part of the solution: with that of F(V^), land losses of slow cages in mixed
-// lubrication erred by up to 35 %.  In both cases the evaluation has therefore the film at the V of the end, as far as it alone decides
-// that: V = V^ + gamma Y (F(V) - F_n), because V^ has felt the force F_n of the step's start twice as long.
+// lubrication erred by up to 35 %.  In both cases the evaluation has therefore the film at the V of the end, as far as the film alone
+// decides V: V = V^ + gamma Y (F(V) - F_n), because V^ has felt the force F_n of the step's start twice as long.
 #include "physics/land_bent.h"
 
 enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH, ROW = 8 };
@@ -62,7 +62,7 @@ static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][RO
         for (int k = SQUEEZE; k < ROW; k++) rate[i][k] = 0.0;
 }
 
-// That of the film at the squeeze velocities V, F = -D V.
+// Law of the film at the squeeze velocities V, F = -D V.
 static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law)
 {
     wide sum[EIGHTHS][BENT_WAVES];
@@ -122,7 +122,7 @@ static Squeeze squeeze_of(const Work *w, int h)
     return of;
 }
 
-// The convex sum along V + s x: velocities of the points, its slope without the bent film at s = 0 and what that rises by with s.
+// The convex sum along V + s x: velocities of the points, its slope without the bent film at s = 0 and the derivative of that slope by s.
 typedef struct {
     wide W[BENT_PACKETS], w[BENT_PACKETS];
     double slope, rise;
@@ -145,7 +145,7 @@ static void squeeze_line(const Squeeze *of, const double V[SQUEEZE], const doubl
     }
 }
 
-// Slope at s and what it rises by.
+// Slope at s and its derivative by s.
 static void slope_at(const Squeeze *of, const SqueezeLine *line, double s, double slope[2])
 {
     wide sum[EIGHTHS][2];
@@ -210,7 +210,7 @@ static double load_missed(const BentGrid *grid, const double V[SQUEEZE], const d
     return wide_eight_sum(sum);
 }
 
-// What a step of Newton's method has come to.
+// Outcome of a step of Newton's method.
 typedef enum { GOES_ON, DONE, LOST } SqueezeEnd;  // LOST: the step has left the model's range
 
 // One step from V by the law there, whose force it takes along; `shorten`: as long as the sum falls.

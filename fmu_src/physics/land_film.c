@@ -20,7 +20,7 @@
 // Steady rotation gives Ocvirk's force (a = 0), pure squeeze that of the pi-film.  F is the gradient of an
 // integral of (V.n)^2/h^3 over the closing half, so that -dF/dV = kappa (I_c, I_s; I_s, I_t) exactly: these
 // are the stiff rates.  V contains omega, so that the pressure turns the land by M_x = F.dV/domega = (F_y e_z - F_z e_y)/2, half of
-// what it does about the outer ring's axis, beside Couette's torque; the film's loss is Couette's omega^2 - F.V.
+// the pressure's moment about the outer ring's axis, beside Couette's torque; the film's loss is Couette's omega^2 - F.V.
 //
 // Shear heats the film between walls at the oil's temperature; viscosity exp(-beta (T - T_wall)).  In plane Couette
 // flow the shear stress then is asinh(s)/(s sqrt(1 + s^2)) times the isothermal one, s^2 = Na/8, Na = beta eta
@@ -139,7 +139,7 @@ INLINE LandMotion land_motion(const Rotor *h0, const Rotor *h1, wide x_land)
                         wide_pair(h0->Omega[0], h1->Omega[0])};
 }
 
-// The same against the outer ring's material, along its axes.
+// Position and velocity of the lands' middles against the outer ring's material, along its axes.
 INLINE LandMotion land_motion_against(const Rotor *outer, const Rotor *h0, const Rotor *h1, wide x_land)
 {
     const Rotor *half[2] = {h0, h1};
@@ -199,7 +199,7 @@ INLINE void sum_load(wide re[EIGHTHS][LAND_HARMONICS], wide im[EIGHTHS][LAND_HAR
     wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
 }
 
-// What decides the pressure on a round rim, along the half's axes: eccentricity [m], pure squeeze velocity [m/s], the film's force [N]; gap
+// Variables of the pressure on a round rim, along the half's axes: eccentricity [m], pure squeeze velocity [m/s], the film's force [N]; gap
 // function q^2, sizes of the film's force and of the dry contact's [N].
 typedef struct {
     scalar e[2], V[2], film[2], q2, force, dry;
@@ -295,7 +295,7 @@ INLINE void land_turn(const Rotor *outer, const Rotor *half, scalar y, scalar z,
     along[0] = dot3(F, half->b_y), along[1] = dot3(F, half->b_z);
 }
 
-// What a land does to its half: force along the outer ring's axes, moment about its axis, load of the dry contact without
+// Action of a land on its half: force along the outer ring's axes, moment about its axis, load of the dry contact without
 // damping, rate -dM/domega, energy of the dry contact and its rate.
 typedef struct {
     scalar F[2], M_x, N_0, spin, stored, stored_rate;
@@ -322,7 +322,7 @@ INLINE void bent_friction(const Parameters *p, const LandRates *at, const scalar
     force->spin = R * R * g * all;
 }
 
-// What decides the pressure on the bent rim of half h.  e, V: along the outer ring's axes; T: from these to the half's;
+// Sets the variables of the pressure on the bent rim of half h.  e, V: along the outer ring's axes; T: from these to the half's;
 // kappa_C3: of its film.
 INLINE void bent_motion(Work *w, int h, const LandRates *at, const scalar e[2], const scalar V[2],
                         scalar T[2][2], scalar C, scalar kappa_C3)
@@ -517,7 +517,7 @@ INLINE void leave_rim(const RoundPressure *round, LandPressure *pressure)
     memcpy(pressure->film, round->film, sizeof round->film);
 }
 
-// Adds what a land at x from the half's centre does to its half, and its energy and power.  on_rim: power of the rim's bending.
+// Adds force and moment of a land at x from its half's centre to the half, and the land's energy and power.  on_rim: power of the rim's bending.
 INLINE void add_land(const Derived *d, Work *w, int h, const Rotor *outer, scalar x, const LandRates *at,
                      const LandForce *force, scalar on_rim)
 {
@@ -623,5 +623,5 @@ void land_film_force(const Model *model, Work *w)
         land_film_moving(model, w);
     else
         for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, NULL);
-    w->land_dissipated = w->cage_dissipated;  // drag_cage adds to what the cage dissipates
+    w->land_dissipated = w->cage_dissipated;  // before drag_cage adds its power
 }

@@ -7,7 +7,7 @@ enum { ROW_N, ROW_V_R, ROW_V_T, ROW_M_R, ROW_M_T, ROW_DP, ROW_DM_R, ROW_DM_T, RO
 
 enum { LAND_HARMONICS = (3 * Z - 1) / 2 + 1, LAND_WAVES = Z / 2 + 1, LAND_EACH = 3 };  // of a wave
 
-// Those of the table at one place of the land; of a repeated harmonic 0.
+// Rows of the table at one place of the land; 0 for a repeated harmonic.
 typedef struct {
     // even rows by loads on both halves, by loads that oppose each other; odd ones likewise
     double row[LAND_WAVES][LAND_EACH][4][ROWS];

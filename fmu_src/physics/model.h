@@ -15,7 +15,7 @@
 
 enum { LAND_POINTS = 24, BENT_POINTS = 48 };  // of the sums over a land's film, over that of a bent rim
 
-// What a land's film resists: motion of the land along y and z, and of its rim by cos 2, sin 2, cos 3 and sin 3 theta of the
+// Motions that a land's film resists: of the land along y and z, and of its rim by cos 2, sin 2, cos 3 and sin 3 theta of the
 // modes that bend it (land_bent.h); place of row i, column k <= i of a symmetric matrix that is stored as its lower triangle.
 enum { RIM = 4, SQUEEZE = 2 + RIM, SQUEEZE_TERMS = SQUEEZE * (SQUEEZE + 1) / 2, BENT_WAVES = 13 };
 
@@ -94,7 +94,7 @@ typedef struct {
     double growth;   // by rotation with a loose shaft / omega^2 [m.s2]
     double per_fit;  // per radial interference of the tight shaft
     double fit,
-        loosening;  // radial interference at standstill [m], what the rotation takes of it / omega^2 [m.s2]
+        loosening;  // radial interference at standstill [m], its loss by rotation / omega^2 [m.s2]
 } RingFit;
 
 // Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.  Rigid motions of both
@@ -305,7 +305,7 @@ typedef struct {
     ball_array cos_theta, sin_theta, v_t;
     Rotor ring, half[2];
 
-    // of the outer ring and of the frame, for what is recorded over steps (evaluate in rhs.c)
+    // of the outer ring and of the frame, for the records over steps (evaluate in rhs.c)
     scalar outer_x[3], outer_gamma, outer_beta, frame_omega;
 
     // total force and moment on the ball about its centre (set by race_contact_force, then cage_pockets and
@@ -357,7 +357,7 @@ typedef struct {
     // cage (land_film_force, drag_cage): power of lands and drag together, of the lands, of the drag [W]
     scalar cage_dissipated, land_dissipated, cage_drag_dissipated;
 
-    // lands (land_film_force): elastic energy [J]; of each what its growth adds to it per change of the half's speed [J.s];
+    // lands (land_film_force): elastic energy [J]; of each the energy that its growth adds per change of the half's speed [J.s];
     // films
     scalar land_elastic, land_growth[2];
     LandFilm film[2];
@@ -379,8 +379,8 @@ typedef struct {
     double x[HOUSING_DOF], v[HOUSING_DOF], a[HOUSING_DOF], rest[HOUSING_DOF];
 } Housing;
 
-// What the shaft gives: torque about its axis [N.m], power [W] and its amount; the power that is lost; by how much the net
-// power has jumped with the inputs; or their integrals over time.
+// Exchange with the shaft: its torque about its axis [N.m], its power [W] and the amount of that; the power that is lost; the
+// jump of the net power with the inputs; or the integrals of all these over time.
 typedef struct {
     double torque, power, exchanged, lost, jump;
 } Exchange;

@@ -8,7 +8,7 @@
 #include "physics/rotor.h"
 
 // Whether the outer ring moves or is out of its place: only then the elements take its motion into account.
-// Derivatives always do, because they ask what a motion would change.
+// Derivatives always do, because they include those by the motion, also where it is 0.
 INLINE bool outer_ring_moves(const RingLoad *ring_load)
 {
 #ifdef DUAL

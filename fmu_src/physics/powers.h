@@ -40,7 +40,7 @@ static inline void housing_reaction(const Work *w, scalar F[3], scalar M[3])
     }
 }
 
-// The same about the outer ring's centre.
+// Force and moment on the housing, the moment about the outer ring's centre.
 static inline void housing_wrench(const Model *model, const Work *w, scalar F[3], scalar M[3])
 {
     const scalar *x = model->ring_load->outer_x;
@@ -70,14 +70,14 @@ static inline scalar friction_torque(const Work *w)
 }
 
 #ifndef DUAL
-// What the shaft gives by the forces on the ring in w.
+// Exchange with the shaft by the forces on the ring in w.
 static inline Exchange exchange_at(const Work *w)
 {
     const double power = shaft_power(w), lost = power_loss(w) + ball_array_sum(w->joint_dissipated);
     return (Exchange){friction_torque(w), power, fabs(power), lost, 0.0};
 }
 
-// Adds what it gives over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
+// Adds the exchange over a time h [s], by the trapezoidal rule, which is that of the balls' velocities.
 static inline void exchange_add(double h, const Exchange *from, const Exchange *to, Exchange *sum)
 {
     sum->torque += 0.5 * h * (from->torque + to->torque);

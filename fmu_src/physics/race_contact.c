@@ -86,7 +86,7 @@ INLINE void race_contacts(const Model *model, const Work *w, int j, scalar inner
                                 vec_local(outer_ring->Omega, cos_theta, sin_theta));
 }
 
-// Forces and moments on a packet of balls, what the pockets add to, wrench on the ring about its centre.
+// Forces and moments on a packet of balls, zeros to which the pockets add, wrench on the ring about its centre.
 INLINE void store_forces(Work *w, int j, vec p_i, const Contact *inner, const Contact *outer,
                          const Tangential *T_i, const Tangential *T_e)
 {
@@ -176,7 +176,7 @@ INLINE void surface_contacts(const Model *model, const Work *w, const Race *race
     }
 }
 
-// What the turn of a ball needs of its place on a race.
+// Values of a place on a race for the turn of a ball.
 INLINE RollingPlace rolling_place(const SurfacePlace *at, const BallMotion *ball)
 {
     return (RollingPlace){.n = at->n,

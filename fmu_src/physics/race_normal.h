@@ -121,7 +121,7 @@ INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor 
     return at;
 }
 
-// What a contact has of spalls: drops of the path in the race's and in the ball's, their derivatives by the angles on
+// Spalls in a contact: drops of the path in the race's and in the ball's spalls, their derivatives by the angles on
 // race and ball, rate of the latter.
 typedef struct {
     SpallLanes race, ball;

@@ -17,8 +17,8 @@
 enum { SIDES = 2, ONE_SIDE = 6, THREES = 4, THIRDS = 3, ROW = 8 };
 
 static const struct {
-    double near[THIRDS][ROW];    // 1 - z, what x takes of x_0
-    double far[THIRDS][ROW];     // side z, what it takes of the ellipse's end
+    double near[THIRDS][ROW];    // 1 - z, coefficient of x_0 in x
+    double far[THIRDS][ROW];     // side z, part of x by the ellipse's end
     double w[THIRDS][ROW];       // w
     double side_w[THIRDS][ROW];  // side w
 } SLICE = {
@@ -61,7 +61,7 @@ typedef struct {
     wide U, inv_U, f_a, F_R;
 } Film;
 
-// What the slices of a contact have in common.  Slip along t_1 and t_2: s_1 + k x + b_1 x^2, s_2 + b_2 x^2.
+// Values common to the slices of a contact.  Slip along t_1 and t_2: s_1 + k x + b_1 x^2, s_2 + b_2 x^2.
 typedef struct {
     wide s_1, s_2, k, b_1, b_2, inv_U, f_a;
     wide x_0;  // where the ellipse is split

@@ -144,7 +144,7 @@ INLINE void spall_drop(const SpallLanes *s, wide cosine, wide sine, wide *f, wid
     *df = wide_select(wide_above(along, 0.0), -slope, slope);
 }
 
-// The same in the spall of a race at the angle phi on it.
+// Drop f and its derivative in the spall of a race, at the angle phi on the race.
 INLINE void race_surface_drop(const RaceSurface *s, wide cos_phi, wide sin_phi, wide *f, wide *df)
 {
     const SpallLanes spall = race_spall(s);

@@ -78,7 +78,7 @@ INLINE RaceConstants join_races(const RaceConstants *i, const RaceConstants *e)
                            wide_join(i->horizontal, e->horizontal)};
 }
 
-// What the tractions need of the contacts.
+// Both contacts side by side, as far as the tractions need them.
 INLINE Contact join_contacts(const Contact *inner, const Contact *outer)
 {
     return (Contact){.n = vec_join(inner->n, outer->n),

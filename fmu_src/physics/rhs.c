@@ -33,7 +33,7 @@ static __attribute__((noinline)) scalar motion_power(const Model *model, const W
     return power;
 }
 
-// Net power into balls and cage: by the rings' motions, the frame and growth, less what is dissipated.
+// Net power into balls and cage: by the rings' motions, the frame and growth, less the dissipated power.
 static scalar net_power(const Model *model, const Work *w, const scalar *y_dot)
 {
     scalar power = shaft_power(w) - power_loss(w);

@@ -32,7 +32,7 @@ INLINE scalar ring_fit_growth(const RingFit *fit, scalar omega)
     return fit->growth * square + fit->per_fit * scalar_max(fit->fit - fit->loosening * square, 0.0);
 }
 
-// Its rate where the speed changes by omega_dot.
+// Rate of this growth where the speed changes by omega_dot.
 INLINE scalar ring_fit_rate(const RingFit *fit, scalar omega, scalar omega_dot)
 {
     const bool tight = scalar_value(fit->fit - fit->loosening * omega * omega) > 0.0;

@@ -35,7 +35,7 @@ static const double CATCH_UP_ACCELERATION = 1e6;  // at most [m/s2]
 
 extern const MotionInput MOTION[MOTIONS];
 
-// What the host has given so far: velocities at the begin of the last communication step, their mean rates over the
+// Motions that the host has given so far: velocities at the begin of the last communication step, their mean rates over the
 // step before, the length of the last step, and how many steps there were (up to 2).
 typedef struct {
     double v[MOTIONS], a[MOTIONS], h;
@@ -71,7 +71,7 @@ void motion_trajectory(const Parameters *p, const Inputs given[INPUT_ORDERS + 1]
                        const MotionHistory *history, const Inputs *now, double h, Inputs u[INPUT_ORDERS + 1],
                        MotionLag *lag);
 
-// Adds what was given at the begin of a step of length h.
+// Adds the motions that were given at the begin of a step of length h.
 void motion_remember(const Inputs *given, double h, MotionHistory *history);
 
 // Whether load or motion changes along the trajectory.

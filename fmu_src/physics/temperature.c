@@ -74,7 +74,7 @@ static void heat_cage(const Parameters *p, double e_c, double e_e, double e_b, P
     hot->cage.pocket_edge = p->cage.pocket_edge + e_c * p->cage.pocket_edge;
 }
 
-// Fits at temperature; what the housing takes from groove and land of the outer ring.
+// Fits at temperature; contraction of groove and land of the outer ring by the housing.
 static void heat_fits(const Parameters *p, const Inputs *u, double T_a, Parameters *hot)
 {
     const double expansion = p->bearing.expansion;

@@ -207,7 +207,7 @@ INLINE void solve_packets(const Model *model, const Work *w, int n, const int at
     for (int p = 0; p < n; p++) x[p][2] /= wide_load(&w->r[at[p]]);
 }
 
-// What remains of the balls in the ring's equations.  The coupling of a ball with the velocity u (x, r, t) of
+// Schur complement of the balls in the ring's equations.  The coupling of a ball with the velocity u (x, r, t) of
 // the race at its inner contact is G = B^T gamma g (1 - n n^T), 6 x 3, and the ball's equations are
 // W x - G u = M v.  Eliminated, x = W^-1 M v + W^-1 G u, and the ring feels the impulse schur_rhs - schur u.
 typedef struct {
@@ -264,7 +264,7 @@ INLINE void couple_packet(const Model *model, const Work *w, int j, double gamma
 }
 
 // Solves W x = M v for all balls; rows holds v, then x.  Where the ring is coupled (c is not NULL), c receives
-// what the equations of the ring need of the balls.
+// the Schur complement of the balls in the equations of the ring.
 static void solve_balls(const Model *model, const Work *w, double gamma, ball_array rows[BLOCK], Coupling *c)
 {
     Factors f[PACKETS];
@@ -461,7 +461,7 @@ void implicit_ring_wrench(const Model *model, double gamma, const double *delta,
         const vec ball = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
         const vec place = vec_add(vec_sub(ball, vec_local(w->ring.x, c, s)), arm);
 
-        // change of the slip, and what resists it, on the ring
+        // change of the slip, and the wrench on the ring that resists it
         const vec race =
             vec_add(vec_local(v_ring, c, s), vec_cross(vec_local(turn, c, s), vec_add(ball, arm)));
         const vec slip = vec_across(vec_sub(vec_add(v, vec_cross(omega, arm)), race), n);

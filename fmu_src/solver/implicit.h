@@ -11,7 +11,7 @@
 void implicit_solve(const Model *model, const Work *w, double gamma, double *v);
 
 // The wrench of the race contacts on the ring in w becomes the one that moved the balls in a step: that of the evaluation and
-// what the solve's result delta adds to the forces on the balls.
+// the part by the forces that the solve's result delta adds on the balls.
 void implicit_ring_wrench(const Model *model, double gamma, const double *delta, Work *w);
 
 // gamma v.M K v of the balls [W] with the stiffness K of the races' normal forces.

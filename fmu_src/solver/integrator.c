@@ -34,7 +34,7 @@
 #include <stdlib.h>
 #include <sundials/sundials_nvector.h>
 
-// Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and what does not grow with them.
+// Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and a part that does not grow with them.
 // A test sees that the block is large enough.
 enum { SUNDIALS_MEMORY = 20 * N_ALL_STATES * sizeof(double) + 32768 };
 
@@ -73,7 +73,7 @@ struct Integrator {
     unsigned nonfinite_stages;  // stages of this advance whose derivative is not a number
 };
 
-// ---- what ARKODE calls ------------------------------------------------------------------------------------
+// ---- functions that ARKODE calls --------------------------------------------------------------------------
 
 // dy/dt; at a step's start the one that is already known.
 static void evaluate(Integrator *in, double t, const double *y, double *f)
@@ -101,7 +101,7 @@ static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 }
 
 // At the end of an accepted explicit step: the joints' friction states are mapped back.  The derivative there, which
-// is known from the last stage, depends on what friction holds of them alone, so that it stays.
+// is known from the last stage, depends only on the part of the states that friction bears, so that it stays.
 static int explicit_accepted(sunrealtype t, N_Vector y, void *user)
 {
     (void)t;
@@ -206,8 +206,8 @@ static double verlet_length(void *context, double left)
     return left < 2.0 * in->goal ? 0.5 * left : in->goal;
 }
 
-// Equal steps are watched by the error that the default method would test, in parts of what it accepts at its default
-// tolerance [1], whatever the host's is.  Its mean runs over MEAN_OVER [s].  In 200 scenes drawn at random (docs/real_time.md) the
+// Equal steps are watched by the error that the default method would test, in parts of the error that it accepts at its default
+// tolerance [1], whatever the host's tolerance is.  Its mean runs over MEAN_OVER [s].  In 200 scenes drawn at random (docs/real_time.md) the
 // statistics are right where it stays below 0.5, and wrong by ten per cent and more from 1 on.  One step counts MOST_ERROR at
 // most: a load that jumps makes one error.  A step beyond DIVERGED, 5 m/s in the mean of all velocities, has left
 // the range of the model.
@@ -282,7 +282,7 @@ static void report(int line, const char *function, const char *file, const char 
     stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
-// What both methods have: no interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an
+// Settings of both methods: no interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an
 // impact).
 static int set_up(void *arkode, ARKEwtFn weights, Integrator *in)
 {
@@ -466,7 +466,7 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
     in->now = &s->now, in->next = &in->trial, in->goal = s->h;
     if (is_fixed(in)) in->goal = (t_stop - s->t) / fixed_steps(s->h, t_stop - s->t);
 
-    // ARKODE forgets what it knows of the steps before and copies the state that the view shows; verlet_length begins with
+    // ARKODE forgets the history of the steps before and copies the state that the view shows; verlet_length begins with
     // the goal.
     double t;
     state_vector_show(in->view, s->now.y);
@@ -553,7 +553,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     const double h_first = fmin(s->h, t_stop - s->t);
     if (s->t + h_first == s->t || h_first < SHORTEST_FIRST) return step_underflow(in, "Runge-Kutta", h_first);
 
-    // ARKODE forgets what it knows of the steps before and begins at the state with the remembered step size.
+    // ARKODE forgets the history of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
     memcpy(state_vector_data(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
@@ -591,7 +591,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
         in->hook(in->context, h, in->w);
     }
 
-    // What the next advance needs.  The last stage was at the new state: its derivative is known.
+    // Values for the next advance.  The last stage was at the new state: its derivative is known.
     in->starting = false;
     ARKodeGetNumErrTestFails(in->arkode, &failed);
     s->error_tests_failed += (double)(failed - failed_before);
@@ -675,7 +675,7 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 
     fine &= cage_memory_is_valid(&s->now.cage, p);
 
-    // What the shaft gives; switch and counters.
+    // Exchange with the shaft; switch and counters.
     const double LARGEST_EXCHANGE = 1e30;
     const size_t amounts = sizeof(Exchange) / sizeof(double);
     fine &= values_are_within(&s->now.exchange.torque, amounts, LARGEST_EXCHANGE) &&

@@ -295,7 +295,7 @@ static RingLoad resting(const RingLoad *ring_load)
     return rest;
 }
 
-// What the field of the frame does to ring and balls at rest, and where the outer ring is at each ball.
+// Forces of the frame's field on ring and balls at rest, and place of the outer ring at each ball.
 static void place_in_frame(const Model *model, const Work *w, Equilibrium *eq)
 {
     const RingLoad *frame = model->ring_load;

@@ -98,7 +98,7 @@ static void correct_positions(const Model *model, double gamma, const double *de
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
 }
 
-// The right-hand side with what moves beside the state: a housing on springs, whose acceleration it sets, and the turn of
+// The right-hand side with the motions beside the state: a housing on springs, whose acceleration it sets, and the turn of
 // balls with spalls, whose rates it sets.
 static __attribute__((noinline)) void rhs_beside(const Model *model, double t, VerletState *now, Work *w)
 {
@@ -124,7 +124,7 @@ static void rhs_now(const Model *model, double t, VerletState *now, Work *w)
         rhs(model, t, now->y, now->f, w);
 }
 
-// Where the housing is at the end of the step, with predicted velocities.
+// Place of the housing at the end of the step, with predicted velocities.
 static void housing_predict(double h, const Housing *from, Housing *to)
 {
     for (int i = 0; i < HOUSING_DOF; i++) {
@@ -135,7 +135,7 @@ static void housing_predict(double h, const Housing *from, Housing *to)
     }
 }
 
-// Its velocities there: the trapezoidal rule.
+// Velocities of the housing at the end of the step, by the trapezoidal rule.
 static void housing_correct(double gamma, const Housing *from, Housing *to)
 {
     for (int i = 0; i < HOUSING_DOF; i++) to->v[i] = from->v[i] + gamma * (from->a[i] + to->a[i]);

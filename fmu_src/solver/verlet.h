@@ -6,7 +6,7 @@
 #include "numbers/isa.h"
 #include "physics/model.h"
 
-// A state and what the method remembers of the way there.
+// A state and the method's memory of the way there.
 typedef struct {
     double y[N_ALL_STATES];
     double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
@@ -14,7 +14,7 @@ typedef struct {
     CageMemory cage;            // of the cage there; f lacks the accelerations that it advances by itself
     Housing housing;            // where it moves on springs, else 0
     BallTurn turn;              // of balls where one has a spall, else 0
-    Exchange exchange;          // what the shaft gives there, by the forces that move the balls
+    Exchange exchange;          // with the shaft there, by the forces that move the balls
     double h;                   // length of that step [s]; 0 before the first one
     double ratio;  // length that its error asks of the next step / h (integrator.c); 0 before the first one
 } VerletState;

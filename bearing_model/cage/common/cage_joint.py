@@ -22,7 +22,7 @@ load nothing slips, so that a joint that carries a constant load under vibration
 instead of creeping.  Between two moments the law is integrated by return mapping (Simo and Hughes 1998, chapter 2): z_p
 first follows the whole motion, trial deflections,
 
-      X = k_t z_p - k_h z_h                               what the plates would carry
+      X = k_t z_p - k_h z_h                               trial force of the plates
       z_h += max(|X| - C_p, 0)/(k_t + k_h) X/|X|          their slip drags the heads (linear kinematic hardening)
       z_h *= min(1, C_h/(k_h |z_h|))                      which slip on the rivet
       k_t z_p = k_h z_h + min(1, C_p/|X'|) X'             X' = k_t z_p - k_h z_h
@@ -156,8 +156,8 @@ def cage_joint_follow(h, v, y):
 
 
 def cage_joint_slide(model, k, T, N_plate, y, step):
-    """Maps the trial deflections in y back onto what friction holds under the tension T of the rivets and the force N_plate
-    between the plates [Z]; adds to step.rubbed.  Returns what the slip dissipates [J].
+    """Maps the trial deflections in y back onto those that friction bears under the tension T of the rivets and the force
+    N_plate between the plates [Z]; adds to step.rubbed.  Returns the energy that the slip dissipates [J].
     """
     mu, floor, (joint_0, head_0) = model.p.joint.mu, model.p.joint.F_floor, step.before.reshape(2, 2, -1)
     trial, head = (np.array([y[row] for row in rows]) for rows in (PLATES, HEADS))

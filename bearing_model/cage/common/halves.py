@@ -68,7 +68,7 @@ def halves_acceleration(model, y, w, y_dot):
     for h, half in enumerate(w.half):
         s, v = half.x + half.c, half.v + vec_cross(half.Omega, half.c)  # of the centre of mass
         M = half.M - vec_cross(half.c, half.F) + frame_moment(frame, half, d.J_p, d.J_t)
-        # A half that expands gains inertia and slows down; what it has gained resists the frame's rate too.
+        # A half that expands gains inertia and slows down; the gained inertia resists the frame's angular acceleration too.
         moment = (
             w.cage.elastic.more_J_dot[h] * (half.s + w.frame_omega) + w.cage.elastic.more_J[h] * frame.frame_omega_dot
         )

@@ -89,8 +89,8 @@ def halves_correct(step, delta, y):
 
 
 def halves_slide(model, k, at, y, joints):
-    """Maps the friction states in y back under the loads `at`, from joints.before; the work loses what that dissipates,
-    which is returned [J].
+    """Maps the friction states in y back under the loads `at`, from joints.before; the work loses the energy that the
+    mapping dissipates, which is returned [J].
     """
     lost = cage_joint_slide(model, k, at.rivet[0], at.N_plate, y, joints)
     y[WORK] -= lost

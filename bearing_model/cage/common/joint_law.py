@@ -83,7 +83,7 @@ class JointLaw:
 
 @dataclass
 class LawOfModes:
-    """The law over L_K = L + K delta, where K is what vibration modes leave of the stiffness around a joint.
+    """The law over L_K = L + K delta, where K is the inverse of the compliance around a joint that the vibration modes do not contain.
 
     K is a hundred times K_0, so that L = L_K - K delta is a small difference: the law gives L, and the moves follow from
     it.

@@ -1,5 +1,5 @@
-"""Loads of the joints in the plane of the split beside those of the motion: the load path gives what bonded joints would
-carry, of halves that bend.
+"""Loads of the joints in the plane of the split beside those of the motion: the load path gives the loads of bonded joints
+between halves that bend.
 
 A joint slips, by s along V: of the bonded V the part that friction and hole do not take is relieved through the slip
 stiffness of the halves (joint_slip).  Friction and play are those that the motion leaves over.
@@ -13,7 +13,7 @@ SLIP_SWEEPS = 3
 
 
 def joint_slip(V, K, gap, plate, head, k_head, k_hole):
-    """Slip [m] of a joint that would carry V [N] bonded, and what heads and hole then carry [N]; all along V.
+    """Slip [m] of a joint whose bonded load is V [N], and the loads of heads and hole that result [N]; all along V.
 
     K: slip stiffness of the halves around this joint.  Plates hold up to `plate`, then the heads drag the rivet
     (k_head) up to `head`, then the halves slip freely to `gap`, then the hole bears (k_hole): V - K slip = plate +
@@ -47,7 +47,7 @@ def joints_slip(law, bonded, gap, plate, head, k_head, k_hole, sweeps=SLIP_SWEEP
 
 
 def joint_slip_add(model, w, u, T, N_plate, V, shear):
-    """Adds to the JointShear what the bonded loads V [2, ..., Z] put on plates, heads and shanks.
+    """Adds to the JointShear the loads of plates, heads and shanks by the bonded loads V [2, ..., Z].
 
     u: offset (y, z) of the pads [2, ..., Z]; T, N_plate [..., Z]: tension of the rivets, force between the plates.
     """

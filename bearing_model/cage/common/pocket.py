@@ -189,9 +189,9 @@ def pocket_rigid(model, w):
 
 
 def pocket_elastic(model, w):
-    """The same of two elastic halves, whose walls move: sets also the modal forces on the walls [..., n] of each half and
-    the contacts with the walls, with those that may come in the longest step: direction, Hertz's constant by the half's share,
-    approach, load (wall_loads.py).
+    """Contacts of all pockets of two elastic halves, whose walls move; sets, beside the results of pocket_rigid, the modal
+    forces on the walls [..., n] of each half and the contacts with the walls, with those that may come in the longest step: direction,
+    Hertz's constant by the half's share, approach, load (wall_loads.py).
     """
     pocket_clear(w)
     e = w.cage.elastic

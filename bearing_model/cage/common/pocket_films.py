@@ -33,7 +33,7 @@ HALVES = CAGE_V_X, CAGE_V_Y, CAGE_V_Z, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S
 
 
 def film_before_wall(film, v, axes, shape, near):
-    """What an evaluation leaves of the films of one half: damping D [N.s/m], 0 where there is none, speed u at which the gap
+    """Films of one half as an evaluation leaves them: damping D [N.s/m], 0 where there is none, speed u at which the gap
     closes [m/s], direction m (x, r, t), motion of the wall along it by each mode.
 
     v: velocity of the ball against the wall; axes: the pocket's; shape [3, ..., Z, n]: motions of the wall, n = 0 of rigid halves; near: walls
@@ -49,7 +49,7 @@ RIGID = np.zeros((3, Z, 0))  # motions of a rigid wall by no mode
 
 @dataclass
 class PocketFilms:
-    """Those of both halves at an evaluation: D, u, F [2, Z], m [2, 3, Z], shape [2, Z, n]; the largest D over the mass of its wall at the end
+    """Films of both halves at an evaluation: D, u, F [2, Z], m [2, 3, Z], shape [2, Z, n]; the largest D over the mass of its wall at the end
     of a step, over the least mass of any wall where lands guide the cage [1/s]."""
 
     D: np.ndarray = field(default_factory=lambda: np.zeros((2, Z)))
@@ -132,7 +132,7 @@ class PocketFilmsStep:
         return film.impulse / self.middle - film.F_0
 
     def accelerations(self, n):
-        """Of modes [2, n] and halves [6, 2] by what the films have changed by at the end."""
+        """Accelerations of modes [2, n] and halves [6, 2] by the change of the films' forces up to the end."""
         modes, rows = np.zeros((2, n)), np.zeros((6, 2))
         for film in self.films:
             more = self.foreseen(film) - film.F_0
@@ -148,8 +148,8 @@ def correct_pocket(film, i, k, more, w):
 
 
 def pocket_films_arrive(model, gamma, step, before, y, w, f, films):
-    """At the step's end y, w, behind the evaluation: takes from the rates f and the pockets' forces what the films there have too much at
-    the predicted velocities; returns the power that this saves [W].  step: those that followed in substeps, None without.
+    """At the step's end y, w, behind the evaluation: takes the excess of the films' forces at the predicted velocities from the rates f and
+    the pockets' forces; returns the power that this saves [W].  step: films that followed in substeps, None without.
     """
     if not model.d.squeeze:
         return 0.0

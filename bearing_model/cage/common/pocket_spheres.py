@@ -340,7 +340,7 @@ def spheres_rigid(model, w):
 
 
 def spheres_elastic(model, w):
-    """The same of two elastic halves, as pocket_elastic of machined ones."""
+    """Contacts of all pockets of two elastic ribbon halves, as pocket_elastic of machined ones."""
     pocket_clear(w)
     e = w.cage.elastic
     elastic_clear(e)

@@ -172,7 +172,7 @@ def squeeze_layer(G_e, h, t, C):
 def spheres_squeeze(d, q, taken, v):
     """The film of one half: D, F = D v.m, 0 where the ball withdraws [N.s/m, N], and m along the pocket's axes (x, r, t), x toward the pole.
 
-    q: ball's centre from the sphere's; taken: what the wall's own compliance takes of the approach; v: velocity of the ball's centre against
+    q: ball's centre from the sphere's; taken: part of the approach by the wall's own compliance; v: velocity of the ball's centre against
     the wall; all along the same axes.
     """
     cap, C = d.squeeze, d.squeeze.C

@@ -15,13 +15,13 @@ Modes are cyclic: at the angle theta, even components (x, r, phi_t) are a cos(n 
 sin(n theta) for the first mode of a pair and a sin(n theta), b cos(n theta) for the second.
 
 Joint, out of the plane: with e half of the relative motion of its pads (rigid and elastic) and K the inverse of the
-static compliance that the modes leave between the pads of one joint,
+static compliance between the pads of one joint that the modes do not contain,
 
     L_K = K e,    (L, T, m_r, m_t) = law(L_K, P)
 
 with the joint's law over K (joint_law.py, LawOfModes): its pads move by delta, L = K (e - delta).  So each joint follows
 from its own pads; the motion by the loads of other joints, beside the modes, is left out.
-In the plane, friction states and the hole's contact as in cage_joint.py, in series with what the modes leave.  Pads do
+In the plane, friction states and the hole's contact as in cage_joint.py, in series with that compliance.  Pads do
 not hold each other about x.  The films of the lands load the rivets statically (elastic_lands.py).
 
 The centrifugal load widens a half: its moment of inertia is J_p + 2 sum c_i q_i, and an expanding half slows down.

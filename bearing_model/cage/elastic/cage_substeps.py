@@ -84,7 +84,7 @@ def about_masses(model, relative, sign):
 
 
 def to_halves(model, h0, relative):
-    """What relative motions at the joints [6] give to both halves: x, y, z, beta, gamma, s [6, 2]."""
+    """Motions of both halves by relative motions at the joints [6]: x, y, z, beta, gamma, s [6, 2]."""
     _, part, tilt = relative_inertia(model)
     relative = about_masses(model, relative, 1.0)
     axes = np.array([h0.b_y[1:, 0], h0.b_z[1:, 0]])  # rows: b_y, b_z

@@ -50,7 +50,7 @@ class ElasticHalf:
     mobility: np.ndarray  # velocity of a shape by an impulse on it [4] [1/kg]
     R: np.ndarray  # compliance that the modes leave between the pads of a joint, out of the plane [3, 3]
     series: float  # part of the friction states' stiffness that is left in series with it
-    k_hole: np.ndarray  # what is left of the holes' [Z] [N/m]
+    k_hole: np.ndarray  # stiffness of the holes in series with R [Z] [N/m]
     pairs: int  # modes of one frequency in twos, whose a come first and whose b first among the b
     b: int  # where the b begin
     # largest |u|/|q| of a wall, of a pair's a over the amplitude of both: by modes that move all pockets alike, else 0; by the others [n]

@@ -2,8 +2,8 @@
 not the motion.
 
 The films press on the rims and so pry at the joints: the load path (half_path.py) gives the loads Delta L, Delta V of
-bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the modes
-leave; a static load meets the whole half around the joint, K_0 (joint_law.py),
+bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, the stiffness
+of the residual beside the modes; a static load meets the whole half around the joint, K_0 (joint_law.py),
 
     L_0 = L + K_0 delta,     delta = K^-1 (L_K - L)
     L_0' = L_0 + Delta L - sum over other joints of K_(k-j) (delta' - delta)_j,     (delta', T', m')_k = law_0(L_0', P + Delta P)_k

@@ -82,7 +82,7 @@ def follow_places(before, now, joints, y):
 
 
 def slow_rates(model, f):
-    """Those of the modes [2, n]."""
+    """Slow rates of the modes [2, n]."""
     return np.array([f[MODE_S_DOT][: model.modes.n], f[MODE_D_DOT][: model.modes.n]])
 
 
@@ -90,8 +90,8 @@ def solve_bent_halves(model, gamma, w, lack, squeeze, residual, delta):
     """The velocities of halves with bent rims in delta [12] by the residual: land and rim together, the law at the step's end.
 
     lack: end minus predicted acceleration of each rim shape [2, 4]; squeeze: squeeze velocities [2, 6], which become those of the
-    end.  The films in w become those of the end.  Returns impulses [2, 6], rates [2, 6, 6] and forces [2, 6] of the films, and what the power
-    that they take is less there, without the part of the second order on the halves' bodies.
+    end.  The films in w become those of the end.  Returns impulses [2, 6], rates [2, 6, 6] and forces [2, 6] of the films, and the decrease
+    of the power that they take, without the part of the second order on the halves' bodies.
     """
     p, d, less, impulses, forces, all_rates = model.p, model.d, 0.0, *np.zeros((2, 2, 6)), np.zeros((2, 6, 6))
     for h in np.flatnonzero(w.pressure.bends) if w.pressure else ():

@@ -135,7 +135,7 @@ def rim_amplitudes(modes):
 
 
 def rim_shapes(modes, x):
-    """The same of all coordinates at the land x [n, cos 2, sin 2, cos 3, sin 3 theta]."""
+    """Radial displacement of the rim by all coordinates at the land x [n, cos 2, sin 2, cos 3, sin 3 theta]."""
     a, b = np.moveaxis(rim_amplitudes(modes) @ np.array([1.0, x]), 1, 0)
     cosine, sine = np.stack([a, 0.0 * a], axis=-1), np.stack([0.0 * b, b], axis=-1)
     return coordinates(modes, cosine.reshape(len(a), -1), sine.reshape(len(b), -1))

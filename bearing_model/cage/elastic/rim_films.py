@@ -86,7 +86,7 @@ class RimFilmsStep:
         return 0.5 * d * rim_modes(self.model, self.now)
 
     def follow(self, t, at, halves, last):
-        """The same at the end of a substep, the time t after the step's start.  at: velocities of S and D [2, n] with all other
+        """Changes of the velocities of S and D at the end of a substep, the time t after the step's start.  at: velocities of S and D [2, n] with all other
         accelerations; halves: changes of the halves' velocities by the joints [6, 2]; last: whether no substep follows.
         """
         d, by = self.d, self.mobility

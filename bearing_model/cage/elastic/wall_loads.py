@@ -2,8 +2,8 @@
 
     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q = x,  Q = K delta^1.5
 
-r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: what the modes and the
-motions d of the halves, by their joints and by the changes of these loads, have moved the wall.
+r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: motion of the wall by
+the modes and by the motions d of the halves, which their joints and the changes of these loads cause.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from bearing_model.cage.common.rigid_approach import rigid_approach
 from bearing_model.cage.elastic.elastic_half import ROOT
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
 
-# What an evaluation leaves of the contacts of each half with its walls, in the rows of FastState.touch: direction (x, t), of a ribbon also
+# Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
 # r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
 TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius"
 MOST_DAMPED = 1e3  # largest load over that without damping

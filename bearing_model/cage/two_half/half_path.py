@@ -43,7 +43,7 @@ def waves_of(Z):
 
 
 def by_waves(table, x, load):
-    """Loads of the waves by the harmonics load (Re G_p, Im G_p [..., p]) at the land x: what even kinds have by cos n theta
+    """Loads of the waves by the harmonics load (Re G_p, Im G_p [..., p]) at the land x: amplitudes of even kinds by cos n theta
     and by sin n theta, [..., waves, kinds] each.  table [waves, harmonic, 1 and x, kinds].
     """
     Z = 2 * load[0].shape[-1] // 3

@@ -23,7 +23,7 @@
 // instead of creeping.  Between two moments the law is integrated by return mapping (Simo and Hughes 1998, chapter 2): z_p
 // first follows the whole motion, trial deflections,
 //
-//     X = k_t z_p - k_h z_h                               what the plates would carry
+//     X = k_t z_p - k_h z_h                               trial force of the plates
 //     z_h += max(|X| - C_p, 0)/(k_t + k_h) X/|X|          their slip drags the heads (linear kinematic hardening)
 //     z_h *= min(1, C_h/(k_h |z_h|))                      which slip on the rivet
 //     k_t z_p = k_h z_h + min(1, C_p/|X'|) X'             X' = k_t z_p - k_h z_h
@@ -104,7 +104,7 @@ INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, const 
 }
 
 // Part of its capacity from which friction that is driven outward counts as sliding: states that a step has mapped lie
-// on their discs but for what forces change behind the mapping.
+// on their discs, apart from the change of the forces after the mapping.
 static const double SLIDES = 0.999;
 
 // Power of friction of the force F that slides with the velocity v.

@@ -1,4 +1,4 @@
-// The riveted joints between the cage halves: what both kinds of halves share.  Equations in cage_joint.c.
+// The riveted joints between the cage halves: the part that both kinds of halves share.  Equations in cage_joint.c.
 #pragma once
 
 #include "numbers/isa.h"
@@ -43,8 +43,8 @@ typedef struct {
 #define cage_joint_follow FOR_ISA(cage_joint_follow)
 void cage_joint_follow(double h, const double *v_y, const double *v_z, double *y);
 
-// Maps the trial deflections in y back onto what friction holds under the tension T of the rivets and the force N_plate
-// between the plates; adds to step->rubbed.  Returns what the slip dissipates [J].
+// Maps the trial deflections in y back onto those that friction bears under the tension T of the rivets and the force
+// N_plate between the plates; adds to step->rubbed.  Returns the energy that the slip dissipates [J].
 #define cage_joint_slide FOR_ISA(cage_joint_slide)
 double cage_joint_slide(const Model *model, const JointStiffness *k, const double *T, const double *N_plate,
                         double *y, JointStep *step);

@@ -74,7 +74,7 @@ void halves_acceleration(const Model *model, const scalar *y, const Work *w, sca
             acc[i] = half->F[i] / p->cage.m + field[i];
         }
 
-        // A half that expands gains inertia and slows down; what it has gained resists the frame's rate too.
+        // A half that expands gains inertia and slows down; the gained inertia resists the frame's angular acceleration too.
         const scalar moment = w->cage.elastic.more_J_dot[h] * (half->s + w->frame_omega) +
                               w->cage.elastic.more_J[h] * model->ring_load->frame_omega_dot;
         for (int i = 0; i < 3; i++) M[i] -= moment * half->a[i];

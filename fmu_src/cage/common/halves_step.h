@@ -20,7 +20,7 @@ typedef struct {
     double h;
 } StepFrom;
 
-// Its end, of which the cage sets its own rows: state, rates, their change over the step / its length, errors; residual of the
+// End of a step, of which the cage sets its own rows: state, rates, their change over the step / its length, errors; residual of the
 // velocities at the prediction and the change delta that the linear solve makes of it.  The rates are those of the evaluation on entry.
 typedef struct {
     double *y, *f, *jerk, *error, *residual, *delta;
@@ -58,8 +58,8 @@ void halves_correct(const HalvesStep *step, const StepTo *to, double change[N_ST
 #define halves_stiff_part FOR_ISA(halves_stiff_part)
 void halves_stiff_part(const Model *model, const Work *w, double gamma, double *v);
 
-// Maps the friction states in y back under the tensions T and the forces N_plate, from joints->before; the work loses what
-// that dissipates.
+// Maps the friction states in y back under the tensions T and the forces N_plate, from joints->before; the work loses the
+// energy that the mapping dissipates.
 #define halves_slide FOR_ISA(halves_slide)
 void halves_slide(const Model *model, const JointStiffness *k, const double *T, const double *N_plate,
                   double *y, JointStep *joints, Work *w);

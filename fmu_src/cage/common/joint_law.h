@@ -31,8 +31,8 @@ enum { PSI_CELLS = 10 };  // of every law (embed.py): a known distance between t
 
 enum { LAW_ENERGY = 3, LAW_WIDTH = 8 };  // u, phi_r, phi_t, energy (elastic_half.h; else 0), T, m_r, m_t, -
 
-// Joints that are all alike: L_0 and what pad and rivet do, per newton of s = P + c; then how one of them answers
-// to a change of its N, M_t, P (rows u, phi_t, T, m_t) and of its M_r.
+// Joints that are all alike: L_0, motion of the pad, load of the rivet, per newton of s = P + c; then the answer of a single
+// joint to a change of its N, M_t, P (rows u, phi_t, T, m_t) and of its M_r.
 enum {
     UNIFORM_N,
     UNIFORM_M_T,

@@ -5,7 +5,7 @@
 
 enum { SLIP_SWEEPS = 3 };
 
-// Slip of joints that would carry V bonded, and what heads and hole then carry, all along V.  K: slip stiffness
+// Slip of joints whose bonded load is V, and the loads of heads and hole that result, all along V.  K: slip stiffness
 // of the halves around a joint.  Plates hold up to `plate`, then the heads drag the rivet (k_head) up to `head`,
 // then the halves slip freely to `gap`, then the hole bears (k_hole):
 //     V - K slip = plate + min(k_head slip, head) + k_hole max(0, slip - gap).

@@ -19,7 +19,7 @@
 // force energy would not be conserved.
 //
 // Of a close pocket the patch would be longer than R_c and a half would bear beyond the end of its pocket.  Hertz's law ends
-// before; assumed: from a = R_c on the patch keeps its length and the halves share what is added by w(n_x):
+// before; assumed: from a = R_c on the patch keeps its length and the halves share the added energy by w(n_x):
 // V = e q^5 V_0 + w (1 - q^5) V_0, V_0 = (2/5) K delta^2.5, q = R_c/a.
 //
 // The friction P_S acts at the contact point p + R n, where the slip is v + omega x R n; in mixed lubrication
@@ -38,7 +38,7 @@
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
 
-// Approach of ball and wall without what the compliance c of the wall takes, delta_h + c w K delta_h^1.5 = delta, by
+// Approach of ball and wall less the deflection of the wall by its compliance c, delta_h + c w K delta_h^1.5 = delta, by
 // Newton's method.
 INLINE wide pocket_approach(const Model *model, int h, wide n_x, wide delta)
 {
@@ -201,8 +201,8 @@ INLINE scalar moved_wall(const Model *model, Work *w, int h, int k, const WallPl
     return elastic_sum(wall->shape, w->cage.elastic.q[h]);
 }
 
-// Bits of the balls of a packet that press on a wall or on the oil before it, behind what the walls have moved; `near`:
-// those that can have reached it.
+// Bits of the balls of a packet that press on a wall or on the oil before it, and takes the motion of the walls off the gap; `near`:
+// bits of the balls that can have reached a wall.
 static int find_touched(const Model *model, Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places, bits *pressed)
 {

@@ -1,7 +1,7 @@
 // Films of oil between balls and both halves within a step: forces F = D u, u > 0 the speed at which a gap closes.
 //
-// D is up to 1000 N.s/m, and an elastic wall weighs some grams for what happens in a step, so that D over that mass is up to 30 times
-// 1/h.  Held over a step, such forces feed the walls' vibrations.  So they follow in the substeps, implicit, one by one:
+// D is up to 1000 N.s/m, and the effective mass of an elastic wall within a step is some grams, so that D over that mass is up to 30 times
+// 1/h.  Held over a step, such forces feed the walls' vibrations.  So the forces follow in the substeps, implicit, one by one:
 //
 //     u = r + b (t - h/2) - U.v - g.V       r, b: rate in the middle of the step and acceleration of the rigid approach by slow
 //                                           forces; v, V: velocities of the wall's modes and of the half by all others
@@ -16,7 +16,7 @@
 //
 //     F_{n+1} = D (u + gamma (Y F_f + Y_b F_n))/(1 + gamma (Y + Y_b) D),   Y_b = 1/m of the ball
 //
-// F_f: force at the end that with F_n makes the impulses of the substeps.  The evaluation's rates lose what F = D u has too much.  D and
+// F_f: force at the end that with F_n makes the impulses of the substeps.  The excess of F = D u is taken off the evaluation's rates.  D and
 // direction are those of the step's start in the substeps.  Films whose D is small for the longest step stay slow forces.
 #include "cage/common/pocket_films.h"
 
@@ -182,7 +182,7 @@ void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, doub
     add_half_modes(change, modes);
 }
 
-// Velocities that the solution adds to what the evaluation had, or rates: of the modes, of the halves, of the balls.
+// Velocities that the solution adds to those of the evaluation, or rates: of the modes, of the halves, of the balls.
 typedef struct {
     mode_array modes[2];
     double halves[2 * RELATIVE_MOTIONS], balls[Z][3];

@@ -15,7 +15,7 @@ typedef struct {
     double rate;
 } PocketFilms;
 
-// Those of a step that follow in the substeps.
+// Films that follow in the substeps of a step.
 typedef struct {
     int count, half[2 * Z], ball[2 * Z];
     double middle;                          // of the step [s]
@@ -32,7 +32,7 @@ typedef struct {
 #define pocket_films_split FOR_ISA(pocket_films_split)
 void pocket_films_split(const Model *model, const Work *w, PocketFilms *films);
 
-// Those of a step of length h under the rates f.  state: velocities in the middle of the step; y: positions at its end; w:
+// Finds the films of a step of length h under the rates f.  state: velocities in the middle of the step; y: positions at its end; w:
 // kinematics of the halves in the middle.
 #define pocket_films_find FOR_ISA(pocket_films_find)
 void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,
@@ -45,13 +45,13 @@ void pocket_films_follow(const Model *model, double t, double d, double *v,
                          double halves[2 * RELATIVE_MOTIONS], double pushed[2 * RELATIVE_MOTIONS],
                          PocketFilmsStep *step);
 
-// Adds to accelerations of the modes and of the halves what the films have changed by since the step's start.
+// Adds to accelerations of the modes and of the halves the part by the change of the films' forces since the step's start.
 #define pocket_films_foreseen FOR_ISA(pocket_films_foreseen)
 void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
                            double halves[2 * RELATIVE_MOTIONS]);
 
-// At the step's end y, w, behind the evaluation: takes from the rates f and the pockets' forces what the films there have too much at the
-// predicted velocities, and returns the power that this saves [W].  step: those that followed in substeps, NULL without.
+// At the step's end y, w, behind the evaluation: takes the excess of the films' forces at the predicted velocities from the rates f and
+// the pockets' forces, and returns the power that this saves [W].  step: films that followed in substeps, NULL without.
 #define pocket_films_arrive FOR_ISA(pocket_films_arrive)
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
                            const PocketFilms *before, const double *y, Work *w, double *f,

@@ -54,7 +54,7 @@ INLINE PocketMotion pocket_motion(const Work *w, const Rotor *half, int j, const
     return (PocketMotion){v, vec_sub(omega_b, Omega)};
 }
 
-// Stores what the half bears of the force F and the moment M on the balls, 0 where nothing acts.
+// Stores the reactions on the half to the force F and the moment M on the balls, 0 where nothing acts.
 INLINE void pocket_on_half(const Work *w, int j, const PocketAxes *at, bits acts, vec F, vec M,
                            Pockets *pocket)
 {

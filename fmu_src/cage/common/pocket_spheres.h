@@ -17,7 +17,7 @@ void spheres_seams(const Parameters *p, double *sin_chi, double *sin_eta);
 #define spheres_rigid FOR_ISA(spheres_rigid)
 void spheres_rigid(const Model *model, Work *w);
 
-// The same of two elastic halves.
+// Contacts of all pockets of two elastic halves, as pocket_elastic of machined ones.
 #define spheres_elastic FOR_ISA(spheres_elastic)
 void spheres_elastic(const Model *model, Work *w);
 

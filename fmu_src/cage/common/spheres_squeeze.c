@@ -80,7 +80,7 @@ static void cap_force(double chi_1, double eta, const Direction *n, double h, do
 
     double load[3][ALONG + 1], diagonal[ALONG + 1], off[ALONG + 1], X[ALONG + 1], f[2][ACROSS + 1];
     for (int i = 0; i <= ALONG; i++) {
-        // strip: flow resistance of each interval, its pressure, and what both ends of its neighbours share
+        // strip: flow resistance of each interval, and pressure, which the constant k makes 0 at both ends
         const double s = portable_sin(chi[i]), c = portable_cos(chi[i]), A = S * (n->x * s + n->t * c);
         double flow[ACROSS], sum = 0.0, moment = 0.0, power = 0.0, *own = f[i % 2];
         const double *before = f[(i + 1) % 2];

@@ -42,7 +42,7 @@
 // Within 12 % of Reynolds' equation with p = 0 from h_m on for h < 0.6 t; each of both alone is exact.
 //
 // Floor by roughness and elasticity, Q = K delta^1.5 of ball and sphere: h_eff^2 = h^2 + sigma^2 + h_e^2 in E and c/h as in
-// pocket_squeeze.h.  In contact |h| is the approach less what the wall's own compliance takes.
+// pocket_squeeze.h.  In contact |h| is the approach less the deflection of the wall by its own compliance.
 //
 // Smoothness: C1 but for v.m = 0, a = 0 and b = 1, where it is C0.  Left out: the force of a ball that moves along the wall, by
 // symmetry without a force along n; the film in the fillet; the film's shear, which is in the friction of pocket_spheres.c.
@@ -78,7 +78,7 @@ INLINE wide squeeze_layer(wide G_e, wide h, wide t, wide C)
     return wide_select(wide_above(left, 0.0), G, wide_set(0.0));
 }
 
-// q (x, r, t): ball's centre from the sphere's; taken: what the wall's own compliance takes of the approach; v: velocity of the ball's centre against the
+// q (x, r, t): ball's centre from the sphere's; taken: part of the approach by the wall's own compliance; v: velocity of the ball's centre against the
 // wall along the same axes.
 INLINE SphereSqueeze spheres_squeeze(const Derived *d, int j, const wide q[3], wide taken, const wide v[3])
 {

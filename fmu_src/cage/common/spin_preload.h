@@ -7,7 +7,7 @@
 
 #include "rivet/rivet_rom.h"
 
-// s S(tau) - s, what the bending adds to P + w.
+// s S(tau) - s: preload that the bending adds to P + w.
 INLINE scalar spin_bending(const CageHalfData *half, scalar P, scalar w)
 {
     const double last = half->spin_steps - 2.0;

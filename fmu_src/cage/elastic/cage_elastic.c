@@ -17,9 +17,9 @@
 //     L_K = K e,     (L, T, m_r, m_t) = law(L_K, P)
 //
 // with the rivet table's law over K: its pads move by delta, L = K (e - delta).  So each joint
-// follows from its own pads; what the loads of other joints move them by beside the modes is left out: with
-// 4.4 modes a pitch 7 % of what a joint's own load does.  In the plane, friction states and the hole's
-// contact are those of cage_joint.c, in series with what the modes leave. Pads do not hold each other about x.
+// follows from its own pads; the motion of its pads by the loads of other joints beside the modes is left out: with
+// 4.4 modes a pitch it is 7 % of the motion by the joint's own load.  In the plane, friction states and the hole's
+// contact are those of cage_joint.c, in series with the residual.  Pads do not hold each other about x.
 // The films of the lands bend the rims (land_bent.h) and load the rivets statically by other waves (elastic_lands.c).
 //
 // The centrifugal load widens a half, which takes spin from it: its moment of inertia is J_p + 2 sum c_i

@@ -20,7 +20,7 @@ void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[2])
 #define cage_elastic_speed_2 FOR_ISA(cage_elastic_speed_2)
 scalar cage_elastic_speed_2(const Work *w);
 
-// Preloads [N] with what the centrifugal load of that speed adds.
+// Preloads [N] with the preload that the centrifugal load at that speed adds.
 #define cage_elastic_preload FOR_ISA(cage_elastic_preload)
 void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P);
 

@@ -15,12 +15,12 @@
 // forces in flooded pockets.
 //
 // The joints' motions are integrated with the velocities, in the frame of half 0 as it is in the middle of
-// the step, and computed anew from the positions at each evaluation.  The joints leave the common centre of mass of the halves alone: each half takes one half of a relative
-// motion.  Forces in the plane of the split act at the distance c_x from the centres of mass and tilt both halves by
-// the same angle;
-// a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  With the unbalance e the centres of mass lie c = e b_y from the
-// geometric centres, to which the relative motions belong: v_com = v + Omega x c, and the moment about them is M - c x F.  Whatever these motions leave out, gyroscopic
-// terms for example, is in the slow accelerations, because these are the whole ones less the fast ones.
+// the step, and computed anew from the positions at each evaluation.  The joints do not move the common centre
+// of mass of the halves: each half has one half of a relative motion.  Forces in the plane of the split act at the distance c_x from
+// the centres of mass and tilt both halves by the same angle; a joint feels the inverse inertia 2/m + 2 c_x^2/J_t there.  With the
+// unbalance e the centres of mass lie c = e b_y from the geometric centres, to which the relative motions belong: v_com =
+// v + Omega x c, and the moment about the centres of mass is M - c x F.  The slow accelerations are the whole ones less the fast ones;
+// so they contain all terms that the relative motions leave out, gyroscopic terms for example.
 //
 // Stiff films follow in the substeps, those on bent rims (rim_films.c) and those in pockets (pocket_films.c).
 //
@@ -35,9 +35,9 @@
 // substeps too: sampled at the ends of the steps and held, it would feed vibrations that turn by more than a
 // little, by 120/s at 12,000 r/min.
 //
-// The friction states follow the joints' motion and are mapped back onto what friction holds under the loads at the
-// end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  What they and the modes' damping dissipate is
-// summed over the substeps.  docs/method.md has the measured reasons.
+// The friction states follow the joints' motion and are mapped back onto those that friction bears under the loads at the
+// end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  The energy that the slip and the modes' damping
+// dissipate is summed over the substeps.  docs/method.md has the measured reasons.
 #include "cage/elastic/cage_substeps.h"
 
 #include "cage/common/cage_joint.h"

@@ -75,7 +75,7 @@ double elastic_half_pad(const ElasticHalf *half, bool out, int i, int motion, in
     return sign * row[motion * FIRST + (mirrored ? Z - 1 - k : k)];
 }
 
-// What the modes leave between the pads of a joint, out of the plane: the law's stiffness and its inverse.
+// Residual between the pads of a joint out of the plane, beside the modes: the law's stiffness and its inverse.
 static void take_residual(const JointLaw *law, ElasticHalf *half)
 {
     half->law = law;
@@ -268,7 +268,7 @@ static void find_reach(const Parameters *p, const Derived *d, bool ribbon, Elast
 
 // ---- rest under the centrifugal load -----------------------------------------------------------------------------------
 // All joints are alike: N = 0, and their M_t balances S_i = sqrt 2 (spin_i omega^2 - Z phi_t,i M_t)/(m
-// omega_i^2).  Sets S and what is off for the distance x[0] and M_t = x[1]: N, and M_t over the law's length [N].
+// omega_i^2).  Sets S and the errors `off` for the distance x[0] and M_t = x[1]: N, and that of M_t over the law's length [N].
 static void rest_off(const Parameters *p, const ElasticHalf *half, double omega_2, double P,
                      const double x[2], double *S, double off[2])
 {
@@ -335,7 +335,7 @@ static bool same_body(const ElasticBody *a, const ElasticBody *b)
            a->J_p == b->J_p && a->J_t == b->J_t && a->friction == b->friction;
 }
 
-// What follows from the body alone.
+// Constants that follow from the body alone.
 static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfPath *path = &rivet_table.half.path;

@@ -79,10 +79,10 @@ struct ElasticHalf {
     double wall_mobility;         // of a wall by modes and half, at the widest place, at most [m/s/(N.s)]
     double weak_film;             // damping of a pocket's film that need not follow in the substeps [N.s/m]
     double compliance;            // of a wall along its normal, by the residual, less that in Hertz's [m/N]
-    // what the modes leave between the pads of a joint, out of the plane: compliance and its inverse
+    // residual between the pads of a joint out of the plane, beside the modes: compliance and its inverse
     double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];
     double series;     // part of the friction states' stiffness that is left in series with the residual
-    constants k_hole;  // what is left of the holes' [N/m]
+    constants k_hole;  // stiffness of the holes in series with the residual [N/m]
     double substep;    // of the default method, at most [s]
 
     // from which all this was derived: the body, the largest stiffness of the holes
@@ -101,8 +101,8 @@ static inline double elastic_longest_step(const ElasticHalf *half)
     return 3.0 * half->substep;
 }
 
-// The half of the rivet table in the scene.  half: zeros, or that of other parameters, of which parts are kept that
-// follow from what is the same: the modes cost 0.6 ms, which a change of a parameter in a run would cost again.
+// The half of the rivet table in the scene.  half: zeros, or the half of other parameters, of which the parts are
+// kept that follow from the same values: the modes cost 0.6 ms, which a change of a parameter in a run would cost again.
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half);
 
 // Coordinates S [MODES] and axial distance of the halves' bodies [m] at which modes and joints rest under the
@@ -170,7 +170,7 @@ typedef struct {
 #define ribbon_alike FOR_ISA(ribbon_alike)
 void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike);
 
-// Their motion (x, r, t) at the place of a lane, on the side t < 0 (back) or t > 0 of a pocket.
+// Motion (x, r, t) by these coordinates at the place of a lane, on the side t < 0 (back) or t > 0 of a pocket.
 #define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
 void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes, int lane,
                        const RibbonAlike *alike, scalar u[3]);
@@ -234,7 +234,7 @@ INLINE scalar elastic_sum(const scalar *x, const scalar *y)
     return wide_eight_sum(part);
 }
 
-// The same with constants.
+// Sum over the modes as elastic_sum, with constants x.
 INLINE scalar elastic_dot(const double *x, const scalar *y)
 {
     wide part[EIGHTHS];

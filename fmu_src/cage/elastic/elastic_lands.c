@@ -2,8 +2,8 @@
 // motion.
 //
 // The films press on the rims and so pry at the joints: the load path (half_path.h) gives the loads Delta L, Delta V of
-// bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, what the
-// modes leave; a static load meets the whole half around the joint, K_0 (joint_law.h),
+// bonded joints and Delta P, dm of their rivets.  The joints' state by the modes is (L, delta), its law over K, the
+// stiffness of the residual beside the modes; a static load meets the whole half around the joint, K_0 (joint_law.h),
 //
 //     L_0 = L + K_0 delta,     delta = K^-1 (L_K - L)
 //     L_0' = L_0 + Delta L - sum over other joints of K_(k-j) (delta' - delta)_j,
@@ -33,7 +33,7 @@ typedef struct {
     ball_array load[3], move[3], rivet[3];
 } Answers;
 
-// Those by to->load; a broken joint carries nothing.
+// Moves and rivet loads by the loads to->load; a broken joint carries nothing.
 static void answer(const Derived *d, const ball_array P, Answers *to)
 {
     const JointLaw *law = &rivet_table.half.law;

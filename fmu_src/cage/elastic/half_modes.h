@@ -7,7 +7,7 @@
 #include "cage/common/joint_law.h"
 #include "numbers/isa.h"
 
-// Displacements (x, r, t) and rotations about them of a pad, work-conjugate to what the bonded joint carries, at the
+// Displacements (x, r, t) and rotations about them of a pad, work-conjugate to the loads of the bonded joint, at the
 // rivet.
 enum { PAD_X, PAD_R, PAD_T, PAD_PHI_X, PAD_PHI_R, PAD_PHI_T, PADS };
 

@@ -12,8 +12,9 @@
 //
 //     u_land = u_n + t a_n + by the joints + Y sum (P - d F_n)      a_n: by slow forces, the film's F_n among them
 //
-// (a_n of the geometric centre: that of the centre of mass less d(Omega x c)/dt), and films leave the halves' own motion to the step's end.  Held there, a half would carry its rim along: at 0.5 degrees of tilt
-// the 99.9 % pocket force would err by +3.4 %.  The step's end replaces the sum of P by gamma (F_n + F_{n+1}).
+// (a_n of the geometric centre: that of the centre of mass less d(Omega x c)/dt), and films leave the halves' own motion to the step's
+// end.  Held there, a half would carry its rim along: at 0.5 degrees of tilt the 99.9 % pocket force would err by +3.4 %.  The step's
+// end replaces the sum of P by gamma (F_n + F_{n+1}).
 //
 // A film is stiff where h D_land > m; a step of one substep has its ends alone.
 #include "cage/elastic/rim_films.h"

@@ -12,7 +12,7 @@ typedef struct {
     double force[2][RIM], rates[2][SQUEEZE][SQUEEZE];
 } RimFilms;
 
-// Those of a step; `follows`: whether they act in the substeps, for which the rest is.
+// Films of a step; `follows`: whether a film acts in the substeps, for which the members below are.
 typedef struct {
     const RimFilms *films;  // at the step's start
     bool follows[2];
@@ -23,7 +23,7 @@ typedef struct {
     double now[2][RIM];                  // forces in the present substep
     double begun[2][RIM];                // velocities of the shapes at the start
     double acceleration[2][2],
-        by_film[2][2];       // of the lands along their half's axes by slow forces; what films change of them
+        by_film[2][2];       // of the lands along their half's axes by slow forces; their change by films
     double impulse[2][RIM];  // so far
 } RimFilmsStep;
 
@@ -35,7 +35,7 @@ void rim_motions(const Model *model, const double *modes, double rim[2][RIM]);
 #define rim_push FOR_ISA(rim_push)
 void rim_push(const Model *model, double part, double impulse[2][RIM], double *modes);
 
-// Those of a step of length h; false if no film follows in substeps.
+// Prepares the films of a step of length h; false if no film follows in substeps.
 #define rim_films_begin FOR_ISA(rim_films_begin)
 bool rim_films_begin(const Model *model, double h, const RimFilms *films, RimFilmsStep *step);
 

@@ -5,11 +5,11 @@
 // step would find a wall that knows nothing of it.  So the approach of ball and wall follows,
 //
 //     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t)   r, b: rate in the middle of the step and acceleration of the rigid
-//                                                        approach by slow forces; u, g.d: what the modes and the motions d of
-//                                                        the halves, by their joints and by these loads, have moved the wall
+//                                                        approach by slow forces; u, g.d: motion of the wall by the modes and by
+//                                                        the motions d of the halves, which joints and these loads cause
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
-// and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The halves' bodies feel what the loads have changed by since the
+// and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The halves' bodies feel the change of the loads since the
 // start too: where loads moved the modes within the step and the bodies at its ends alone, vibrations of a ribbon's light
 // halves grew, of 20 kHz in steps of 12 us.  So after the step x is where the evaluation finds it.  x_0 < 0
 // before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).

@@ -23,14 +23,14 @@ typedef struct {
     mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
 
-// Those of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
+// Finds the loads of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
 // end, coordinates of the modes at its start; w: kinematics of the halves in the middle.
 #define wall_loads_find FOR_ISA(wall_loads_find)
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
-// Adds to the modes' accelerations (S, then D) what the loads have changed by at the time t of the step, and writes those of the halves.  q: coordinates there,
-// moved: rigid motions of the halves by the fast accelerations and by these.
+// Adds to the modes' accelerations (S, then D) the part by the change of the loads up to the time t of the step, and writes the part of the
+// halves.  q: coordinates at t; moved: rigid motions of the halves by the fast accelerations and by this part.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
                        const WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);

@@ -110,7 +110,7 @@ void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar
     octet joint[Z];
     memset(joint, 0, sizeof joint);
     for (int n = 0; n < LAND_WAVES; n++) {
-        // what goes with cos and with sin n theta
+        // amplitudes of cos n theta and of sin n theta
         octet with_cos = {{0.0}}, with_sin = {{0.0}};
         for (int each = 0; each < LAND_EACH; each++) {
             const int p = land_harmonic(n, each), h = p < 0 ? -p : p;

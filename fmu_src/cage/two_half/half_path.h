@@ -14,7 +14,7 @@
 // a unit force along x, r or t on pocket 0 of the +x half:
 //
 //     N, V_r, V_t, M_r, M_t   loads of the joint (N and V: beyond the rigid share)
-//     dP, dm_r, dm_t          what its rivet gets beside the joint's law, because the half gives under its head:
+//     dP, dm_r, dm_t          loads of its rivet beside the joint's law, because the half gives under its head:
 //                             change of preload, bending of its shank
 //
 // On the sphere of a ribbon's pocket chi is the place's angle about the sphere's centre, from the fillet's seam on, and its

@@ -11,8 +11,8 @@ INLINE wide joint_size(const JointLaw *law, wide N, wide M_r, wide M_t)
     return wide_abs(N) + (wide_abs(M_r) + wide_abs(M_t)) * (1.0 / law->length);
 }
 
-// What all joints have in common, of the table's `uniform` for c and P, in newtons: by Catmull-Rom splines, because the
-// friction of the joints has this tension, and a kink at every knot would be one of the friction over the speed.
+// State of joints that are all alike, from the table's `uniform` for c and P, in newtons: by Catmull-Rom splines, because the
+// tension decides the friction of the joints, and a kink at every knot would be a kink of the friction over the speed.
 ONCE void find_uniform(const JointLaw *law, scalar c, scalar P, scalar at[UNIFORM_WIDTH])
 {
     const int last = law->uniform_count - 2;
@@ -31,7 +31,7 @@ ONCE void find_uniform(const JointLaw *law, scalar c, scalar P, scalar at[UNIFOR
     for (int n = 0; n < UNIFORM_SLOPES; n++) at[n] *= s;
 }
 
-// What is sought: moves of all joints, L_0 that the joints have answered to, loads of the rivets.
+// Unknowns: moves of all joints, L_0 that the joints have answered to, loads of the rivets.
 typedef struct {
     JointMoves move;
     ball_array trial[3], *rivet;
@@ -49,7 +49,7 @@ INLINE void want(Wanted *wanted, int k, int mask)
         if (mask & 1 && k < Z) wanted->joint[wanted->count++] = k;
 }
 
-// The same where all joints move alike.
+// Loads L_0 where all joints move alike: the bonded loads less those that the moves of the other joints relieve.
 static void find_trial_uniform(const JointLaw *law, ball_array bonded[3], const scalar at[UNIFORM_WIDTH],
                                wide trial[PACKETS][3])
 {

@@ -41,7 +41,7 @@ INLINE void springs(const Derived *d, wide u_x, int k, wide *pull, wide *push)
     *push = wide_max(P - d->k_plate * u_x, zero);
 }
 
-// Rows of what bonded joints would carry by pocket forces, films of the lands and centrifugal load.
+// Rows of the loads of bonded joints by pocket forces, films of the lands and centrifugal load.
 static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathRows *rows)
 {
     PathForces forces[2];
@@ -134,7 +134,7 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
     t->dissipated = ball_array_sum(damped);
 }
 
-// Adds what the load path puts on plates, heads and shanks.
+// Adds the loads of plates, heads and shanks by the load path.
 ONCE void add_slip(const Model *model, const Work *w, JointShear *shear)
 {
     const TwoHalfWork *t = &w->cage.two_half;
@@ -166,7 +166,7 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
 // Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
 // matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
 // order four (Fox and Goodwin); for large x they tend to 1.5 and 1.7, which takes 22 % of the amplitude a step:
-// what the step cannot resolve dies out (docs/method.md).
+// a vibration that the step cannot resolve dies out (docs/method.md).
 static double vibration_weights(double x_2, double *matrix)
 {
     const double part = x_2 * x_2 / (x_2 * x_2 + 1.0);
@@ -174,8 +174,8 @@ static double vibration_weights(double x_2, double *matrix)
     return 1.0 / 3.0 + part * (1.7 - 1.0 / 3.0);
 }
 
-// C = sum over the rivets of (gamma c + gamma^2 k) b b^T, b = (1, z, -y): what holds back the axial motion of
-// half 1 against half 0, (v_x, beta_dot, gamma_dot).  y, z: place of the rivet, turned with half 0.
+// C = sum over the rivets of (gamma c + gamma^2 k) b b^T, b = (1, z, -y): resistance of the joints to the axial
+// motion of half 1 against half 0, (v_x, beta_dot, gamma_dot).  y, z: place of the rivet, turned with half 0.
 static void joint_matrix(const Model *model, const Work *w, double gamma, double C[3][3])
 {
     const Derived *d = model->d;
