@@ -128,11 +128,14 @@ if(NOT CORE)
     target_compile_definitions(core PRIVATE ${kernels})
 endif()
 
-# And once in dual numbers: derivatives.  Complex products need no care for infinities here.
+# And once in dual numbers: derivatives.  Complex products need no care for infinities here.  At -O3 the file takes 13 s instead of 4, for a directional
+# derivative in 35 us instead of 40.
+set(dual_flags -O1)
 check_c_compiler_flag("-Werror -fcx-limited-range" limited_range)
 if(limited_range)
-    set_source_files_properties(${fmu_src}/instance/jacobian.c PROPERTIES COMPILE_OPTIONS -fcx-limited-range)
+    list(APPEND dual_flags -fcx-limited-range)
 endif()
+set_source_files_properties(${fmu_src}/instance/jacobian.c PROPERTIES COMPILE_OPTIONS "${dual_flags}")
 
 # For the tests only: each element's functions, callable from Python.
 if(test_files AND NOT CMAKE_CROSSCOMPILING)

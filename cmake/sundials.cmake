@@ -191,4 +191,5 @@ add_compile_options(-ffile-prefix-map=${sundials_source}=sundials)
 set(sundials_folders ${sundials_headers} ${sundials_source}/include ${sundials_source}/src/sundials ${sundials_source}/src/arkode)
 add_library(sundials OBJECT ${sundials_files})
 target_include_directories(sundials SYSTEM PUBLIC ${sundials_folders})
+set_source_files_properties(${sundials_source}/src/arkode/arkode_butcher.c PROPERTIES COMPILE_OPTIONS -O1)  # set-up only; -O3 takes 2 s
 target_compile_options(sundials PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
