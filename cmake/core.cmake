@@ -1,7 +1,8 @@
 # The core: physics and integrator.  The archive goes into the FMU and, the same one, into the tests' library; it depends on the number of balls and the room
 # for modes, not on anything else of a bearing.  Target bearing has the rest: variables.c with the start values, and the rivet table.
 #
-#   CORE   archive of the compiled core to link (core.a of another build folder with as many balls and modes), empty: compile it here
+#   CORE         archive of the compiled core to link (core.a of another build folder with as many balls and modes), empty: compile it here
+#   PRECOMPILE   the header of the vector instructions is read once for each set, not for each file; ccache would not keep these files
 
 include(CheckCCompilerFlag)
 
@@ -37,6 +38,9 @@ if(NOT SANITIZE)
     list(APPEND core_flags -O3 -fno-tree-slp-vectorize)
 endif()
 
+set(kernel_flags ${core_flags})
+list(APPEND core_flags ${old_glibc})  # the kernels call no function of these, and their precompiled header must be the first
+
 set(fmu_src ${PROJECT_SOURCE_DIR}/fmu_src)
 set(generated ${fmu_src}/generated)  # folder of variables.h, variables.c and limits.c
 if(GENERATED_DIR)
@@ -68,6 +72,7 @@ target_include_directories(bearing PRIVATE ${core_includes})
 target_compile_options(bearing PRIVATE ${core_flags})
 
 set(CORE "" CACHE FILEPATH "Archive of the compiled core")
+option(PRECOMPILE "Precompile the header of the vector instructions" OFF)
 if(CORE)
     add_library(core STATIC IMPORTED)
     set_target_properties(core PROPERTIES IMPORTED_LOCATION ${CORE})
@@ -89,13 +94,16 @@ function(compile_for target isa lane_width files)
     add_library(${target} OBJECT EXCLUDE_FROM_ALL ${files})
     target_include_directories(${target} PRIVATE ${core_includes})
     target_compile_definitions(${target} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
-    target_compile_options(${target} PRIVATE ${core_flags} ${ARGN})
+    target_compile_options(${target} PRIVATE ${kernel_flags} ${ARGN})
 endfunction()
 
 # Adds the kernel files, compiled for one instruction set, and their elementary functions for the tests.
 function(add_kernel isa lane_width)
     if(NOT CORE)
         compile_for(kernel_${isa} ${isa} ${lane_width} "${kernel_files}" ${ARGN})
+        if(PRECOMPILE AND lane_width GREATER 2)
+            target_precompile_headers(kernel_${isa} PRIVATE <immintrin.h>)
+        endif()
         set(kernel_objects ${kernel_objects} $<TARGET_OBJECTS:kernel_${isa}> PARENT_SCOPE)
     endif()
     if(elementary_test AND NOT CMAKE_CROSSCOMPILING)

@@ -192,4 +192,4 @@ set(sundials_folders ${sundials_headers} ${sundials_source}/include ${sundials_s
 add_library(sundials OBJECT ${sundials_files})
 target_include_directories(sundials SYSTEM PUBLIC ${sundials_folders})
 set_source_files_properties(${sundials_source}/src/arkode/arkode_butcher.c PROPERTIES COMPILE_OPTIONS -O1)  # set-up only; -O3 takes 2 s
-target_compile_options(sundials PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
+target_compile_options(sundials PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden ${old_glibc})

@@ -75,13 +75,12 @@ def build_fmu(
     cmake()  # before minutes are spent on the table
     make_folder(out.parent)
 
-    def cores(sizes):
-        return [
-            Core(sources, core_folder(sources, sizes, platform), sizes, platform) for platform in platforms or [None]
-        ]
+    def cores(modes):
+        of = [(platform, core_folder(sources, case.Z, modes, platform)) for platform in platforms or [None]]
+        return [Core(sources, folder, case.Z, modes, platform) for platform, folder in of]
 
-    by_elements = kind != "closed-form" and modes is None and (rivet is None or Path(rivet).suffix == ".toml")
-    with beside(cores({"Z": case.Z, "modes": default_count(case.Z)}) if by_elements else [], say):
+    solved = kind != "closed-form" and modes is None and (rivet is None or Path(rivet).suffix == ".toml")
+    with beside(cores(default_count(case.Z)) if solved else [], say):
         given = given_table(rivet, case, kind, say, modes)
     with alone_in(folder, say):
         table = kept(given, table_copy(bearing, cage))
@@ -89,9 +88,7 @@ def build_fmu(
         generated = folder / "generated" if bearing or rivet or kind or modes else ""
         options = [f"-DRIVET_TABLE={table}", f"-DPython_EXECUTABLE={sys.executable}", f"-DGENERATED_DIR={generated}"]
         document = start_document(case, table)
-        archives = [
-            core.archive(say) for core in cores({name: document[name] for name in ("Z", "modes") if name in document})
-        ]
+        archives = [core.archive(say) for core in cores(document["modes"])]
         if generated:
             say("variables")
             resolved = folder / "bearing.toml"
@@ -153,10 +150,10 @@ def start_document(case, path):
     table, sections = read_table(path, case.Z), {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
-    modes = {"modes": table.modes.room} if table.modes else {}
+    modes = table.modes.room if table.modes else default_count(case.Z)
     rivet = {f"rivet.{name}": value for name, value in case.rivet.items() if f"rivet.{name}" in case.origin}
     about = {"description": fmu_description(case, table), "origin": case.origin, "numbers": case.catalogue | rivet}
-    return {"Z": case.Z} | modes | about | start
+    return {"Z": case.Z, "modes": modes} | about | start
 
 
 def cage_of(case, table):
@@ -218,9 +215,9 @@ def build_folder(sources, bearing, cage=None):
     return made_folder(sources, "bearings", name)
 
 
-def core_folder(sources, sizes, platform):
+def core_folder(sources, Z, modes, platform):
     """Folder in which a core is compiled, beside those of the bearings."""
-    return made_folder(sources, "cores", "_".join(map(str, filter(None, (*sizes.values(), platform)))))
+    return made_folder(sources, "cores", f"z{Z:02}_{modes}_{platform or 'host'}")
 
 
 def made_folder(sources, kind, name):

@@ -20,12 +20,13 @@ from ..base.files import cache_folder, cache_path, make_folder, write_atomically
 from .compiler import alone_in, compile_command, configure, execute, finish, identity, start, stop
 
 SOURCES = (
-    "CMakeLists.txt",
-    "cmake/*",
-    "fmu_src/**/*.[ch]",
-    "fmus/variables.toml",
-    "fmus/*.py",
-    "fmus/templates/*.[ch]",
+    *("CMakeLists.txt", "cmake/*.[ch]*", "fmu_src/**/*.[ch]"),
+    *(
+        "fmus/generate.py",
+        "fmus/limits.py",
+        "fmus/variables.toml",
+        "fmus/templates/*.[ch]",
+    ),  # make variables.h, limits.c
 )
 
 
@@ -35,7 +36,8 @@ class Core:
 
     sources: Path
     folder: Path  # of the build
-    sizes: dict[str, int]  # Z, modes as fmus/generate.py takes them
+    Z: int
+    modes: int
     platform: str | None = None
 
     @property
@@ -44,8 +46,7 @@ class Core:
         digest = sha256(identity(self.platform).encode())
         for file in sorted(path for pattern in SOURCES for path in self.sources.glob(pattern)):
             digest.update(f"{file.relative_to(self.sources).as_posix()} ".encode() + sha256(file.read_bytes()).digest())
-        digest.update(repr(sorted(self.sizes.items())).encode())
-        return f"core_z{self.sizes['Z']:02}-{digest.hexdigest()[:16]}"
+        return f"core_z{self.Z:02}_{self.modes}-{digest.hexdigest()[:16]}"
 
     def cached(self) -> Path | None:
         """The archive in the cache, perhaps of another user who may write there; None if there is none that is whole."""
@@ -73,13 +74,13 @@ class Core:
                 return
             key, generated = self.key, self.folder / "generated"
             sizes = self.folder / "sizes.toml"
-            sizes.write_text("".join(f"{name} = {value}\n" for name, value in self.sizes.items()), encoding="utf-8")
+            sizes.write_text(f"Z = {self.Z}\nmodes = {self.modes}\n", encoding="utf-8")
             execute(
                 [sys.executable, self.sources / "fmus" / "generate.py", "--bearing", sizes, "--out", generated],
                 self.folder,
                 say,
             )
-            options = [f"-DGENERATED_DIR={generated}", f"-DPython_EXECUTABLE={sys.executable}"]
+            options = [f"-DGENERATED_DIR={generated}", f"-DPython_EXECUTABLE={sys.executable}", "-DPRECOMPILE=ON"]
             configure(self.sources, self.folder, options, self.platform, say)
             process = start(compile_command(self.folder, "core"))
             try:
