@@ -2,7 +2,6 @@
 platforms.
 """
 
-import contextlib
 import hashlib
 import importlib.util
 import json
@@ -722,7 +721,6 @@ def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
     monkeypatch.setattr(builder, "has_compiler", lambda: True)
     monkeypatch.setattr(builder, "compile_target", configured)
     monkeypatch.setattr(builder.Core, "archive", lambda core, say: tmp_path / "core.a")
-    monkeypatch.setattr(builder, "beside", lambda cores, say: contextlib.nullcontext())
     for kind in ("closed-form", None):
         with pytest.raises(EnoughError):
             builder.build_fmu(out=tmp_path / "x.fmu", kind=kind)

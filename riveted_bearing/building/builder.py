@@ -79,9 +79,8 @@ def build_fmu(
         of = [(platform, core_folder(sources, case.Z, modes, platform)) for platform in platforms or [None]]
         return [Core(sources, folder, case.Z, modes, platform) for platform, folder in of]
 
-    solved = kind != "closed-form" and modes is None and (rivet is None or Path(rivet).suffix == ".toml")
-    with beside(cores(default_count(case.Z)) if solved else [], say):
-        given = given_table(rivet, case, kind, say, modes)
+    expected = 8 * math.ceil((modes or default_count(case.Z)) / 8)
+    given = given_table(rivet, case, kind, say, modes, beside(cores(expected), say))
     with alone_in(folder, say):
         table = kept(given, table_copy(bearing, cage))
         # said in any case: a build folder remembers what it was told before
@@ -237,14 +236,14 @@ def case_with(bearing: Any, rivet: Any, cage: Any = None) -> Case:
     return rivet_case(Path(rivet), bearing or "6207")
 
 
-def given_table(rivet, case, kind, say, modes=None):
+def given_table(rivet, case, kind, say, modes=None, meanwhile=None):
     """Absolute path of the rivet table: the user's, or one for the case's geometry; UserError if it cannot be had or is
     for another cage.
     """
     if kind is not None and kind not in TABLES:
         raise unknown("--table", "kind", kind, TABLES)
     if rivet is None or Path(rivet).suffix == ".toml":
-        return table_of(rivet or case.designation, geometry_of(case), kind, say, modes)
+        return table_of(rivet or case.designation, geometry_of(case), kind, say, modes, meanwhile)
     path = Path(rivet)
     for option, value in (("--table", kind), ("--modes", modes)):
         if value is not None:

@@ -100,7 +100,9 @@ class Core:
         )
 
 
-def beside(cores: list[Core], say: Any) -> contextlib.AbstractContextManager[None]:
+@contextlib.contextmanager
+def beside(cores: list[Core], say: Any) -> Iterator[None]:
     """The first of these cores that is not in the cache is compiled beside what is done meanwhile."""
     missing = next((core for core in cores if not core.cached()), None)
-    return missing.compiling(say) if missing else contextlib.nullcontext()
+    with missing.compiling(say) if missing else contextlib.nullcontext():
+        yield
