@@ -46,7 +46,7 @@ build: build/build.ninja  ## the FMU and the tests' library; seconds after an ed
 
 browser: $(VENV)/installed  ## the bearing in a web page, in build/browser/bearing.html: the core as WebAssembly, no network needed
 	$(PYTHON) -c "import ziglang" 2>/dev/null || $(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"
-	zig=$$($(PYTHON) -c "from riveted_bearing.building.builder import find_zig; print(find_zig())") && $(BIN)/cmake -S . -B build/wasm32 -G Ninja \
+	zig=$$($(PYTHON) -c "from riveted_bearing.building.compiler import find_zig; print(find_zig())") && $(BIN)/cmake -S . -B build/wasm32 -G Ninja \
 		-DCMAKE_TOOLCHAIN_FILE=$(CURDIR)/cmake/zig.cmake -DPLATFORM=wasm32 -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DZIG=$$zig
 	$(BIN)/cmake --build build/wasm32 --target browser
 	$(PYTHON) docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html

@@ -1,6 +1,6 @@
 # For the benchmarks only, built on demand: the core with other integrators; loops around the kernels, which are compiled once more without vectors.
 
-if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND sundials_source)
+if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND NOT CORE)
     set(benchmarks ${PROJECT_SOURCE_DIR}/benchmarks)
 
     # What solvers.c needs of SUNDIALS beyond the FMU's part.
@@ -13,8 +13,9 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
     target_include_directories(sundials_cvode SYSTEM PRIVATE ${sundials_folders} ${sundials_source}/src/cvode)
     target_compile_options(sundials_cvode PRIVATE -w -ffp-contract=off -fno-math-errno -fvisibility=hidden)
 
+    set(core_objects $<TARGET_OBJECTS:core> $<TARGET_OBJECTS:sundials> $<TARGET_OBJECTS:bearing>)
     add_library(bearing_solvers SHARED EXCLUDE_FROM_ALL
-        $<FILTER:${core_objects},EXCLUDE,integrator\\.c> $<TARGET_OBJECTS:sundials_cvode> ${test_files} ${benchmarks}/solvers.c)
+        $<FILTER:${core_objects},EXCLUDE,integrator\\.c> ${kernel_objects} $<TARGET_OBJECTS:sundials_cvode> ${test_files} ${benchmarks}/solvers.c)
 
     # Adds the timing loops for one instruction set; options as for its kernels.
     function(add_timing isa lane_width)
@@ -38,7 +39,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
     else()
         add_timing(generic 2)
     endif()
-    add_library(bearing_kernels SHARED EXCLUDE_FROM_ALL ${core_objects} ${timing_objects} ${test_files} ${benchmarks}/trace.c)
+    add_library(bearing_kernels SHARED EXCLUDE_FROM_ALL ${core_objects} ${kernel_objects} ${timing_objects} ${test_files} ${benchmarks}/trace.c)
 
     foreach(library IN ITEMS bearing_solvers bearing_kernels)
         target_include_directories(${library} PRIVATE ${core_includes})

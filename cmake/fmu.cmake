@@ -27,19 +27,17 @@ function(add_fmu_binary name)
     endif()
 endfunction()
 
-set(source_files ${core_files} ${kernel_files} ${wrapper_files} ${rivet_table} ${sundials_files})
+set(source_files ${core_files} ${kernel_files} ${bearing_files} ${wrapper_files} ${sundials_files})
 set(source_folders ${core_includes} ${sundials_folders})
 set(build_info ${PROJECT_BINARY_DIR}/build_info.c)
 add_build_info(${build_info} "${source_files}" "${source_folders}")
-add_fmu_binary(RivetedBearing ${core_objects} ${wrapper_files} ${build_info})
+add_fmu_binary(RivetedBearing $<TARGET_OBJECTS:bearing> ${wrapper_files} ${build_info})
 target_link_libraries(RivetedBearing PRIVATE core)
 if(TARGET kernel_by_fours)
     # For the tests only: its kernel avx512 is computed by AVX2.
-    set(others ${core_objects} $<TARGET_OBJECTS:core>)
-    add_fmu_binary(RivetedBearing_by_fours EXCLUDE_FROM_ALL $<FILTER:${others},EXCLUDE,solver/dispatch|kernel_avx512> $<TARGET_OBJECTS:kernel_by_fours>
-        $<TARGET_OBJECTS:dispatch_by_fours> ${wrapper_files} ${build_info})
-    target_include_directories(RivetedBearing_by_fours PRIVATE ${core_includes})
-    target_link_libraries(RivetedBearing_by_fours PRIVATE m)
+    add_fmu_binary(RivetedBearing_by_fours EXCLUDE_FROM_ALL $<TARGET_OBJECTS:kernel_by_fours> $<TARGET_OBJECTS:dispatch_by_fours> $<TARGET_OBJECTS:bearing>
+        ${wrapper_files} ${build_info})
+    target_link_libraries(RivetedBearing_by_fours PRIVATE core)  # without what these objects define
 endif()
 add_custom_target(binaries DEPENDS RivetedBearing)  # all there are for this platform
 

@@ -113,7 +113,8 @@ def build(
     cage: str | None = None,
     progress: Callable[..., None] | None = None,
 ) -> Path:
-    """Build an FMU for a bearing and return its path: needs a C compiler and takes two to five minutes.
+    """Build an FMU for a bearing and return its path: needs a C compiler and takes half a minute, for the
+    first bearing with as many balls one to two.
 
     bearing: bearing file or designation (6008, 6308, ...), None for the 6207; rivet: rivet table (JSON) or geometry of
     the rivet (TOML), None for the bearing's own rivet; out: the FMU to write, None for my.fmu in the working directory

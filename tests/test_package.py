@@ -35,7 +35,7 @@ from slave import Slave, describe
 from bearing_model.generated import variables
 from bearing_model.rivet.rivet_table import DEFAULT_TABLE
 from riveted_bearing import UserError
-from riveted_bearing.building import builder
+from riveted_bearing.building import builder, compiler
 from riveted_bearing.building.builder import build_folder
 
 FMI_HEADERS = Path(fmpy.__file__).parent / "c-code"
@@ -628,15 +628,15 @@ def test_without_a_compiler_zig_is_taken_or_named(monkeypatch):
     ways out.
     """
     monkeypatch.delenv("CC", raising=False)
-    monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "gcc" else None)
-    assert builder.compiler_platforms() == ()
-    monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "zig" else None)
-    monkeypatch.setattr(builder.machine, "system", lambda: "Windows")
-    monkeypatch.setattr(builder.machine, "machine", lambda: "AMD64")
-    assert builder.compiler_platforms() == ("win64",)
-    monkeypatch.setattr(builder.shutil, "which", lambda name, path=None: None)
+    monkeypatch.setattr(compiler.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "gcc" else None)
+    assert compiler.compiler_platforms() == ()
+    monkeypatch.setattr(compiler.shutil, "which", lambda name, path=None: f"/bin/{name}" if name == "zig" else None)
+    monkeypatch.setattr(compiler.machine, "system", lambda: "Windows")
+    monkeypatch.setattr(compiler.machine, "machine", lambda: "AMD64")
+    assert compiler.compiler_platforms() == ("win64",)
+    monkeypatch.setattr(compiler.shutil, "which", lambda name, path=None: None)
     with pytest.raises(UserError, match=r"no C compiler \(cc, gcc, clang\) found: install one, or zig, .*\[cross\]"):
-        builder.compiler_platforms()
+        compiler.compiler_platforms()
 
 
 def test_from_source_without_a_compiler_is_one_line(tmp_path, monkeypatch):
@@ -679,10 +679,10 @@ def test_a_second_build_in_a_folder_waits(tmp_path, monkeypatch):
             waiting.set()
 
     def second():
-        with builder.alone_in(tmp_path, say):
+        with compiler.alone_in(tmp_path, say):
             order.append("second")
 
-    with builder.alone_in(tmp_path, say):
+    with compiler.alone_in(tmp_path, say):
         thread = threading.Thread(target=second)
         thread.start()
         assert waiting.wait(20.0)
@@ -708,7 +708,7 @@ def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
     class EnoughError(Exception):
         pass
 
-    def configured(cmake, sources, folder, options, target, say):
+    def configured(sources, folder, options, target, say, platform=None):
         told.append([option for option in options if option.startswith("-DGENERATED_DIR=")])
         raise EnoughError
 
@@ -720,6 +720,7 @@ def test_a_default_build_forgets_the_one_before(tmp_path, monkeypatch):
         monkeypatch.setattr(builder, name, value)
     monkeypatch.setattr(builder, "has_compiler", lambda: True)
     monkeypatch.setattr(builder, "compile_target", configured)
+    monkeypatch.setattr(builder.Core, "archive", lambda core, say: tmp_path / "core.a")
     for kind in ("closed-form", None):
         with pytest.raises(EnoughError):
             builder.build_fmu(out=tmp_path / "x.fmu", kind=kind)

@@ -35,8 +35,10 @@
 #define FOR_ISA_1(name, isa) FOR_ISA_2(name, isa)
 #define FOR_ISA(name) FOR_ISA_1(name, ISA)
 
-#if defined(__SSE2__)
-#include <immintrin.h>
+#if defined(__AVX__)
+#include <immintrin.h>  // 64,000 lines: half the time of compiling a small file
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #elif defined(__ARM_NEON) && LANE_WIDTH == 2
 #include <arm_neon.h>
 #endif

@@ -2,6 +2,7 @@
 finite elements.
 """
 
+import contextlib
 import math
 from collections.abc import Iterator
 from concurrent.futures import BrokenExecutor
@@ -189,12 +190,13 @@ def condensed(geometry, path):
         raise UserError(f"{path}: {problem}") from None
 
 
-def table_of(where, geometry, kind=None, say=lambda text, share=None: None, modes=None):
+def table_of(where, geometry, kind=None, say=lambda text, share=None: None, modes=None, meanwhile=None):
     """Path of the rivet table of a geometry: the shipped one, or one made in the user's cache folder, or found there
     from an earlier time.
 
     where: whose geometry it is, for messages; kind: one of TABLES, None for the shipped table if it was made for this
-    geometry, else a coarse one; say: called with stage and share done; modes: of a cage half, None: as many as usual.
+    geometry, else a coarse one; say: called with stage and share done; modes: of a cage half, None: as many as usual;
+    meanwhile: a context for the time in which finite elements are solved.
     Raises UserError if the geometry cannot be meshed or solved, or for an impossible number of modes; then there is no
     new file.
     """
@@ -218,10 +220,14 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
             check_count(modes, geometry.Z)
         if kind == "closed-form":
             made = closed_form.make_table(geometry)
-        elif shipped:
-            made = other_modes(rivet_table.read(rivet_table.DEFAULT_TABLE), modes, progress)
         else:
-            made = make_table(geometry, kind == "coarse", progress=progress, modes=modes)
+            with meanwhile or contextlib.nullcontext():
+                if shipped:
+                    made = other_modes(rivet_table.read(rivet_table.DEFAULT_TABLE), modes, progress)
+                else:
+                    made = make_table(geometry, kind == "coarse", progress=progress, modes=modes)
+    except UserError:  # of the context
+        raise
     except (ValueError, ArithmeticError, np.linalg.LinAlgError, BrokenExecutor) as problem:
         raise UserError(f"{where}: {problem}") from None
     write_atomically(target, lambda temporary: table.write(made, temporary))

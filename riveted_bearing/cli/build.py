@@ -49,7 +49,9 @@ def build(
         typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler"),
     ] = None,
 ):
-    """Make an FMU for a bearing: needs a C compiler, takes two to five minutes; with --table full half an hour more."""
+    """Make an FMU for a bearing: needs a C compiler, takes half a minute, for the first bearing with as many balls one to two;
+    with --table full half an hour more.
+    """
     from ..bearing.plausible import doubts
     from ..building.builder import build_fmu, case_with, platform_names, table_copy
     from ..running.fmu import Model

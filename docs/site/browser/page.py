@@ -12,7 +12,7 @@ from pathlib import Path
 import jinja2
 
 from bearing_model.generated import variables
-from riveted_bearing.building.builder import find_zig
+from riveted_bearing.building.compiler import find_zig
 from riveted_bearing.show.animation import exaggeration
 from riveted_bearing.show.pages import PARTS
 
