@@ -129,7 +129,7 @@ def test_fixed_steps(core):
 
 
 def test_refusals(core):
-    with pytest.raises(ValueError, match="housing.motion = supported: solver.method = explicit"):
+    with pytest.raises(ValueError, match="housing.motion = 2: given .1. is allowed for solver.method = explicit"):
         Instance(core, SUPPORTED | {"solver.method": 2})
     with pytest.raises(ValueError, match="the FMU alone integrates a housing on springs"):
         simulate(SUPPORTED, t_end=1e-4)

@@ -24,6 +24,7 @@ FIRST_VALUES = {"start.c", "derived.c", "instance.c"}
 ONE_TASK = {
     "pocket_squeeze.h": "pocket.c",
     "pocket_spheres.c": "pocket.c",
+    "pocket_films.c": "pocket.c",
     "cage_substeps.c": "cage_elastic.c",
     "land_bent.c": "land_film.c",
 }
