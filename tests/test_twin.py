@@ -458,7 +458,7 @@ def test_films_that_the_rivets_feel(core, percent, felt):
     scene, inputs = SCENES["elastic"]
     model, y_start, _ = start_of("elastic")
     y, w, t = random_states(model, y_start, np.random.default_rng(6), 1)[0], Work(), 3e-4
-    rhs(Model.of(scene | {"joint.preload": 1.0}, inputs), 0.0, y, w)
+    rhs(Model.of(scene | {"joint.preload": 1000.0}, inputs), 0.0, y, w)
     load = np.hypot(*w.pressure.film[:2])[..., 0].item() + w.pressure.dry[..., 0].item()  # of half 0
     parameters = scene | {"joint.preload": float(load / (1e-2 * percent * Z))}
     found = Instance(core, parameters, inputs).step(t)

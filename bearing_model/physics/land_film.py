@@ -58,7 +58,6 @@ from bearing_model.physics.outer_ring import outer_ring
 from bearing_model.physics.traction import traction_asperity_share
 
 EPS_CAP = 1.2
-STANDS = 0.01  # motion of a rim over its gap up to which it is round to its film
 LEAST_CLEARANCE = 0.1  # part of the clearance at rest below which a half's growth does not narrow it
 LAND_HIGHEST = (3 * Z - 1) // 2  # harmonic of the load on a rim
 LAND_POINTS = 24  # of its sum over the angle
@@ -178,7 +177,6 @@ class LandPressure:
     rim_v: np.ndarray  # its velocity [m/s]
     rim_V: np.ndarray  # its squeeze velocity [m/s]
     by_spin: np.ndarray  # change of the squeeze velocities of land and rim per spin [6, ..., half] [m]
-    bends: np.ndarray = None  # whether the bending of each rim counts in its film [half]
     at: np.ndarray = None  # squeeze velocities to which film and rates belong [6, ..., half] [m/s]
     film: np.ndarray = None  # force of the film on land and rim [6, ..., half] [N]
     rim_force: np.ndarray = None  # all force on the rim's shapes [N]
@@ -326,28 +324,9 @@ def round_lands(model, e, V, motion, C, heated):
         stored_rate=lands.N_0 * lands.pen_dot,
         rates=np.array([[yy, yz], [yz, zz]]),
         on_rim=0.0,
-        by_film=(F_y, F_z),
         q2=lands.q2 + 0.0 * lands.e,
         size=lands.size,
         dry=N,
-    )
-
-
-def rim_stands(rim, gap):
-    """Whether each rim [4, ..., half] hardly moves beside its gap [..., half]."""
-    return np.sum(np.abs(np.real(rim)), axis=0) < STANDS * np.real(gap)
-
-
-def leave_rims(d, pressure, T, force, round_, gap):
-    """Rims that hardly move under faint films are round to these, which do not push them either: forces of both laws in one."""
-    stands = rim_stands(pressure.rim, gap) & (np.real(film_share(d, round_.size + round_.dry)) == 0.0)
-    pressure.bends = np.atleast_1d(np.squeeze(~stands))
-    film = np.einsum("ik...,k...->i...", T, np.array([round_.by_film[0], round_.by_film[1]]))
-    pressure.film = np.where(stands, np.concatenate([film, 0.0 * pressure.rim]), pressure.film)
-    pressure.rim_force = np.where(stands, 0.0, pressure.rim_force)
-    pressure.felt, pressure.dry = (np.where(stands, 0.0, value) for value in (pressure.felt, pressure.dry))
-    return SimpleNamespace(
-        **{name: np.where(stands, getattr(round_, name), value) for name, value in vars(force).items()}
     )
 
 
@@ -402,9 +381,7 @@ def land_film_force(model, w):
     if model.modes:
         kappa_C3 = d.kappa * heated * d.C_land**3
         w.pressure = LandPressure(e_h, V_h, v_h, C + none, kappa_C3 + none, *rim_squeeze(model, w, e_h, omega + none))
-        bent = bent_lands(model, w, w.pressure, np.swapaxes(T, 0, 1), motion, heated)
-        round_ = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)
-        force = leave_rims(d, w.pressure, T, bent, round_, C - np.sqrt(e_y * e_y + e_z * e_z))
+        force = bent_lands(model, w, w.pressure, np.swapaxes(T, 0, 1), motion, heated)
     else:
         force = round_lands(model, (e_y, e_z), (V_y, V_z), motion, C, heated)
         w.land = land_load(e_h, V_h, force.q2, force.size, force.dry)

@@ -295,7 +295,6 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
 {
     double power = 0.0;
     for (int h = 0; h < 2; h++) {
-        if (!w->bends[h]) continue;
         const Rotor *half = &w->half[h];
         LandPressure *pressure = &w->pressure[h];
         LandFilm *film = &w->film[h];

@@ -33,6 +33,12 @@ INLINE bool land_is_felt(const Work *w, int h)
     return scalar_value(w->pressure[h].felt) > 0.0;
 }
 
+// Whether films bend the rims of the halves.
+INLINE bool lands_bend(const Model *model)
+{
+    return model->modes && model->d->guided;
+}
+
 // 0 up to x = 0, 1 from x = 1 on, smooth between them.
 INLINE scalar smooth_part(scalar x)
 {

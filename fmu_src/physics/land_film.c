@@ -199,10 +199,10 @@ INLINE void sum_load(wide re[EIGHTHS][LAND_HARMONICS], wide im[EIGHTHS][LAND_HAR
     wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
 }
 
-// Variables of the pressure on a round rim, along the half's axes: eccentricity [m], pure squeeze velocity [m/s], the film's force [N]; gap
-// function q^2, sizes of the film's force and of the dry contact's [N].
+// Variables of the pressure on a round rim, along the half's axes: eccentricity [m], pure squeeze velocity [m/s], gap function q^2,
+// sizes of the film's force and of the dry contact's [N].
 typedef struct {
-    scalar e[2], V[2], film[2], q2, force, dry;
+    scalar e[2], V[2], q2, force, dry;
 } RoundPressure;
 
 // Harmonics of the load on a round rim.
@@ -452,10 +452,9 @@ INLINE void round_contact(const Model *model, const LandMotion *land, wide C, Ro
         traction_asperity_share(ln_Lambda) * wide_sqrt(by_film->y * by_film->y + by_film->z * by_film->z);
 }
 
-// The round lands of HALVES halves side by side, beginning with half `first`.  e, V: vectors (y, z).
+// The lands of HALVES rigid halves side by side, beginning with half `first`.  e, V: vectors (y, z).
 INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *outer, const LandMotion *land,
-                        const wide V[2], wide C, wide heated, LandForce force[HALVES],
-                        RoundPressure pressure[HALVES])
+                        const wide V[2], wide C, wide heated, LandForce force[HALVES])
 {
     const Parameters *p = model->p;
     RoundLands lands;
@@ -489,32 +488,12 @@ INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *out
                                wide_lane(stored_rate, i)};
         w->film[h] =
             (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), force[i].spin};
-        pressure[i] = (RoundPressure){
+        RoundPressure pressure = {
             .q2 = wide_lane(lands.q2, i), .force = wide_lane(lands.size, i), .dry = wide_lane(lands.N, i)};
-        land_turn(outer, half, wide_lane(land->e_y, i), wide_lane(land->e_z, i), pressure[i].e);
-        land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), pressure[i].V);
-        land_turn(outer, half, wide_lane(lands.by_film.y, i), wide_lane(lands.by_film.z, i),
-                  pressure[i].film);
+        land_turn(outer, half, wide_lane(land->e_y, i), wide_lane(land->e_z, i), pressure.e);
+        land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), pressure.V);
+        land_load(model->d, &pressure, &w->land[h]);
     }
-}
-
-static const double STANDS = 0.01;  // motion of a rim over its gap up to which it is round to its film
-
-// Whether a rim hardly moves beside its gap.
-INLINE bool rim_stands(const scalar rim[RIM], scalar gap)
-{
-    double moved = 0.0;
-    for (int i = 0; i < RIM; i++) moved += fabs(scalar_value(rim[i]));
-    return moved < STANDS * scalar_value(gap);
-}
-
-// A rim that is round to its film, which is faint and does not push it.
-INLINE void leave_rim(const RoundPressure *round, LandPressure *pressure)
-{
-    memset(pressure, 0, sizeof *pressure);
-    memcpy(pressure->e, round->e, sizeof round->e);
-    memcpy(pressure->V, round->V, sizeof round->V);
-    memcpy(pressure->film, round->film, sizeof round->film);
 }
 
 // Adds force and moment of a land at x from its half's centre to the half, and the land's energy and power.  on_rim: power of the rim's bending.
@@ -553,32 +532,19 @@ INLINE void land_film_packet(const Model *model, Work *w, int first, const Rotor
     const scalar spin[2] = {h0->s + w->frame_omega, h1->s + w->frame_omega};  // in space
     const wide C = wide_pair(land_clearance(d, spin[0]), land_clearance(d, spin[1]));
     const wide heated = d->nahme > 0.0 ? land_film_heating(d->nahme * omega * omega) : wide_set(1.0);
-    const wide gap = C - wide_sqrt(land.e_y * land.e_y + land.e_z * land.e_z);
-    bool stands[HALVES], any = false;
-    for (int i = 0; i < HALVES; i++) {
-        stands[i] = !model->modes || rim_stands(w->rim[first + i], wide_lane(gap, i));
-        any |= stands[i];
-    }
     LandForce force[HALVES];
-    RoundPressure round[HALVES];
-    if (any) round_lands(model, w, first, outer, &land, V, C, heated, force, round);
-
+    if (!model->modes) round_lands(model, w, first, outer, &land, V, C, heated, force);
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
         const LandRates at = {{wide_lane(land.v_y, i), wide_lane(land.v_z, i)}, wide_lane(omega, i)};
         scalar on_rim = 0.0;  // power
-        w->bends[h] =
-            model->modes && !(stands[i] && scalar_value(film_share(d, round[i].force + round[i].dry)) == 0.0);
-        if (w->bends[h]) {
+        if (model->modes) {
             const scalar e[2] = {wide_lane(land.e_y, i), wide_lane(land.e_z, i)};
             const scalar squeeze[2] = {wide_lane(V[0], i), wide_lane(V[1], i)};
             force[i] = bent_land(model, w, h, outer, &at, e, squeeze, wide_lane(C, i), wide_lane(heated, i));
             const LandPressure *pressure = &w->pressure[h];
             for (int n = 0; n < RIM; n++) on_rim += pressure->rim_force[n] * pressure->rim_v[n];
-        } else if (model->modes)
-            leave_rim(&round[i], &w->pressure[h]);
-        else
-            land_load(d, &round[i], &w->land[h]);
+        }
         add_land(d, w, h, outer, wide_lane(x_land, i), &at, &force[i], on_rim);
     }
 }
@@ -615,7 +581,6 @@ void land_film_force(const Model *model, Work *w)
         memset(w->film, 0, sizeof w->film);
         memset(w->land_growth, 0, sizeof w->land_growth);
         memset(w->pressure, 0, sizeof w->pressure);
-        memset(w->bends, 0, sizeof w->bends);
         memset(w->land, 0, sizeof w->land);
         return;
     }

@@ -363,7 +363,6 @@ typedef struct {
     LandFilm film[2];
     LandPressure pressure[2];
     BentGrid bent[2];  // of rims that are bent
-    bool bends[2];     // whether the bending of a rim counts in its film, which else is that of a round rim
     // from a step's evaluation to its end, else 0: change of a film's squeeze velocities by its own force, per force [m/s/N]; its
     // forces at the step's start [N], which the predicted velocities have felt all the step
     scalar squeeze_by[2][SQUEEZE], squeeze_from[2][SQUEEZE];

@@ -94,7 +94,7 @@ def solve_bent_halves(model, gamma, w, lack, squeeze, residual, delta):
     of the power that they take, without the part of the second order on the halves' bodies.
     """
     p, d, less, impulses, forces, all_rates = model.p, model.d, 0.0, *np.zeros((2, 2, 6)), np.zeros((2, 6, 6))
-    for h in np.flatnonzero(w.pressure.bends) if w.pressure else ():
+    for h in range(2) if w.pressure else ():
         on, half, spin, x = w.pressure.of(h), w.half[h], float(w.film[h].spin[0]), land_lever(model, h)
         B = np.array([[0.0, 1.0, 0.0, 0.0, x, 0.0], [0.0, 0.0, 1.0, -x, 0.0, 0.0]])  # of the half's velocities
         axes = np.array([half.b_y[1:, 0], half.b_z[1:, 0]])
@@ -133,14 +133,12 @@ def elastic_end(model, halves, step, start, end, error, w):
     f[WORK] += pocket_films_arrive(model, gamma, step.pockets, before.pockets, y, w, f, memory.pockets)
     lack = rim_motions(model, slow_rates(model, f) - step.modes)
     lack += model.modes.mobility * (memory.films.force - step.rim_before)
-    bends = w.pressure.bends if w.pressure else np.zeros(2, bool)
-    memory.squeeze = before.squeeze * np.any(bends)
+    memory.squeeze = before.squeeze.copy()
 
     # The linear solve, and that of bent rims.
     residual = halves_residual(halves, start, end) - gamma * step.halves
     delta = np.linalg.solve(np.eye(N_HALVES) + gamma * halves_films(model, w), residual)
-    impulse, rates, force, power = solve_bent_halves(model, gamma, w, lack, memory.squeeze, residual, delta)
-    memory.force[bends] = force[bends]
+    impulse, rates, memory.force, power = solve_bent_halves(model, gamma, w, lack, memory.squeeze, residual, delta)
 
     # Velocities of halves and modes; friction.
     change = halves_correct(halves, delta, y) + gamma * step.halves

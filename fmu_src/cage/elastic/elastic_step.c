@@ -113,7 +113,7 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
     for (int h = 0; h < 2; h++) {
         HalfVelocity half = half_velocity_load(v, h);
         const HalfFilm f = half_film(model, &w->film[h], h, gamma);
-        if (w->bends[h])
+        if (lands_bend(model))
             solve_bent_half(w, h, gamma, &f, lack[h], squeeze[h], &bent[h], &half);
         else
             half_film_solve(&f, &half);
@@ -171,7 +171,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     elastic_split(model, y, w, f, memory);
     follow_places(&before->fast, &memory->fast, &halves->joints, y);
     f[Y_WORK] += pocket_films_arrive(model, gamma, &step->pockets, &at->pockets, y, w, f, &at_end->pockets);
-    if (w->bends[0] || w->bends[1]) {
+    if (lands_bend(model)) {
         rim_lacks(model, step, f, &memory->films, lack);
         memcpy(memory->squeeze, before->squeeze, sizeof memory->squeeze);
     }
@@ -181,9 +181,8 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     for (int i = 0; i < CAGE_MOTIONS; i++) to->residual[Y_CAGE_V_X + i] -= gamma * step->foreseen.halves[i];
     memcpy(&to->delta[Y_CAGE_V_X], &to->residual[Y_CAGE_V_X], CAGE_MOTIONS * sizeof *y);
     solve_halves(model, w, gamma, lack, memory->squeeze, bent, to->delta);
-    power = bent_arrive(gamma, bent, w);
-    for (int h = 0; h < 2; h++)
-        if (w->bends[h]) memcpy(memory->force[h], bent[h].film, sizeof memory->force[h]);
+    if (lands_bend(model)) power = bent_arrive(gamma, bent, w);
+    for (int h = 0; h < 2; h++) memcpy(memory->force[h], bent[h].film, sizeof memory->force[h]);
 
     // Velocities of halves and modes; friction.
     halves_correct(halves, to, change);
