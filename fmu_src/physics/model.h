@@ -287,8 +287,8 @@ typedef struct {
     scalar re[LAND_HARMONICS], im[LAND_HARMONICS];
 } LandLoad;
 
-// ---- the balls in the pockets of one half; written by cage_pockets, 0 for pockets without contact; push and radius are then
-// those of the last contact ----------------------------------------------------------------------------------
+// ---- the balls in the pockets of one half; written by cage_pockets, loads and forces again by pocket_films.c at a
+// step's end, 0 for pockets without contact; push and radius are then those of the last contact ----
 typedef struct {
     ball_array Q;               // contact load [N]
     ball_array F_x, F_r, F_t;   // force on the half in the pocket's frame [N]

@@ -141,10 +141,10 @@ class PocketFilmsStep:
         return np.array([modes[1] + modes[0], modes[1] - modes[0]]) / ROOT, rows
 
 
-def correct_pocket(film, i, k, more, w):
-    """The force that a ball's pocket has too little at the predicted velocities."""
+def correct_pocket(m, i, k, more, w):
+    """Adds `more`, the film's force [N] along m [3] at the end less that at the predicted velocities, to load and force of a pocket."""
     w.pocket[i].Q[k] += more
-    w.pocket[i].F[:, k] += more * film
+    w.pocket[i].F[:, k] += more * m
 
 
 def pocket_films_arrive(model, gamma, step, before, y, w, f, films):

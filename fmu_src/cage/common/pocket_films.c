@@ -210,7 +210,7 @@ static void film_of_lane(const PocketFilms *films, const RigidApproach *approach
     memcpy(film->shape, films->shape[film->h][film->k], sizeof films->shape[film->h][film->k]);
 }
 
-// The force that a ball's pocket has too little at the predicted velocities.
+// Adds `more`, the film's force at the end less that at the predicted velocities, to load and force of a pocket.
 static void correct_pocket(const PocketFilms *films, int h, int k, double more, Work *w)
 {
     Pockets *pocket = &w->pocket[h];
