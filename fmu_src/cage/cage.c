@@ -77,6 +77,7 @@ double cage_end(const Model *model, CageStep *step, const StepFrom *from, const 
     if (model->modes)
         return elastic_end(model, &step->halves, &step->elastic, from, &before->halves, &before->elastic, to,
                            &memory->halves, &memory->elastic, w);
+    memset(to->balls, 0, BALL_MOTIONS * sizeof *to->balls);
     two_half_end(model, &step->halves, from, &before->halves, to, &memory->halves, w);
     return 0.0;
 }

@@ -99,7 +99,7 @@ typedef struct {
 
 // Relative rigid motions of half 1 against half 0, in the frame of half 0: x, about y, about z, y, z, spin.  Rigid motions of both
 // halves, in the order of their velocities in the state.
-enum { RELATIVE_MOTIONS = 6, CAGE_MOTIONS = 2 * RELATIVE_MOTIONS };
+enum { RELATIVE_MOTIONS = 6, CAGE_MOTIONS = 2 * RELATIVE_MOTIONS, BALL_MOTIONS = 3 * Z };
 
 // Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; share of a relative y/z displacement that moves
 // the centres of mass; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).

@@ -4,9 +4,10 @@
 //
 //   gamma = h/2,  v_m = v_n + gamma a_n
 //   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z too, and behind it return mapping
-//   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's (cage_begin)
+//   v^ = v_n + h a_n - limiter + p                                 predictor; limiter and p by loads on walls are the cage's (cage_begin)
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
-//   S (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)  one Newton iteration; S: the cage's (cage_end)
+//   S (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n - b)       one Newton iteration; S, b: the cage's (cage_end), b: changes of
+//                                                                  a that p has; + limiter
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
 //   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts, z too: trapezoidal rule
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
@@ -40,6 +41,7 @@ enum { PARTS = 2 };
 static const int FIRST[PARTS] = {VELOCITY, Y_RING_V_X}, END[PARTS] = {Y_CAGE_V_X, N_STATES};
 
 _Static_assert(Y_CAGE_V_X - Y_CAGE_X == VELOCITY && Y_RING_V_X - Y_RING_X == VELOCITY, "order of velocities");
+_Static_assert(Y_CAGE_V_X - Y_BALL_V_X == BALL_MOTIONS, "balls come first");
 _Static_assert(Y_BALL_OMEGA_X - VELOCITY == FRICTION, "velocities are in the order of their positions");
 
 // Adds up eight partial sums, so that every instruction set rounds alike.
@@ -155,9 +157,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
 {
     const double gamma = 0.5 * h, *f = from->f;
     double middle[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES];
-    double second_difference[N_STATES], *y = to->y;
+    double second_difference[N_STATES], balls[BALL_MOTIONS], *y = to->y;
     const StepFrom start = {from->y, f, from->jerk, from->h};
-    const StepTo end = {y, to->f, to->jerk, error, residual, delta};
+    const StepTo end = {y, to->f, to->jerk, error, residual, delta, balls};
     CageStep cage;
 
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
@@ -174,6 +176,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int part = 0; part < PARTS; part++)
         for (int i = FIRST[part]; i < END[part]; i++) delta[i] = residual[i] = gamma * (to->f[i] - f[i]);
+    for (int i = 0; i < BALL_MOTIONS; i++)
+        delta[VELOCITY + i] = residual[VELOCITY + i] -= gamma * balls[i];
     implicit_solve(model, w, gamma, delta);
     to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
     to->f[Y_WORK] += film_power;
@@ -184,6 +188,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int part = 0; part < PARTS; part++)
         for (int i = FIRST[part]; i < END[part]; i++) y[i] += delta[i];
     correct_positions(model, gamma, delta, y);
+    for (int i = 0; i < BALL_MOTIONS; i++) delta[VELOCITY + i] += gamma * balls[i];
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 
     // History for the next step, and the error: positions and the work have none of their own.

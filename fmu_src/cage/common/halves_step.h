@@ -21,9 +21,10 @@ typedef struct {
 } StepFrom;
 
 // End of a step, of which the cage sets its own rows: state, rates, their change over the step / its length, errors; residual of the
-// velocities at the prediction and the change delta that the linear solve makes of it.  The rates are those of the evaluation on entry.
+// velocities at the prediction and the change delta that the linear solve makes of it; changes of the balls' accelerations over the step that the
+// cage has put into their predicted velocities.  The rates are those of the evaluation on entry.
 typedef struct {
-    double *y, *f, *jerk, *error, *residual, *delta;
+    double *y, *f, *jerk, *error, *residual, *delta, *balls;
 } StepTo;
 
 // Between the two halves of a step.

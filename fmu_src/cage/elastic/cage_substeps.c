@@ -24,8 +24,8 @@
 //
 // Stiff films follow in the substeps, those on bent rims (rim_films.c) and those in pockets (pocket_films.c).
 //
-// The loads of balls on walls follow in the substeps, those of balls that arrive within the step too (wall_loads.c); the end
-// corrects them.
+// The loads of balls on walls follow in the substeps and move walls, halves and balls, those of balls that arrive within the step too
+// (wall_loads.c); the end corrects them.
 //
 // The joints turn with the cage, by 1.8 degrees in a step at 72,000 r/min: in the frame of the joints the
 // relative velocities turn back, and so does the way since the middle of the step; the joints' accelerations
@@ -344,6 +344,8 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
                 pushed[i] += 0.5 * sub * push[i];
                 way[i] += sub * pushed[i];
             }
+            ball_motions_push(0.5 * sub, &loads.balls);
+            ball_motions_move(sub, &loads.balls);
             between_halves(model, &w->half[0], pushed, by_loads);
         }
         for (int i = 0; i < RELATIVE_MOTIONS; i++) relative[i] = by_loads[i] + (speed[i] + time * slow[i]);
@@ -357,10 +359,12 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
         if (loads.count > 0) {
-            double halves[CAGE_MOTIONS];
+            double halves[CAGE_MOTIONS], speeds[CAGE_MOTIONS];
             memcpy(halves, way, sizeof way);
+            memcpy(speeds, pushed, sizeof pushed);
             to_halves(model, &w->half[0], 1.0, moved, 0, halves);
-            wall_loads_follow(model, step * sub, q, halves, &loads, foreseen->modes, push);
+            to_halves(model, &w->half[0], 1.0, speed, 0, speeds);
+            wall_loads_follow(model, step * sub, q, halves, speeds, &loads, foreseen->modes, push);
         }
 
         // accelerations there, of which the second half
@@ -373,6 +377,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         for (int i = 0; i < 2 * N_MODES; i++) v[i] += 0.5 * sub * (modes[i] + foreseen->modes[i]);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         for (int i = 0; i < CAGE_MOTIONS; i++) pushed[i] += 0.5 * sub * push[i];
+        ball_motions_push(0.5 * sub, &loads.balls);
         if (films) films_follow(model, step * sub, speed, pushed, step == steps, films, v, w);
         if (pockets->count > 0) {
             double halves[CAGE_MOTIONS];
@@ -391,6 +396,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
                                              [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};
     memcpy(foreseen->halves, push, sizeof push);
     to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
+    ball_motions_arrive(&loads.balls, y, foreseen->balls);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
     for (int i = 0; i < CAGE_MOTIONS; i++) {

@@ -23,10 +23,10 @@ typedef struct {
 #define cage_substeps_split FOR_ISA(cage_substeps_split)
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
 
-// Slow accelerations at the step's end as the substeps foresee them: of the modes their values, of the halves their
-// changes since the step's start, in the order of the halves' velocities in the state.
+// Slow accelerations at the step's end as the substeps foresee them: of the modes their values, of halves and balls their
+// changes since the step's start, in the order of their velocities in the state.
 typedef struct {
-    double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS];
+    double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS], balls[BALL_MOTIONS];
 } Foreseen;
 
 // Substeps of a step of length h from `fast` under the slow rates f.  state: that in the middle of the step; y: the state at the

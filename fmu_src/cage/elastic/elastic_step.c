@@ -176,6 +176,8 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
         memcpy(memory->squeeze, before->squeeze, sizeof memory->squeeze);
     }
 
+    memcpy(to->balls, step->foreseen.balls, sizeof step->foreseen.balls);
+
     // The linear solve, and that of bent rims.
     halves_residual(halves, from, to);
     for (int i = 0; i < CAGE_MOTIONS; i++) to->residual[Y_CAGE_V_X + i] -= gamma * step->foreseen.halves[i];

@@ -9,10 +9,16 @@
 //                                                        the motions d of the halves, which joints and these loads cause
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
-// and the modes feel (1 + lambda delta_dot) Q, the damping that of the start.  The halves' bodies feel the change of the loads since the
-// start too: where loads moved the modes within the step and the bodies at its ends alone, vibrations of a ribbon's light
-// halves grew, of 20 kHz in steps of 12 us.  So after the step x is where the evaluation finds it.  x_0 < 0
-// before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
+// and the modes feel (1 + lambda delta_dot) Q, where delta_dot changes with the rigid approach alone.  The bodies of halves and balls feel
+// the change of the loads since the start too, the balls as if free.  So after the step x is where the evaluation finds it.  Where a
+// body does not feel it, its answer comes a step late and feeds vibrations: a ball of the mass m_b on a contact of the stiffness k
+// adds k^2/(m_b omega^2) of stiffness to a vibration of the frequency omega, which is constant over a step, and a stiffness
+// epsilon omega^2 held over h and corrected at the end feeds the amplitude, turning by theta = omega h, in each step by
+//
+//     epsilon/2 (1 - cos theta - theta/2 sin theta)       largest at 3/2 pi: 1.7 epsilon
+//
+// With balls that answered late the quiet bearing bore three substeps a step; it bears eight.  A ribbon's light halves grew with 20 kHz.
+// x_0 < 0 before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
 #include "cage/elastic/elastic_half.h"
@@ -88,9 +94,12 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
     const bool pressed = Q_0 > 0.0;
     if (!pressed && !(delta + h * rate > 0.0)) return false;
     const int i = loads->count++;
+    const double acceleration = approach->acceleration[lane], lambda = model->p->cage.lambda;
     loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
-    loads->damped[i] = pressed ? fmin(Q / Q_0, MOST_DAMPED) : fmax(1.0 + model->p->cage.lambda * rate, 0.0);
-    loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane];
+    loads->damped[i] =
+        pressed ? fmin(Q / Q_0, MOST_DAMPED) + lambda * loads->middle * acceleration : 1.0 + lambda * rate;
+    loads->rate[i] = rate, loads->acceleration[i] = acceleration, loads->ball[i] = k;
+    for (int m = 0; m < 3; m++) loads->normal[m][i] = approach->direction[m][lane];
     for (int m = 0; m < RELATIVE_MOTIONS; m++) {
         loads->along[2 * m + half][i] = approach->along[m][lane];
         loads->along[2 * m + 1 - half][i] = 0.0;
@@ -103,6 +112,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
 {
     const double inv_root = 1.0 / 1.4142135623730951;
     loads->count = 0;
+    memset(&loads->balls, 0, sizeof loads->balls);
     loads->middle = 0.5 * h, loads->c = model->modes->compliance;
     for (int half = 0; half < 2; half++) {
         loads->of_0 = loads->count;
@@ -131,7 +141,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     }
 }
 
-// Loads of a packet of approaches x: delta by Newton's method, from x/(1 + c K x^0.5).  Within 0.1 % for c K x^0.5 < 5, 3 % at 50.
+// K delta^1.5 of a packet of approaches x: delta by Newton's method, from x/(1 + c K x^0.5).  Within 0.1 % for c K x^0.5 < 5, 3 % at 50.
 INLINE wide loads_at(const WallLoads *loads, int i, wide x)
 {
     const wide zero = wide_set(0.0), K = wide_load(&loads->K[i]), cK = loads->c * K;
@@ -141,23 +151,46 @@ INLINE wide loads_at(const WallLoads *loads, int i, wide x)
         const wide root = wide_sqrt(delta), load = cK * root;
         delta = wide_max(delta - (delta + load * delta - from) / (1.0 + 1.5 * load), zero);
     }
-    return wide_load(&loads->damped[i]) * K * delta * wide_sqrt(delta);
+    return K * delta * wide_sqrt(delta);
+}
+
+// Motions of the balls along the normals.
+static void along_normals(const WallLoads *loads, double motion[3][LANES], wall_load_array to)
+{
+    for (int i = 0; i < loads->count; i++) {
+        const int k = loads->ball[i];
+        to[i] = loads->normal[0][i] * motion[0][k] + loads->normal[1][i] * motion[1][k] +
+                loads->normal[2][i] * motion[2][k];
+    }
+    for (int i = loads->count; i % LANE_WIDTH != 0; i++) to[i] = 0.0;
+}
+
+// Less the motion by those of the halves.
+INLINE wide less_halves(const WallLoads *loads, int i, const double motion[CAGE_MOTIONS], wide of_ball)
+{
+    for (int m = 0; m < CAGE_MOTIONS; m++)
+        of_ball = wide_fma(wide_load(&loads->along[m][i]), wide_set(-motion[m]), of_ball);
+    return of_ball;
 }
 
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       const WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
+                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
 {
-    const double bend = t * (0.5 * t - loads->middle);
-    wall_load_array force, by_modes;
+    const double bend = t * (0.5 * t - loads->middle), lambda = model->p->cage.lambda;
+    wall_load_array force, by_modes, ball_way, ball_speed;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q, by_modes);
+    along_normals(loads, loads->balls.way, ball_way);
+    along_normals(loads, loads->balls.speed, ball_speed);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
-        const wide way =
-            wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
-        wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
-        for (int m = 0; m < CAGE_MOTIONS; m++)
-            u = wide_fma(wide_load(&loads->along[m][i]), wide_set(moved[m]), u);
-        const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u);
+        const wide acceleration = wide_load(&loads->acceleration[i]);
+        const wide way = wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * acceleration);
+        const wide bodies = less_halves(loads, i, moved, wide_load(&ball_way[i]));
+        const wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
+        const wide rate =
+            wide_fma(wide_set(t - loads->middle), acceleration, less_halves(loads, i, speeds, wide_load(&ball_speed[i])));
+        const wide damped = wide_max(wide_fma(wide_set(lambda), rate, wide_load(&loads->damped[i])), wide_set(0.0));
+        const wide Q = damped * loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u);
         wide_store(&force[i], Q - wide_load(&loads->Q[i]));
     }
     for (int m = 0; m < CAGE_MOTIONS; m++) {
@@ -165,6 +198,23 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
         for (int i = 0; i < loads->count; i++) sum += force[i] * loads->along[m][i];
         push[m] = sum / model->d->inertia[Y_CAGE_V_X + m];
     }
+    memset(loads->balls.push, 0, sizeof loads->balls.push);
+    for (int i = 0; i < loads->count; i++)
+        for (int m = 0; m < 3; m++)
+            loads->balls.push[m][loads->ball[i]] -= force[i] * loads->normal[m][i] / model->d->m;
     for (int i = 0; i < loads->count; i++) force[i] /= model->p->cage.m;
     add_forces(loads, force, slow, &slow[N_MODES]);
+}
+
+void ball_motions_arrive(const BallMotions *balls, double *y, double acceleration[BALL_MOTIONS])
+{
+    enum { ROWS = 3 };
+    static const int PLACE[ROWS] = {Y_BALL_X, Y_BALL_R, Y_BALL_THETA}, RATE[ROWS] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M};
+    for (int i = 0; i < ROWS; i++)
+        for (int k = 0; k < Z; k++) {
+            const double part = i == 2 ? 1.0 / y[Y_BALL_R + k] : 1.0;  // along the orbit angles
+            y[PLACE[i] + k] += part * balls->way[i][k];
+            y[RATE[i] + k] += part * balls->speed[i][k];
+            acceleration[i * Z + k] = part * balls->push[i][k];
+        }
 }

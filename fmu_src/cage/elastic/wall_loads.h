@@ -12,14 +12,22 @@ enum { MOTION_X, MOTION_ABOUT_Y, MOTION_ABOUT_Z, MOTION_ACROSS_Y, MOTION_ACROSS_
 
 typedef double wall_load_array[WALL_LOADS];
 
+// Motions of the balls along (x, r, t) by changes of the loads: accelerations, velocities, ways since the step's start.
+typedef struct {
+    double push[3][LANES], speed[3][LANES], way[3][LANES];
+} BallMotions;
+
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
     int count, of_0;                      // all, those of half 0, which come first
     double middle, c;                     // of the step [s]; compliance of the walls beside their modes
-    wall_load_array K, damped, Q;         // law K delta^1.5 times `damped`, load at the step's start
+    wall_load_array K, damped, Q;         // law K delta^1.5 times `damped` in the middle, load at the step's start
     wall_load_array x, from;              // approach and motion of the wall at the step's start
     wall_load_array rate, acceleration;   // of the rigid approach, in the middle of the step and at its start
     wall_load_array along[CAGE_MOTIONS];  // motion along the normal by those of the halves
+    wall_load_array normal[3];            // along (x, r, t) of the ball
+    int ball[WALL_LOADS];
+    BallMotions balls;
     mode_array shape[2 * Z];  // motion of the wall along the normal by S, and by D; of half 0 by -D
 } WallLoads;
 
@@ -29,8 +37,25 @@ typedef struct {
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
-// Adds to the modes' accelerations (S, then D) the part by the change of the loads up to the time t of the step, and writes the part of the
-// halves.  q: coordinates at t; moved: rigid motions of the halves by the fast accelerations and by this part.
+// Adds to the modes' accelerations (S, then D) the part by the change of the loads up to the time t of the step, and writes the parts of the
+// halves and of the balls.  q: coordinates at t; moved, speeds: rigid motions of the halves by the fast accelerations and by this part.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       const WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
+                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
+
+// Velocities of the balls by the changes of the loads, after another time t.
+INLINE void ball_motions_push(double t, BallMotions *balls)
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < Z; k++) balls->speed[i][k] += t * balls->push[i][k];
+}
+
+INLINE void ball_motions_move(double t, BallMotions *balls)
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < Z; k++) balls->way[i][k] += t * balls->speed[i][k];
+}
+
+// Adds them to the state; acceleration: at the step's end, in the order of the balls' velocities.
+#define ball_motions_arrive FOR_ISA(ball_motions_arrive)
+void ball_motions_arrive(const BallMotions *balls, double *y, double acceleration[BALL_MOTIONS]);
