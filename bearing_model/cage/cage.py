@@ -199,13 +199,13 @@ def cage_begin(model, h, start, middle, y, w):
 
 def cage_end(model, step, start, end, error, w):
     """After it: solves for the cage's velocities, sets the cage's rows of `end` (VerletState) and `error`, and takes from the other
-    rates of the evaluation the share of films that are implicit.  Returns residual and delta of the halves' velocities [12]
-    and the power of films beyond theirs [W].
+    rates of the evaluation the share of films that are implicit.  Returns residual and delta of the halves' velocities [12],
+    changes of the balls' accelerations over the step that their predicted velocities have [3 Z], and the power of films beyond theirs [W].
     """
     end.cage = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))), pockets=pocket_films_split(model, w))
     if model.modes:
         return elastic_end(model, step.halves, step.elastic, start, end, error, w)
-    return *two_half_end(model, step.halves, start, end, error, w), 0.0
+    return *two_half_end(model, step.halves, start, end, error, w), np.zeros(3 * Z), 0.0
 
 
 def cage_slide(model, before, y, w):

@@ -3,8 +3,8 @@ verlet.c and implicit.c.
 
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
-    v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (cage_begin)
-    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^)    one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
+    v^ = v_n + h a_n - limiter + p,  a^ = a(t_{n+1}, q_{n+1}, v^)    predictor; of the cage halves limited by their films; p: by loads on walls
+    (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n - b)           one linear solve, b: changes of a that p has, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
@@ -58,6 +58,7 @@ POSITIONS, FRICTION, V = (
     slice(BALL_V_X.start, N_STATES),
 )
 N_V = N_STATES - V.start
+BALLS = slice(0, 3 * Z)  # velocities of the balls' centres
 CAGE = slice(CAGE_V_X.start - V.start, RING_V_X.start - V.start)  # velocities of the cage's halves
 OTHERS = np.delete(np.arange(N_V), CAGE)  # those of balls and ring
 
@@ -305,10 +306,11 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     middle, y = predict(h, start)
     cage = cage_begin(model, h, start, middle, y, w)
     end, error = VerletState(y, rhs(model, t + h, y, w), h=h), np.zeros(len(y))
-    cage_residual, cage_delta, film_power = cage_end(model, cage, start, end, error, w)
+    cage_residual, cage_delta, balls, film_power = cage_end(model, cage, start, end, error, w)
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), gamma * (end.f[V] - a)
+    residual[BALLS] -= gamma * balls
     delta = np.linalg.solve(b.matrix(gamma), residual)
     residual[CAGE], delta[CAGE] = cage_residual, cage_delta
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + film_power
@@ -317,6 +319,7 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     y[V][OTHERS] += delta[OTHERS]  # delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, y)
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
+    delta[BALLS] += gamma * balls
 
     # Error and history of the velocities; stiff accelerations give up a part of their second difference.
     second, errors = trapezoid_error(h, start.h, delta, start.jerk[V])

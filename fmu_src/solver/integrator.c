@@ -29,6 +29,8 @@
 #include <arkode/arkode_erkstep.h>
 #include <float.h>
 #include <limits.h>
+#include <stdio.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -147,8 +149,8 @@ static SUNErrCode step_estimate(SUNAdaptController control, sunrealtype h, int o
     const VerletState *from = in->now;
     const double ratio = ratio_of(error), smooth = ratio * (from->ratio * from->h / h);
     const double factor = error <= 1.0 && from->ratio > 0.0 ? sqrt(sqrt(smooth)) : ratio;
-    const double proposed = h * fmin(fmax(factor, MIN_FACTOR), MAX_FACTOR);
-    if (!(error <= 1.0) || h == in->goal || proposed < h) in->goal = proposed;
+    const double proposed = fmin(h * fmax(factor, MIN_FACTOR), MAX_FACTOR * in->goal);
+    in->goal = error <= 1.0 && proposed >= h ? fmax(in->goal, proposed) : proposed;
     *h_next = in->goal;
     return SUN_SUCCESS;
 }
@@ -189,21 +191,16 @@ static bool is_fixed(const Integrator *in)
 // of time must not leave a last step of no length.
 static const double LAST_STEP = 1e-9;
 
-// Length of the next step: the controller's goal, or `left`, or half of that if two steps are needed.  Where the cage bears no more,
-// equal steps: a pattern of long and short ones that each communication step repeats drives vibrations that turn once in it.
+// Length of the next step: the goal that the controller wants and the cage bears, or as much less that the steps up to the stop time are
+// equal: a pattern of long and short ones that each communication step repeats drives vibrations that turn once in it.
 // A fixed length is the same for all steps of an advance.
 static double verlet_length(void *context, double left)
 {
     Integrator *in = context;
     if (in->warming_up) return left;
     if (is_fixed(in)) return in->goal >= left * (1.0 - LAST_STEP) ? left : in->goal;
-    const double bears = cage_longest_step(in->model, &in->now->cage);
-    if (in->goal >= bears) {
-        in->goal = bears;
-        return left / fmax(ceil(left / bears * (1.0 - LAST_STEP)), 1.0);
-    }
-    if (in->goal >= left * (1.0 - LAST_STEP)) return left;
-    return left < 2.0 * in->goal ? 0.5 * left : in->goal;
+    in->goal = fmin(in->goal, cage_longest_step(in->model, &in->now->cage));
+    return left / fmax(ceil(left / in->goal * (1.0 - LAST_STEP)), 1.0);
 }
 
 // Equal steps are watched by the error that the default method would test, in parts of the error that it accepts at its default
@@ -253,6 +250,7 @@ static int verlet_accepted(sunrealtype t, N_Vector y, void *user)
     exchange_add(in->now->h, &before->exchange, &in->now->exchange, &in->s->sum);
     in->s->t = t;
     in->s->steps += 1.0;
+    if (getenv("RB_D")) fprintf(stderr, "H %.9f %.3f err %.3f bears %.2f goal %.2f\n", t, in->now->h * 1e6, pow(0.8 / in->now->ratio, 3), 1e6 * cage_longest_step(in->model, &in->now->cage), 1e6 * in->goal);
     in->hook(in->context, in->now->h, in->w);
     return 0;
 }

@@ -4,7 +4,7 @@ cage_substeps.c, which has the equations.
     v_m = (v + d/2 (a_f + a_s))/(1 + d c/2),  q += d v_m,  v = v_m (1 - d c/2) + d/2 (a_f + a_s)
 
 a_f: fast accelerations, by the joints and the modes' own springs; a_s: slow ones, held over the step but for the loads
-of balls on walls, which follow the walls and move both modes and halves.
+of balls on walls, which follow the walls and move modes, halves and balls.
 Coordinates here are those of the modes, S and D side by side [2, n], and relative rigid motions of the halves [6]: x,
 about y, about z, y, z, spin.
 """
@@ -176,7 +176,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     step; films: RimFilmsStep; pockets: PocketFilmsStep; changes y as cage_substeps.c does.
 
     Returns the slow accelerations at the step's end as they foresee them (of the modes [2, n], changes of those of the halves
-    [6, 2]), and the JointStep.
+    [6, 2] and of the balls [3 Z]), and the JointStep.
     """
     half, d, h0, fast = model.modes, model.d, w.half[0], memory.fast
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -216,6 +216,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
         pushed = pushed + 0.5 * sub * push
         way = way + sub * pushed
+        loads.drift(sub)
         relative = between_halves(model, h0, pushed) + speed + time * slow
         relative = to_joint_frame(spin, time, middle, slow, halfway, relative)
         by_out = (out @ np.append(v_m[0], relative[:3])).reshape(Z, 3).T
@@ -225,7 +226,8 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         u = u + sub * across
         slip.before = cage_joint_follow(sub, across, y)
         y[WORK] -= sub * model.p.cage.m * np.sum(half.damping * v_m**2)
-        more, push = loads.accelerations(step * sub, q, to_halves(model, h0, moved) + way)
+        moved_halves, speeds = to_halves(model, h0, moved) + way, to_halves(model, h0, speed) + pushed
+        more, push = loads.accelerations(step * sub, q, moved_halves, speeds)
         held = slow_modes + more
 
         # accelerations there, of which the second half
@@ -236,6 +238,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         v = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
         pushed = pushed + 0.5 * sub * push
+        loads.speed = loads.speed + 0.5 * sub * loads.push
         if films.follows.any():
             v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed, last=step == steps)
         by_films = pockets.follow(step * sub, sub, v, to_halves(model, h0, speed) + pushed)
@@ -250,7 +253,8 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
     slip.way = u - fast.u
-    return held, push + to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0])), slip
+    by_gyro = to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0]))
+    return held, push + by_gyro, loads.arrive(y), slip
 
 
 def add_rates(model, change, y):

@@ -30,7 +30,7 @@ from bearing_model.cage.elastic.cage_elastic import cage_elastic_stiffness
 from bearing_model.cage.elastic.cage_substeps import add_rates, cage_substeps_advance, cage_substeps_split
 from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
 from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, WORK
-from bearing_model.numbers.trapezoid import SMOOTHING, trapezoid_error
+from bearing_model.numbers.trapezoid import trapezoid_error
 from bearing_model.physics.land_bent import bent_solve
 
 PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D_DOT.stop)  # of the modes
@@ -38,13 +38,14 @@ PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D
 
 @dataclass
 class ElasticStep:
-    """Between the two halves of a step: slow accelerations at the end as the substeps foresee them, of the modes [2, n] and of
-    the halves [12]; films in pockets; forces on bent rims that are constant over the step, and those at its start that their
+    """Between the two halves of a step: slow accelerations at the end as the substeps foresee them, of the modes [2, n], changes of those
+    of halves [12] and balls [3 Z]; films in pockets; forces on bent rims that are constant over the step, and those at its start that their
     impulses so far amount to [2, 4].
     """
 
     modes: np.ndarray
     halves: np.ndarray
+    balls: np.ndarray
     pockets: PocketFilmsStep
     rim_held: np.ndarray
     rim_before: np.ndarray
@@ -66,11 +67,12 @@ def elastic_begin(model, h, start, middle, y, w):
     films = RimFilmsStep(model, h, memory.films)
     add_rates(model, gamma * rim_modes(model, films.held), y)
     pockets = PocketFilmsStep(model, h, memory.pockets, start.f, middle, y, w)
-    modes, foreseen, halves.joints = cage_substeps_advance(model, h, memory, start.f, middle, y, films, pockets, w)
+    found = cage_substeps_advance(model, h, memory, start.f, middle, y, films, pockets, w)
+    modes, foreseen, balls, halves.joints = found
     halves_predict(model, start, y, halves)
     add_rates(model, gamma * rim_modes(model, films.held), y)
     w.squeeze_by, w.squeeze_from = gamma * mobilities(model), memory.force
-    return halves, ElasticStep(modes, foreseen.ravel(), pockets, films.held, films.before(gamma))
+    return halves, ElasticStep(modes, foreseen.ravel(), balls, pockets, films.held, films.before(gamma))
 
 
 def follow_places(before, now, joints, y):
@@ -117,14 +119,15 @@ def solve_bent_halves(model, gamma, w, lack, squeeze, residual, delta):
 def remember_modes(h, start, end, error):
     """Rates of the modes, their history and their errors, without the films on bent rims."""
     change = 0.5 * h * (end.f - start.f)[RATES]
-    difference, error[RATES] = trapezoid_error(h, start.h, change, start.jerk[RATES])
-    end.f[MODE_D_DOT] -= SMOOTHING * difference[MODE_D_DOT.start - RATES.start :]
+    _, error[RATES] = trapezoid_error(h, start.h, change, start.jerk[RATES])
     end.jerk[RATES] = (end.f - start.f)[RATES] / h
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
 def elastic_end(model, halves, step, start, end, error, w):
-    """Solution, corrections and history; returns residual and delta [12] and the power of films beyond theirs [W]."""
+    """Solution, corrections and history; returns residual and delta [12], changes of the balls' accelerations that their predicted velocities
+    have [3 Z], and the power of films beyond theirs [W].
+    """
     gamma, y, f, before, memory = halves.gamma, end.y, end.f, start.cage, end.cage
 
     # The rates of the evaluation without the part of the substeps; films in pockets at the end's velocities.
@@ -150,7 +153,7 @@ def elastic_end(model, halves, step, start, end, error, w):
     # History and errors.
     halves_remember(model, w, halves, start, change, end, error)
     remember_modes(halves.h, start, end, error)
-    return residual, delta, power
+    return residual, delta, step.balls, power
 
 
 def elastic_slide(model, w, y, joints):

@@ -3,7 +3,7 @@
     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q = x,  Q = K delta^1.5
 
 r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: motion of the wall by
-the modes and by the motions d of the halves, which their joints and the changes of these loads cause.
+the modes and by the motions d of the halves and of the ball, which joints and the changes of these loads cause.
 """
 
 from dataclasses import dataclass
@@ -13,6 +13,7 @@ import numpy as np
 from bearing_model.cage.common.rigid_approach import rigid_approach
 from bearing_model.cage.elastic.elastic_half import ROOT
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
+from bearing_model.generated.variables import BALL_OMEGA_M, BALL_R, BALL_THETA, BALL_V_R, BALL_V_X, BALL_X, Z
 
 # Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
 # r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
@@ -27,7 +28,7 @@ class WallLoad:
     half: int
     ball: int
     K: float
-    damped: float  # times K delta^1.5 is the load
+    damped: float  # times K delta^1.5 is the load, in the middle of the step by slow forces alone
     x: float
     Q: float
     rate: float
@@ -35,13 +36,18 @@ class WallLoad:
     shape: np.ndarray  # motion along the normal by S and D [2, n]
     start: float  # motion of the wall at the step's start
     along: np.ndarray  # motion along the normal by those of the half: x, y, z, beta, gamma, spin [6]
+    normal: np.ndarray  # along x, r, t of the ball [3]
 
 
 class WallLoads:
-    """The loads on walls of a step of length h [s]."""
+    """The loads on walls of a step of length h [s]; motions of the balls by their changes along x, r, t [3, Z]: accelerations,
+    velocities, ways.
+    """
 
     def __init__(self, model, h, fast, f, state, y, q, w):
         self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
+        self.lambda_, self.m_ball = model.p.cage.lambda_, model.d.m
+        self.push, self.speed, self.way = np.zeros((3, 3, Z))
         self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
         for i, rows in enumerate(fast.touch):
             touch = dict(zip(TOUCH, rows, strict=True))
@@ -55,19 +61,22 @@ class WallLoads:
             along = [touch[name][:, None] * motion for name, motion in zip("xrt", shape, strict=True)]
             for k in np.flatnonzero(touch["K"] > 0.0):
                 n = [touch[name][k] for name in "xrt"]
-                rate, acceleration, along_half, _ = rigid_approach(model, self.middle, n, f, state, y, w.half[i], i, k)
+                rate, acceleration, along_half, normal = rigid_approach(
+                    model, self.middle, n, f, state, y, w.half[i], i, k
+                )
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
                 Q_0 = K * max(delta, 0.0) ** 1.5
                 if Q_0 > 0.0:
-                    x, damped = delta + self.c * Q_0, min(Q / Q_0, MOST_DAMPED)
+                    x = delta + self.c * Q_0
+                    damped = min(Q / Q_0, MOST_DAMPED) + self.lambda_ * self.middle * acceleration
                 elif delta + h * rate > 0.0:
-                    x, damped = delta, max(1.0 + model.p.cage.lambda_ * rate, 0.0)
+                    x, damped = delta, 1.0 + self.lambda_ * rate
                 else:
                     continue
-                normal = sum(row[k] for row in along) / ROOT
-                both = np.array([normal, (2 * i - 1) * normal])
+                shift = sum(row[k] for row in along) / ROOT
+                both = np.array([shift, (2 * i - 1) * shift])
                 self.loads.append(
-                    WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q), along_half)
+                    WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q), along_half, normal)
                 )
 
     def at(self, load, x):
@@ -80,15 +89,32 @@ class WallLoads:
             delta = max(delta - (delta + cK * delta**1.5 - x) / (1.0 + 1.5 * cK * np.sqrt(delta)), 0.0)
         return load.K * delta**1.5
 
-    def accelerations(self, t, q, moved):
+    def drift(self, sub):
+        """Moves the balls over a substep, of whose velocities the second half is still to come."""
+        self.speed = self.speed + 0.5 * sub * self.push
+        self.way = self.way + sub * self.speed
+
+    def arrive(self, y):
+        """Adds the balls' motions to the state; returns the changes of their accelerations at the step's end [3 Z]."""
+        part = np.array([np.ones(Z), np.ones(Z), 1.0 / (y[BALL_R] + self.way[1])])  # along the orbit angles
+        for blocks, motion in (((BALL_X, BALL_R, BALL_THETA), self.way), ((BALL_V_X, BALL_V_R, BALL_OMEGA_M), self.speed)):
+            for block, more in zip(blocks, part * motion, strict=True):
+                y[block] += more
+        return (part * self.push).ravel()
+
+    def accelerations(self, t, q, moved, speeds):
         """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads at the time t of the step, at the coordinates q and
-        motions of the halves [6, 2] by the fast accelerations and by these.
+        motions and speeds of the halves [6, 2] by the fast accelerations and by these; sets those of the balls.
         """
-        change, force = np.zeros_like(q), np.zeros_like(moved)
+        change, force, self.push = np.zeros_like(q), np.zeros_like(moved), np.zeros((3, Z))
         for load in self.loads:
             x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
-            x = x - (np.sum(load.shape * q) - load.start) - load.along @ moved[:, load.half]
-            more = load.damped * self.at(load, x) - load.Q
+            x = x - (np.sum(load.shape * q) - load.start)
+            x = x + load.normal @ self.way[:, load.ball] - load.along @ moved[:, load.half]
+            rate = load.acceleration * (t - self.middle)
+            rate = rate + load.normal @ self.speed[:, load.ball] - load.along @ speeds[:, load.half]
+            more = max(load.damped + self.lambda_ * rate, 0.0) * self.at(load, x) - load.Q
             change = change + more / self.m * load.shape
             force[:, load.half] += more * load.along
+            self.push[:, load.ball] -= more / self.m_ball * load.normal
         return change, force / self.inertia[:, None]

@@ -138,9 +138,8 @@ static void correct_modes(const Model *model, double gamma, const ElasticStep *s
     rim_push(model, gamma, change, &y[Y_MODE_S_DOT]);
 }
 
-// Rates of the modes, their history and their errors, without the films on bent rims.  The slow accelerations of D are smoothed:
-// joints that stick do not damp the vibrations in the plane of the split; one that turns by pi in a step would grow by
-// forces that are constant over it.
+// Rates of the modes, their history and their errors, without the films on bent rims.  Their slow accelerations are not smoothed: the
+// delay would feed vibrations that turn by 2.3 to 4 in a step.
 static void remember_modes(double h, double h_0, const double *restrict f, const double *restrict jerk,
                            const double *restrict y, double *restrict f_end, double *restrict jerk_end,
                            double *restrict error)
@@ -149,7 +148,6 @@ static void remember_modes(double h, double h_0, const double *restrict f, const
     for (int i = Y_MODE_S_DOT; i < N_ALL_STATES; i++) {
         const double difference = second * ((f_end[i] - f[i]) * inv_h - jerk[i]);
         error[i] = (h / 12.0) * difference;
-        if (i >= Y_MODE_D_DOT) f_end[i] -= SMOOTHING * difference;
         jerk_end[i] = (f_end[i] - f[i]) * inv_h;
     }
     memcpy(&f_end[Y_MODE_S], &y[Y_MODE_S_DOT], 2 * N_MODES * sizeof *error);
