@@ -29,8 +29,6 @@
 #include <arkode/arkode_erkstep.h>
 #include <float.h>
 #include <limits.h>
-#include <stdio.h>
-#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -250,7 +248,6 @@ static int verlet_accepted(sunrealtype t, N_Vector y, void *user)
     exchange_add(in->now->h, &before->exchange, &in->now->exchange, &in->s->sum);
     in->s->t = t;
     in->s->steps += 1.0;
-    if (getenv("RB_D")) fprintf(stderr, "H %.9f %.3f err %.3f bears %.2f goal %.2f\n", t, in->now->h * 1e6, pow(0.8 / in->now->ratio, 3), 1e6 * cage_longest_step(in->model, &in->now->cage), 1e6 * in->goal);
     in->hook(in->context, in->now->h, in->w);
     return 0;
 }

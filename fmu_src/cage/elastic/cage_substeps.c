@@ -33,7 +33,8 @@
 //
 // The gyroscopic moment of the halves' relative tilts belongs to the slow accelerations, but follows in the
 // substeps too: sampled at the ends of the steps and held, it would feed vibrations that turn by more than a
-// little, by 120/s at 12,000 r/min.
+// little, by 120/s at 12,000 r/min.  It acts on tilt rates by joints and by loads on walls together: where these loads hold what
+// joints pull, the gyroscopic moment of one of them alone would feed vibrations too.
 //
 // The friction states follow the joints' motion and are mapped back onto those that friction bears under the loads at the
 // end of each substep (cage_joint_slide), and under those of the evaluation by halves_slide.  The energy that the slip and the modes' damping
@@ -270,12 +271,14 @@ static double modes_lose(const Model *model, const double *v)
            (((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7])));
 }
 
-// Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power.
-static void turn(double t, double rates[RELATIVE_MOTIONS])
+// Turns the relative tilt rates, of which `rates` is the part by the joints and `others` the rest, by the angle of their gyroscopic
+// moment, tan of half of which is t: no power.  The joints' part gets the change.
+static void turn(double t, const double others[RELATIVE_MOTIONS], double rates[RELATIVE_MOTIONS])
 {
-    const double y = rates[MOTION_ABOUT_Y], z = rates[MOTION_ABOUT_Z], inv = 1.0 / (1.0 + t * t);
-    rates[MOTION_ABOUT_Y] = inv * ((1.0 - t * t) * y - 2.0 * t * z);
-    rates[MOTION_ABOUT_Z] = inv * ((1.0 - t * t) * z + 2.0 * t * y);
+    const double y = rates[MOTION_ABOUT_Y] + others[MOTION_ABOUT_Y],
+                 z = rates[MOTION_ABOUT_Z] + others[MOTION_ABOUT_Z], part = 2.0 * t / (1.0 + t * t);
+    rates[MOTION_ABOUT_Y] -= part * (t * y + z);
+    rates[MOTION_ABOUT_Z] -= part * (t * z - y);
 }
 
 // Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
@@ -327,26 +330,27 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
     if (films) rim_films_first(model, w, sub, f, v, films);
 
+    double by_loads[RELATIVE_MOTIONS] = {0.0};
+    turn(0.25 * gyro * sub, by_loads, speed);
     for (int step = 1; step <= steps; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
         move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
-        turn(0.5 * gyro * sub, speed);
-        const double time = (step - 0.5) * sub - 0.5 * h;  // after the middle
-        double halfway[RELATIVE_MOTIONS], by_loads[RELATIVE_MOTIONS] = {0.0};
-        for (int i = 0; i < RELATIVE_MOTIONS; i++) {
-            halfway[i] = moved[i] + 0.5 * sub * speed[i];
-            moved[i] += sub * speed[i];
-        }
         if (loads.count + pockets->count > 0) {
             for (int i = 0; i < CAGE_MOTIONS; i++) {
                 pushed[i] += 0.5 * sub * push[i];
                 way[i] += sub * pushed[i];
             }
-            ball_motions_push(0.5 * sub, &loads.balls);
-            ball_motions_move(sub, &loads.balls);
             between_halves(model, &w->half[0], pushed, by_loads);
+        }
+        ball_motions_push(0.5 * sub, &loads.balls);
+        ball_motions_move(sub, &loads.balls);
+        const double time = (step - 0.5) * sub - 0.5 * h;  // after the middle
+        double halfway[RELATIVE_MOTIONS];
+        for (int i = 0; i < RELATIVE_MOTIONS; i++) {
+            halfway[i] = moved[i] + 0.5 * sub * speed[i];
+            moved[i] += sub * speed[i];
         }
         for (int i = 0; i < RELATIVE_MOTIONS; i++) relative[i] = by_loads[i] + (speed[i] + time * slow[i]);
         to_joint_frame(s, time, &middle, slow, halfway, relative);
@@ -378,6 +382,8 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         for (int i = 0; i < CAGE_MOTIONS; i++) pushed[i] += 0.5 * sub * push[i];
         ball_motions_push(0.5 * sub, &loads.balls);
+        if (loads.count > 0) between_halves(model, &w->half[0], pushed, by_loads);
+        turn((step < steps ? 0.5 : 0.25) * gyro * sub, by_loads, speed);
         if (films) films_follow(model, step * sub, speed, pushed, step == steps, films, v, w);
         if (pockets->count > 0) {
             double halves[CAGE_MOTIONS];
@@ -392,8 +398,11 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         slip->way_y[k] = joints.u_y[k] - fast->u_y[k];
         slip->way_z[k] = joints.u_z[k] - fast->u_z[k];
     }
-    const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * speed[MOTION_ABOUT_Z],
-                                             [MOTION_ABOUT_Z] = gyro * speed[MOTION_ABOUT_Y]};
+    double rates[RELATIVE_MOTIONS];
+    between_halves(model, &w->half[0], pushed, rates);
+    for (int i = MOTION_ABOUT_Y; i <= MOTION_ABOUT_Z; i++) rates[i] += speed[i];
+    const double moment[RELATIVE_MOTIONS] = {[MOTION_ABOUT_Y] = -gyro * rates[MOTION_ABOUT_Z],
+                                             [MOTION_ABOUT_Z] = gyro * rates[MOTION_ABOUT_Y]};
     memcpy(foreseen->halves, push, sizeof push);
     to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
     ball_motions_arrive(&loads.balls, y, foreseen->balls);
