@@ -353,42 +353,38 @@ def ratio_of(error):
     return SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0) if error >= 0.0 else 0.0
 
 
-def step_factor(h, error, before):
-    """Length of the next step / h: after an accepted step of length h by the digital filter H211b of Soderlind (2003),
-    b = 4, after a refused one its ratio.
+def next_goal(goal, h, error, before):
+    """Length wanted of the next step after one of length h that had the goal: after an accepted step by the digital filter H211b of
+    Soderlind (2003), b = 4, after a refused one by its ratio.  A step cut short to meet t_stop says nothing against its goal.
 
     before: length and ratio of the step before, 0 if there is none.
     """
     ratio, (h_before, ratio_before) = ratio_of(error), before
     filtered = error <= 1.0 and ratio_before > 0.0
-    return min(max((ratio * ratio_before * h_before / h) ** 0.25 if filtered else ratio, MIN_FACTOR), MAX_FACTOR)
+    factor = (ratio * ratio_before * h_before / h) ** 0.25 if filtered else ratio
+    proposed = min(h * max(factor, MIN_FACTOR), MAX_FACTOR * goal)
+    return max(goal, proposed) if error <= 1.0 and proposed >= h else proposed
 
 
 def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
     """Steps under control of the error from `state` at t to t_stop [s]; h: the step size to begin with.
 
     Returns the state reached, the step size to go on with, the accepted step lengths and how many steps were refused.
-    The estimate is of order h^3; the last two steps are equal, and all steps that the cage limits.  step: a function like verlet_step.
+    The estimate is of order h^3; the steps up to t_stop are equal as far as h stays.  step: a function like verlet_step.
     """
     taken, refused = [], 0
     weight = weigh_orbit(model, weight, state.y)
     while t < t_stop:
-        left, bears = t_stop - t, cage_longest_step(model, state.cage)
-        if h >= bears:
-            h, count = bears, max(np.ceil(left / bears * (1.0 - LAST_STEP)), 1.0)
-            length = left / count
-        else:
-            length = left if h >= left * (1.0 - LAST_STEP) else 0.5 * left if left < 2.0 * h else h
+        left, h = t_stop - t, min(h, cage_longest_step(model, state.cage))
+        length = left / max(np.ceil(left / h * (1.0 - LAST_STEP)), 1.0)
         last = length == left
         end, error = step(model, t, length, weight, state)
         error /= cage_part(end.cage)
-        factor = step_factor(length, error, (state.h, state.ratio))
+        h = next_goal(h, length, error, (state.h, state.ratio))
         if not error <= 1.0:
-            h, refused = length * factor, refused + 1
+            refused += 1
             continue
         state, t = end, t_stop if last else t + length
         state.ratio = ratio_of(error)
         taken.append(length)
-        if length == h or factor < 1.0:  # a step cut short to meet t_stop says nothing against the step size before it
-            h = length * factor
     return state, h, np.array(taken), refused

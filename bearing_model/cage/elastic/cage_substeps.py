@@ -143,10 +143,12 @@ def cage_substeps_split(model, y, w, f):
     return FastState(j.e.copy(), j.u.copy(), touch, modes, rigid)
 
 
-def turn(t, rates):
-    """Turns the relative tilt rates by the angle of their gyroscopic moment, tan of half of which is t: no power."""
-    _, y, z, *_ = rates
-    rates[1:3] = np.array([(1.0 - t * t) * y - 2.0 * t * z, (1.0 - t * t) * z + 2.0 * t * y]) / (1.0 + t * t)
+def turn(t, others, rates):
+    """Turns the relative tilt rates, of which `rates` is the part by the joints and `others` the rest, by the angle of their gyroscopic
+    moment, tan of half of which is t: no power.  The joints' part gets the change.
+    """
+    y, z = rates[1:3] + others[1:3]
+    rates[1:3] -= 2.0 * t / (1.0 + t * t) * np.array([t * y + z, t * z - y])
 
 
 TURNING = np.array([[1, 2], [3, 4]])  # of the relative motions: pairs across the axis
@@ -203,16 +205,15 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     middle_in, spin = w.v_j[1:], float(np.squeeze(h0.s))
     middle = np.array([0.0, about_y, about_z, *middle_in.mean(axis=-1), 0.0])
     rigid = turn_out(-0.5 * spin * h, fast.rigid)
-    if films.follows.any():
-        v = v + films.first(w, sub, f, v)
+    v = v + films.first(w, sub, f, v)
 
+    turn(0.25 * gyro * sub, np.zeros(6), speed)
     for step in range(1, steps + 1):
         # first half of the accelerations, drift
         v_m = (v + 0.5 * sub * (modes + held)) / (1.0 + 0.5 * sub * half.damping)
         q = q + sub * v_m
         v = v_m * (1.0 - 0.5 * sub * half.damping)
         speed = speed + 0.5 * sub * rigid
-        turn(0.5 * gyro * sub, speed)
         halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
         pushed = pushed + 0.5 * sub * push
         way = way + sub * pushed
@@ -239,8 +240,8 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         speed = speed + 0.5 * sub * rigid
         pushed = pushed + 0.5 * sub * push
         loads.speed = loads.speed + 0.5 * sub * loads.push
-        if films.follows.any():
-            v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed, last=step == steps)
+        turn((0.5 if step < steps else 0.25) * gyro * sub, between_halves(model, h0, pushed), speed)
+        v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed, last=step == steps)
         by_films = pockets.follow(step * sub, sub, v, to_halves(model, h0, speed) + pushed)
         v, pushed = v + by_films[0], pushed + by_films[1]
     more, by_films = pockets.accelerations(half.n)
@@ -253,7 +254,8 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         for block, values in zip(blocks, x, strict=True):
             y[block][: half.n] = values
     slip.way = u - fast.u
-    by_gyro = to_halves(model, h0, gyro * np.array([0.0, -speed[2], speed[1], 0.0, 0.0, 0.0]))
+    rates = speed + between_halves(model, h0, pushed)
+    by_gyro = to_halves(model, h0, gyro * np.array([0.0, -rates[2], rates[1], 0.0, 0.0, 0.0]))
     return held, push + by_gyro, loads.arrive(y), slip
 
 

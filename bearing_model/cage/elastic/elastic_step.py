@@ -39,15 +39,14 @@ PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D
 @dataclass
 class ElasticStep:
     """Between the two halves of a step: slow accelerations at the end as the substeps foresee them, of the modes [2, n], changes of those
-    of halves [12] and balls [3 Z]; films in pockets; forces on bent rims that are constant over the step, and those at its start that their
-    impulses so far amount to [2, 4].
+    of halves [12] and balls [3 Z]; films in pockets; forces on bent rims at the end that with those at the start make their
+    impulses so far [2, 4].
     """
 
     modes: np.ndarray
     halves: np.ndarray
     balls: np.ndarray
     pockets: PocketFilmsStep
-    rim_held: np.ndarray
     rim_before: np.ndarray
 
 
@@ -64,15 +63,13 @@ def elastic_begin(model, h, start, middle, y, w):
     """Motion and predicted velocities; returns HalvesStep and ElasticStep."""
     halves, memory = halves_move(model, h, start, middle, y, w), start.cage
     gamma = halves.gamma
-    films = RimFilmsStep(model, h, memory.films)
-    add_rates(model, gamma * rim_modes(model, films.held), y)
+    films = RimFilmsStep(model, memory.films)
     pockets = PocketFilmsStep(model, h, memory.pockets, start.f, middle, y, w)
     found = cage_substeps_advance(model, h, memory, start.f, middle, y, films, pockets, w)
     modes, foreseen, balls, halves.joints = found
     halves_predict(model, start, y, halves)
-    add_rates(model, gamma * rim_modes(model, films.held), y)
     w.squeeze_by, w.squeeze_from = gamma * mobilities(model), memory.force
-    return halves, ElasticStep(modes, foreseen.ravel(), balls, pockets, films.held, films.before(gamma))
+    return halves, ElasticStep(modes, foreseen.ravel(), balls, pockets, films.before(gamma))
 
 
 def follow_places(before, now, joints, y):

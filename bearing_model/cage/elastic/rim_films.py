@@ -2,8 +2,7 @@
 
     F(t) = F_n - D (u - u_n),  P = d F_n - (1 + d D Y)^-1 d D delta,  delta: u - u_n with d F_n alone
 
-u: velocities of the land along its half's axes and of the rim's shapes [6].  A film that is not stiff acts at both ends of
-the step alone.
+u: velocities of the land along its half's axes and of the rim's shapes [6].
 """
 
 from dataclasses import dataclass, field
@@ -47,21 +46,15 @@ def rim_modes(model, force):
 
 
 class RimFilmsStep:
-    """The films of a step of length h [s] from RimFilms.
+    """The films of a step from RimFilms; impulse: on the shapes [2, 4], so far."""
 
-    follows: which of them act in the substeps [2]; held: forces of the others [2, 4]; impulse: of the first [2, 4], so far.
-    """
-
-    def __init__(self, model, h, films):
+    def __init__(self, model, films):
         self.model, self.rates, self.force = model, films.rates, films.force
-        stiff = h * (films.rates[:, 0, 0] + films.rates[:, 1, 1]) > model.p.cage.m
-        self.follows = stiff & (h > model.modes.substep)
-        self.held = np.where(self.follows[:, None], 0.0, films.force)
-        self.now, self.impulse = films.force - self.held, np.zeros((2, 4))
+        self.now, self.impulse = films.force, np.zeros((2, 4))
 
     def before(self, gamma):
-        """Forces at the step's start that the impulses so far amount to [2, 4]."""
-        return np.where(self.follows[:, None], self.impulse / gamma - self.force, self.force)
+        """Forces at the step's end that with those at its start make the impulses so far [2, 4]."""
+        return self.impulse / gamma - self.force
 
     def land_velocities(self, halves):
         """Velocities of both lands along their halves' axes [2, 2] by rates of the halves: x, y, z, beta, gamma, s [6, 2]."""
@@ -93,7 +86,7 @@ class RimFilmsStep:
         of_land = t * self.acceleration + self.land_velocities(halves) + self.by_film
         of_rim = rim_motions(self.model, at) - self.begun + by[:, 2:] * d * (self.force - 0.5 * self.now)
         change = -np.einsum("hik,hk->hi", self.answer, np.hstack([of_land, of_rim]))
-        impulse = np.where(self.follows[:, None], d * self.force + change[:, 2:], 0.0)
+        impulse = d * self.force + change[:, 2:]
         self.by_film = self.by_film + by[:, :2] * change[:, :2]
         self.impulse = self.impulse + impulse
         more = impulse - 0.5 * d * self.now + (0.0 if last else 0.5 * impulse)

@@ -382,7 +382,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         for (int i = 0; i < CAGE_MOTIONS; i++) pushed[i] += 0.5 * sub * push[i];
         ball_motions_push(0.5 * sub, &loads.balls);
-        if (loads.count > 0) between_halves(model, &w->half[0], pushed, by_loads);
+        if (loads.count + pockets->count > 0) between_halves(model, &w->half[0], pushed, by_loads);
         turn((step < steps ? 0.5 : 0.25) * gyro * sub, by_loads, speed);
         if (films) films_follow(model, step * sub, speed, pushed, step == steps, films, v, w);
         if (pockets->count > 0) {

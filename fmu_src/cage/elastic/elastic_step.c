@@ -47,23 +47,17 @@ void elastic_begin(const Model *model, double h, const StepFrom *from, const Hal
     memcpy(&y[Y_MODE_S], &from->y[Y_MODE_S], (N_ALL_STATES - Y_MODE_S) * sizeof *y);
     foresee_films(model, gamma, memory, w);
 
-    // Substeps; films on rims that do not follow in them act by impulses at both ends.
-    RimFilmsStep films;
-    const bool follow = rim_films_begin(model, h, &memory->films, &films);
-    rim_push(model, gamma, films.held, &y[Y_MODE_S_DOT]);
+    // Substeps.
+    RimFilmsStep films = {.films = &memory->films};
     pocket_films_find(model, h, &at->pockets, from->f, middle, y, w, &step->pockets);
     cage_substeps_advance(model, h, &memory->fast, from->f, middle, y, &step->foreseen, &halves->joints,
-                          follow ? &films : NULL, &step->pockets, w);
-    memcpy(step->rim_held, films.held, sizeof step->rim_held);
+                          lands_bend(model) ? &films : NULL, &step->pockets, w);
     for (int i = 0; i < 2; i++)
-        for (int k = 0; k < RIM; k++) {
-            const double force = memory->films.force[i][k];
-            step->rim_before[i][k] = films.follows[i] ? films.impulse[i][k] / gamma - force : force;
-        }
+        for (int k = 0; k < RIM; k++)
+            step->rim_before[i][k] = films.impulse[i][k] / gamma - memory->films.force[i][k];
 
     // Predicted velocities.
     halves_predict(model, from, at->film, y, halves);
-    rim_push(model, gamma, step->rim_held, &y[Y_MODE_S_DOT]);
 }
 
 // Friction states follow the way of the joints' places, not their velocities: these would leave the states behind by 0.1 nm

@@ -17,11 +17,11 @@ typedef struct {
              [SQUEEZE];  // squeeze velocities of lands and shapes of bent rims [m/s], the films' forces [N]
 } ElasticMemory;
 
-// Between the two halves of a step: slow accelerations at the end as the substeps foresee them; forces on bent rims that are
-// constant over the step, and those at its start that their impulses so far amount to [N]; films in pockets.
+// Between the two halves of a step: slow accelerations at the end as the substeps foresee them; forces on bent rims at the
+// end that with those at the start make their impulses so far [N]; films in pockets.
 typedef struct {
     Foreseen foreseen;
-    double rim_held[2][RIM], rim_before[2][RIM];
+    double rim_before[2][RIM];
     PocketFilmsStep pockets;
 } ElasticStep;
 

@@ -1,5 +1,4 @@
-// Films on bent rims within a step: in the substeps where they are stiff, else at both ends.  Equations in rim_films.c; twin:
-// bearing_model/cage/elastic/rim_films.py.
+// Films on bent rims within a step.  Equations in rim_films.c; twin: bearing_model/cage/elastic/rim_films.py.
 #pragma once
 
 #include "numbers/isa.h"
@@ -12,11 +11,9 @@ typedef struct {
     double force[2][RIM], rates[2][SQUEEZE][SQUEEZE];
 } RimFilms;
 
-// Films of a step; `follows`: whether a film acts in the substeps, for which the members below are.
+// Films of a step.
 typedef struct {
     const RimFilms *films;  // at the step's start
-    bool follows[2];
-    double held[2][RIM];                 // forces that act by impulses at both ends
     double substep;                      // [s]
     double answer[2][SQUEEZE][SQUEEZE];  // (1 + d D Y)^-1 d D
     double mobility[2][SQUEEZE];         // Y
@@ -35,12 +32,8 @@ void rim_motions(const Model *model, const double *modes, double rim[2][RIM]);
 #define rim_push FOR_ISA(rim_push)
 void rim_push(const Model *model, double part, double impulse[2][RIM], double *modes);
 
-// Prepares the films of a step of length h; false if no film follows in substeps.
-#define rim_films_begin FOR_ISA(rim_films_begin)
-bool rim_films_begin(const Model *model, double h, const RimFilms *films, RimFilmsStep *step);
-
-// Before the first substep of length d: constants, and half of its impulses to the velocities v of S and D.  f: slow rates;
-// w: kinematics of the halves.
+// Before the first substep of length d: constants of the films at the step's start, and half of the first impulses to the velocities v of
+// S and D.  f: slow rates; w: kinematics of the halves.
 #define rim_films_first FOR_ISA(rim_films_first)
 void rim_films_first(const Model *model, const Work *w, double d, const double *f, double *v,
                      RimFilmsStep *step);
