@@ -15,34 +15,23 @@
 // decides V: V = V^ + gamma Y (F(V) - F_n), because V^ has felt the force F_n of the step's start twice as long.
 #include "physics/land_bent.h"
 
-enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH, ROW = 8 };
+enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH };
 
 // A law of land and rim, linear about the squeeze velocities: forces along the half's axes, rates in rows of eight for packets.
 typedef struct {
-    double F[SQUEEZE], rate[SQUEEZE][ROW];
+    double F[SQUEEZE], rate[SQUEEZE][SQUEEZE_ROW];
 } SqueezeLaw;
-
-INLINE void row_scale(double times, double row[ROW])
-{
-    for (int k = 0; k < ROW; k += LANE_WIDTH) wide_store(&row[k], times * wide_load(&row[k]));
-}
-
-INLINE void row_add(double times, const double row[ROW], double to[ROW])
-{
-    for (int k = 0; k < ROW; k += LANE_WIDTH)
-        wide_store(&to[k], wide_load(&to[k]) + times * wide_load(&row[k]));
-}
 
 // The rates times x, subtracted from F.
 static void take_rates(const SqueezeLaw *law, const double x[SQUEEZE], double F[SQUEEZE])
 {
-    double sum[ROW] = {0.0};
+    double sum[SQUEEZE_ROW] = {0.0};
     for (int i = 0; i < SQUEEZE; i++) row_add(x[i], law->rate[i], sum);
     for (int i = 0; i < SQUEEZE; i++) F[i] -= sum[i];
 }
 
 // Rates of the shapes cos p theta and sin p theta by those cosines C and sines S: 2 cos p cos q = cos (p - q) + cos (p + q) ...
-static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][ROW])
+static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][SQUEEZE_ROW])
 {
     double C[7], S[7] = {0.0};
     C[0] = sum[0];
@@ -59,7 +48,7 @@ static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][RO
         }
     }
     for (int i = 0; i < SQUEEZE; i++)
-        for (int k = SQUEEZE; k < ROW; k++) rate[i][k] = 0.0;
+        for (int k = SQUEEZE; k < SQUEEZE_ROW; k++) rate[i][k] = 0.0;
 }
 
 // Law of the film at the squeeze velocities V, F = -D V.
@@ -89,7 +78,7 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *
 static void squeeze_solve(const SqueezeLaw *law, const double by[SQUEEZE], const double u[SQUEEZE],
                           double x[SQUEEZE])
 {
-    double A[SQUEEZE][ROW];  // and u
+    double A[SQUEEZE][SQUEEZE_ROW];  // and u
     for (int i = 0; i < SQUEEZE; i++) {
         memcpy(A[i], law->rate[i], sizeof A[i]);
         row_scale(by[i], A[i]);

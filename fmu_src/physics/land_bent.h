@@ -235,6 +235,20 @@ typedef struct {
 } BentSolution;
 
 #ifndef DUAL
+// A row of a matrix of squeeze velocities, padded to packets: multiplied by a number, and added to another one.
+enum { SQUEEZE_ROW = 8 };
+
+INLINE void row_scale(double times, double row[SQUEEZE_ROW])
+{
+    for (int k = 0; k < SQUEEZE_ROW; k += LANE_WIDTH) wide_store(&row[k], times * wide_load(&row[k]));
+}
+
+INLINE void row_add(double times, const double row[SQUEEZE_ROW], double to[SQUEEZE_ROW])
+{
+    for (int k = 0; k < SQUEEZE_ROW; k += LANE_WIDTH)
+        wide_store(&to[k], wide_load(&to[k]) + times * wide_load(&row[k]));
+}
+
 // Whether the film at the predicted velocities of half h, in part borne by asperities, `rough` [N], has to be foreseen; then `seen` has the
 // velocities at the step's end by it.
 #define bent_foresee FOR_ISA(bent_foresee)
