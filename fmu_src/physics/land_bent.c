@@ -54,11 +54,13 @@ static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][SQ
 // Law of the film at the squeeze velocities V, F = -D V.
 static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law)
 {
-    wide sum[EIGHTHS][BENT_WAVES];
-    double total[BENT_WAVES];
+    enum { OCTETS = (BENT_WAVES + 7) / 8 * 8 };
+
+    wide sum[EIGHTHS][OCTETS];
+    double total[OCTETS];
     for (int part = 0; part < EIGHTHS; part++) {
-        wide to[BENT_WAVES];
-        for (int i = 0; i < BENT_WAVES; i++) to[i] = wide_set(0.0);
+        wide to[OCTETS];
+        for (int i = 0; i < OCTETS; i++) to[i] = wide_set(0.0);
         for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
             wide b[SQUEEZE];
             for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
@@ -68,7 +70,7 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *
         }
         memcpy(sum[part], to, sizeof to);
     }
-    wide_column_sums(BENT_WAVES, BENT_WAVES, sum[0], total);
+    wide_column_sums(OCTETS, OCTETS, sum[0], total);
     rates_of_waves(total, law->rate);
     memset(law->F, 0, sizeof law->F);
     take_rates(law, V, law->F);

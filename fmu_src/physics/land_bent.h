@@ -126,7 +126,8 @@ enum {
     BENT_N,
     BENT_STORED,  // energy and its rate
     BENT_STORED_RATE,
-    BENT_SUMS
+    BENT_SUMS,
+    BENT_WET = (BENT_DRY + 7) / 8 * 8  // of a film without dry contact, in whole octets
 };
 
 // Adds those of the dry contact at a packet of points.
@@ -215,8 +216,7 @@ INLINE void bent_sums(const Model *model, const LandPressure *pressure, BentGrid
         memcpy(sum[part], to, sizeof to);
     }
     memset(total, 0, BENT_SUMS * sizeof *total);
-    const bool rough = model->p->scene.lubrication == LUBRICATION_MIXED;
-    wide_column_sums(dry ? BENT_SUMS : rough ? BENT_DRY : BENT_ROUGH, BENT_SUMS, sum[0], total);
+    wide_column_sums(dry ? BENT_SUMS : BENT_WET, BENT_SUMS, sum[0], total);
 }
 
 // Rates yy, yz, zz along other axes: T^T D T.

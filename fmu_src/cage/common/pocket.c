@@ -271,7 +271,7 @@ void pocket_elastic(const Model *model, Work *w)
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
-            *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
+            at->h = h, at->j = j, at->touched = 0, at->gap = pocket_gap(model->d, w, &w->half[h], j);
             at->ahead = pocket_ahead(model, w, h, j, &at->gap);
             const scalar reach = w->cage.elastic.reach[h] + model->d->squeeze.reach;
             const int near = wide_mask(wide_above(at->gap.delta + (at->ahead + reach), 0.0));
