@@ -202,13 +202,12 @@ double cage_joint_slide(const Model *model, const JointStiffness *k_in, const do
 void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k_in, const ball_array u_y,
                       const ball_array u_z, ball_array F_y, ball_array F_z)
 {
-    for (int k = 0; k < Z; k++) {
-        const double slip = sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k] + NOTHING);
-        const double bearing = k_in->hole[k] * fmax(slip - model->d->hole_gap[k], 0.0) / slip;
-        F_y[k] = -k_in->stick * y[Y_JOINT_PLATE_Y + k] - bearing * u_y[k];
-        F_z[k] = -k_in->stick * y[Y_JOINT_PLATE_Z + k] - bearing * u_z[k];
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {  // padding lanes read the rows behind
+        const wide x = wide_load(&u_y[k]), z = wide_load(&u_z[k]), slip = length_of(x, z);
+        const wide bearing = bearing_of(slip, wide_load(&model->d->hole_gap[k]), wide_load(&k_in->hole[k]));
+        wide_store(&F_y[k], -k_in->stick * wide_load(&y[Y_JOINT_PLATE_Y + k]) - bearing * x);
+        wide_store(&F_z[k], -k_in->stick * wide_load(&y[Y_JOINT_PLATE_Z + k]) - bearing * z);
     }
-    for (int k = Z; k < LANES; k++) F_y[k] = F_z[k] = 0.0;
 }
 #endif
 
