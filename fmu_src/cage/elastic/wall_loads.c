@@ -135,6 +135,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
 INLINE wide loads_at(const WallLoads *loads, int i, wide x)
 {
     const wide zero = wide_set(0.0), K = wide_load(&loads->K[i]), cK = loads->c * K;
+    if (!wide_any(wide_above(x, 0.0))) return zero;
     const wide from = wide_max(x, zero);
     wide delta = from / (1.0 + cK * wide_sqrt(from));
     for (int n = 0; n < 2; n++) {
@@ -149,6 +150,7 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
 {
     const double bend = t * (0.5 * t - loads->middle);
     wall_load_array force, by_modes;
+    bool changed = false;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q, by_modes);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
@@ -157,8 +159,13 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
         wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
         for (int m = 0; m < CAGE_MOTIONS; m++)
             u = wide_fma(wide_load(&loads->along[m][i]), wide_set(moved[m]), u);
-        const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u);
-        wide_store(&force[i], Q - wide_load(&loads->Q[i]));
+        const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u), more = Q - wide_load(&loads->Q[i]);
+        wide_store(&force[i], more);
+        changed |= wide_any(wide_above(wide_abs(more), 0.0));
+    }
+    if (!changed) {
+        memset(push, 0, CAGE_MOTIONS * sizeof *push);
+        return;
     }
     for (int m = 0; m < CAGE_MOTIONS; m++) {
         double sum = 0.0;
