@@ -84,7 +84,7 @@ typedef struct {
     wide joint[2], head[2], plates[2], held_plates, held_heads;
 } Held;
 
-// Part of its square of capacity up to which friction is not mapped back at all.
+// Part of the square of a capacity up to which friction sticks, so that mapping changes nothing: less than 1, for rounding.
 static const double STICKS = 1.0 - 1e-9;
 
 INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, const wide joint[2],
@@ -95,7 +95,8 @@ INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, const 
     const wide zero = wide_set(0.0), H_y = k_h * head[0], H_z = k_h * head[1];
     const wide X_y = k * joint[0] - H_y, X_z = k * joint[1] - H_z;
     const wide size_2 = X_y * X_y + X_z * X_z + NOTHING, heads_2 = H_y * H_y + H_z * H_z + NOTHING;
-    const wide beyond = wide_max(size_2 - STICKS * (C_plates * C_plates), heads_2 - STICKS * (C_heads * C_heads));
+    const wide beyond =
+        wide_max(size_2 - STICKS * (C_plates * C_plates), heads_2 - STICKS * (C_heads * C_heads));
     if (!wide_any(wide_above(beyond, 0.0))) {
         on.held_heads = on.held_plates = wide_set(1.0);
         for (int i = 0; i < 2; i++) on.head[i] = head[i];

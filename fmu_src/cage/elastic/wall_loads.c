@@ -107,19 +107,16 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     for (int half = 0; half < 2; half++) {
         loads->of_0 = loads->count;
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&fast->touch.K[half][j]), 0.0)),
-                      first = loads->count;
-            int ball[LANE_WIDTH];
+            const int mask = wide_mask(wide_above(wide_load(&fast->touch.K[half][j]), 0.0));
             RigidApproach approach;
             if (mask == 0) continue;
             const double *const n[3] = {fast->touch.x[half], fast->touch.r[half], fast->touch.t[half]};
             rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
-            for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-                if (mask >> i & 1 && add_load(model, h, fast, half, j, i, &approach, loads))
-                    ball[loads->count - 1 - first] = j + i;
-            for (int i = first; i < loads->count; i++) {
-                find_shape(model, fast, w, half, ball[i - first], loads->shape[i]);
-                for (int m = 0; m < N_MODES; m++) loads->shape[i][m] *= inv_root;
+            for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
+                if (!(mask >> i & 1) || !add_load(model, h, fast, half, j, i, &approach, loads)) continue;
+                double *shape = loads->shape[loads->count - 1];
+                find_shape(model, fast, w, half, j + i, shape);
+                for (int m = 0; m < N_MODES; m++) shape[m] *= inv_root;
             }
         }
     }
@@ -159,7 +156,8 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
         wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
         for (int m = 0; m < CAGE_MOTIONS; m++)
             u = wide_fma(wide_load(&loads->along[m][i]), wide_set(moved[m]), u);
-        const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u), more = Q - wide_load(&loads->Q[i]);
+        const wide Q = loads_at(loads, i, wide_load(&loads->x[i]) + way - u),
+                   more = Q - wide_load(&loads->Q[i]);
         wide_store(&force[i], more);
         changed |= wide_any(wide_above(wide_abs(more), 0.0));
     }
