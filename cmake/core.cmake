@@ -115,14 +115,14 @@ endfunction()
 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     add_kernel(sse2 2)
-    add_kernel(avx2 4 -mavx2 -mfma -DFUSED)  # what dispatch.c asks the processor for, no more
+    add_kernel(avx2 4 -mavx2 -mfma -mtune=znver3 -DFUSED)  # what dispatch.c asks the processor for, no more
     if(NOT CMAKE_CROSSCOMPILING AND NOT CORE)
         # AVX-512's packets of eight, computed by AVX2: for the tests (cmake/fmu.cmake), where no processor has AVX-512.
         set(by_fours -mavx2 -mfma -DFUSED -DEIGHT_BY_FOURS -Wno-psabi -O1)  # -O3 takes minutes
         compile_for(kernel_by_fours avx512 8 "${kernel_files}" ${by_fours})
         compile_for(dispatch_by_fours generic 2 ${fmu_src}/solver/dispatch.c -DKERNELS_X86 -DEIGHT_BY_FOURS)
     endif()
-    add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 -DFUSED)
+    add_kernel(avx512 8 -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512 -mtune=znver3 -DFUSED)
     set(kernels KERNELS_X86)
 elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
     add_kernel(neon 2 -DFUSED)

@@ -509,6 +509,17 @@ INLINE void wide_column_sums(int n, int columns, const wide *x, scalar *sum)
                                           _mm512_shuffle_f64x2(four[0], four[1], 0xee));
         _mm512_storeu_pd(&sum[first], all);
     }
+#elif defined(__AVX2__) && LANE_WIDTH == 4 && !defined(DUAL)
+    for (; first + 4 <= n; first += 4) {
+        __m256d half[2];
+        for (int i = 0; i < 2; i++) {
+            const wide *row = &x[i * columns + first];
+            const __m256d a = _mm256_hadd_pd((__m256d)row[0], (__m256d)row[1]),
+                          b = _mm256_hadd_pd((__m256d)row[2], (__m256d)row[3]);
+            half[i] = _mm256_add_pd(_mm256_permute2f128_pd(a, b, 0x20), _mm256_permute2f128_pd(a, b, 0x31));
+        }
+        _mm256_storeu_pd(&sum[first], _mm256_add_pd(half[0], half[1]));
+    }
 #endif
     for (; first < n; first++) {
         scalar part[8];

@@ -15,34 +15,23 @@
 // decides V: V = V^ + gamma Y (F(V) - F_n), because V^ has felt the force F_n of the step's start twice as long.
 #include "physics/land_bent.h"
 
-enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH, ROW = 8 };
+enum { BENT_PACKETS = BENT_POINTS / LANE_WIDTH };
 
 // A law of land and rim, linear about the squeeze velocities: forces along the half's axes, rates in rows of eight for packets.
 typedef struct {
-    double F[SQUEEZE], rate[SQUEEZE][ROW];
+    double F[SQUEEZE], rate[SQUEEZE][SQUEEZE_ROW];
 } SqueezeLaw;
-
-INLINE void row_scale(double times, double row[ROW])
-{
-    for (int k = 0; k < ROW; k += LANE_WIDTH) wide_store(&row[k], times * wide_load(&row[k]));
-}
-
-INLINE void row_add(double times, const double row[ROW], double to[ROW])
-{
-    for (int k = 0; k < ROW; k += LANE_WIDTH)
-        wide_store(&to[k], wide_load(&to[k]) + times * wide_load(&row[k]));
-}
 
 // The rates times x, subtracted from F.
 static void take_rates(const SqueezeLaw *law, const double x[SQUEEZE], double F[SQUEEZE])
 {
-    double sum[ROW] = {0.0};
+    double sum[SQUEEZE_ROW] = {0.0};
     for (int i = 0; i < SQUEEZE; i++) row_add(x[i], law->rate[i], sum);
     for (int i = 0; i < SQUEEZE; i++) F[i] -= sum[i];
 }
 
 // Rates of the shapes cos p theta and sin p theta by those cosines C and sines S: 2 cos p cos q = cos (p - q) + cos (p + q) ...
-static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][ROW])
+static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][SQUEEZE_ROW])
 {
     double C[7], S[7] = {0.0};
     C[0] = sum[0];
@@ -59,17 +48,19 @@ static void rates_of_waves(const double sum[BENT_WAVES], double rate[SQUEEZE][RO
         }
     }
     for (int i = 0; i < SQUEEZE; i++)
-        for (int k = SQUEEZE; k < ROW; k++) rate[i][k] = 0.0;
+        for (int k = SQUEEZE; k < SQUEEZE_ROW; k++) rate[i][k] = 0.0;
 }
 
 // Law of the film at the squeeze velocities V, F = -D V.
 static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *law)
 {
-    wide sum[EIGHTHS][BENT_WAVES];
-    double total[BENT_WAVES];
+    enum { OCTETS = (BENT_WAVES + 7) / 8 * 8 };
+
+    wide sum[EIGHTHS][OCTETS];
+    double total[OCTETS];
     for (int part = 0; part < EIGHTHS; part++) {
-        wide to[BENT_WAVES];
-        for (int i = 0; i < BENT_WAVES; i++) to[i] = wide_set(0.0);
+        wide to[OCTETS];
+        for (int i = 0; i < OCTETS; i++) to[i] = wide_set(0.0);
         for (int n = part; n < BENT_PACKETS; n += EIGHTHS) {
             wide b[SQUEEZE];
             for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][n * LANE_WIDTH]);
@@ -79,7 +70,7 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *
         }
         memcpy(sum[part], to, sizeof to);
     }
-    wide_column_sums(BENT_WAVES, BENT_WAVES, sum[0], total);
+    wide_column_sums(OCTETS, OCTETS, sum[0], total);
     rates_of_waves(total, law->rate);
     memset(law->F, 0, sizeof law->F);
     take_rates(law, V, law->F);
@@ -89,7 +80,7 @@ static void bent_law(const BentGrid *grid, const double V[SQUEEZE], SqueezeLaw *
 static void squeeze_solve(const SqueezeLaw *law, const double by[SQUEEZE], const double u[SQUEEZE],
                           double x[SQUEEZE])
 {
-    double A[SQUEEZE][ROW];  // and u
+    double A[SQUEEZE][SQUEEZE_ROW];  // and u
     for (int i = 0; i < SQUEEZE; i++) {
         memcpy(A[i], law->rate[i], sizeof A[i]);
         row_scale(by[i], A[i]);

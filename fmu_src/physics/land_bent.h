@@ -126,7 +126,8 @@ enum {
     BENT_N,
     BENT_STORED,  // energy and its rate
     BENT_STORED_RATE,
-    BENT_SUMS
+    BENT_SUMS,
+    BENT_WET = (BENT_DRY + 7) / 8 * 8  // of a film without dry contact, in whole octets
 };
 
 // Adds those of the dry contact at a packet of points.
@@ -215,8 +216,7 @@ INLINE void bent_sums(const Model *model, const LandPressure *pressure, BentGrid
         memcpy(sum[part], to, sizeof to);
     }
     memset(total, 0, BENT_SUMS * sizeof *total);
-    const bool rough = model->p->scene.lubrication == LUBRICATION_MIXED;
-    wide_column_sums(dry ? BENT_SUMS : rough ? BENT_DRY : BENT_ROUGH, BENT_SUMS, sum[0], total);
+    wide_column_sums(dry ? BENT_SUMS : BENT_WET, BENT_SUMS, sum[0], total);
 }
 
 // Rates yy, yz, zz along other axes: T^T D T.
@@ -235,6 +235,20 @@ typedef struct {
 } BentSolution;
 
 #ifndef DUAL
+// A row of a matrix of squeeze velocities, padded to packets: multiplied by a number, and added to another one.
+enum { SQUEEZE_ROW = 8 };
+
+INLINE void row_scale(double times, double row[SQUEEZE_ROW])
+{
+    for (int k = 0; k < SQUEEZE_ROW; k += LANE_WIDTH) wide_store(&row[k], times * wide_load(&row[k]));
+}
+
+INLINE void row_add(double times, const double row[SQUEEZE_ROW], double to[SQUEEZE_ROW])
+{
+    for (int k = 0; k < SQUEEZE_ROW; k += LANE_WIDTH)
+        wide_store(&to[k], wide_load(&to[k]) + times * wide_load(&row[k]));
+}
+
 // Whether the film at the predicted velocities of half h, in part borne by asperities, `rough` [N], has to be foreseen; then `seen` has the
 // velocities at the step's end by it.
 #define bent_foresee FOR_ISA(bent_foresee)

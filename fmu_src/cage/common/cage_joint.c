@@ -84,13 +84,27 @@ typedef struct {
     wide joint[2], head[2], plates[2], held_plates, held_heads;
 } Held;
 
+// Part of the square of a capacity up to which friction sticks, so that mapping changes nothing: less than 1, for rounding.
+static const double STICKS = 1.0 - 1e-9;
+
 INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, const wide joint[2],
                  const wide head[2])
 {
     Held on;
     const double k = k_in->stick, k_h = k_in->head;
-    const wide zero = wide_set(0.0), X_y = k * joint[0] - k_h * head[0], X_z = k * joint[1] - k_h * head[1];
-    const wide size = length_of(X_y, X_z);
+    const wide zero = wide_set(0.0), H_y = k_h * head[0], H_z = k_h * head[1];
+    const wide X_y = k * joint[0] - H_y, X_z = k * joint[1] - H_z;
+    const wide size_2 = X_y * X_y + X_z * X_z + NOTHING, heads_2 = H_y * H_y + H_z * H_z + NOTHING;
+    const wide beyond =
+        wide_max(size_2 - STICKS * (C_plates * C_plates), heads_2 - STICKS * (C_heads * C_heads));
+    if (!wide_any(wide_above(beyond, 0.0))) {
+        on.held_heads = on.held_plates = wide_set(1.0);
+        for (int i = 0; i < 2; i++) on.head[i] = head[i];
+        on.plates[0] = X_y, on.plates[1] = X_z;
+        on.joint[0] = (H_y + X_y) * (1.0 / k), on.joint[1] = (H_z + X_z) * (1.0 / k);
+        return on;
+    }
+    const wide size = wide_sqrt(size_2);
     const wide dragged = wide_max(size - C_plates, zero) / ((k + k_h) * size);
     const wide h_y = head[0] + dragged * X_y, h_z = head[1] + dragged * X_z;
     on.held_heads = C_heads / wide_max(length_of(k_h * h_y, k_h * h_z), C_heads);
@@ -189,13 +203,12 @@ double cage_joint_slide(const Model *model, const JointStiffness *k_in, const do
 void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k_in, const ball_array u_y,
                       const ball_array u_z, ball_array F_y, ball_array F_z)
 {
-    for (int k = 0; k < Z; k++) {
-        const double slip = sqrt(u_y[k] * u_y[k] + u_z[k] * u_z[k] + NOTHING);
-        const double bearing = k_in->hole[k] * fmax(slip - model->d->hole_gap[k], 0.0) / slip;
-        F_y[k] = -k_in->stick * y[Y_JOINT_PLATE_Y + k] - bearing * u_y[k];
-        F_z[k] = -k_in->stick * y[Y_JOINT_PLATE_Z + k] - bearing * u_z[k];
+    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {  // padding lanes read the rows behind
+        const wide x = wide_load(&u_y[k]), z = wide_load(&u_z[k]), slip = length_of(x, z);
+        const wide bearing = bearing_of(slip, wide_load(&model->d->hole_gap[k]), wide_load(&k_in->hole[k]));
+        wide_store(&F_y[k], -k_in->stick * wide_load(&y[Y_JOINT_PLATE_Y + k]) - bearing * x);
+        wide_store(&F_z[k], -k_in->stick * wide_load(&y[Y_JOINT_PLATE_Z + k]) - bearing * z);
     }
-    for (int k = Z; k < LANES; k++) F_y[k] = F_z[k] = 0.0;
 }
 #endif
 

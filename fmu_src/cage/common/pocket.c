@@ -182,11 +182,14 @@ INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const P
 {
     const wide zero = wide_set(0.0), delta = gap->delta;
     const wide reached = wide_select(wide_above(delta, 0.0), delta, delta + ahead);
-    const wide share = pocket_share(model->d, h, gap->n_x, reached).load;
-    const bits acts = wide_above(wide_min(share, reached), 0.0);
+    wide K = zero;
+    if (wide_any(wide_above(reached, 0.0))) {
+        const wide share = pocket_share(model->d, h, gap->n_x, reached).load;
+        K = wide_select(wide_above(wide_min(share, reached), 0.0), model->d->pocket.K * share, zero);
+    }
     wide_store(&w->cage.elastic.touch.x[h][j], gap->n_x);
     wide_store(&w->cage.elastic.touch.t[h][j], gap->n_t);
-    wide_store(&w->cage.elastic.touch.K[h][j], wide_select(acts, model->d->pocket.K * share, zero));
+    wide_store(&w->cage.elastic.touch.K[h][j], K);
     wide_store(&w->cage.elastic.touch.delta[h][j], delta);
 }
 
@@ -214,8 +217,11 @@ static int find_touched(const Model *model, Work *w, int h, int j, int near, Poc
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here
-    const wide load = pocket_share(model->d, h, gap->n_x, gap->delta).load;
-    *pressed = wide_above(wide_min(load, gap->delta), 0.0);
+    *pressed = wide_above(gap->delta, 0.0);
+    if (wide_any(*pressed)) {
+        const wide load = pocket_share(model->d, h, gap->n_x, gap->delta).load;
+        *pressed = wide_above(wide_min(load, gap->delta), 0.0);
+    }
     if (!model->d->squeeze.filled) return wide_mask(*pressed);
     return near & wide_mask(*pressed | wide_above(gap->delta, -model->d->squeeze.reach));
 }
@@ -271,7 +277,7 @@ void pocket_elastic(const Model *model, Work *w)
     for (int h = 0; h < 2; h++)
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             TouchedPacket *at = &packets[count];
-            *at = (TouchedPacket){.h = h, .j = j, .gap = pocket_gap(model->d, w, &w->half[h], j)};
+            at->h = h, at->j = j, at->touched = 0, at->gap = pocket_gap(model->d, w, &w->half[h], j);
             at->ahead = pocket_ahead(model, w, h, j, &at->gap);
             const scalar reach = w->cage.elastic.reach[h] + model->d->squeeze.reach;
             const int near = wide_mask(wide_above(at->gap.delta + (at->ahead + reach), 0.0));

@@ -19,6 +19,7 @@
 
 #include "cage/common/films.h"
 #include "cage/elastic/elastic_half.h"
+#include "physics/land_bent.h"
 
 static const double ROOT_HALF = 0.7071067811865476;  // of 1/2
 
@@ -54,21 +55,24 @@ void rim_push(const Model *model, double part, double impulse[2][RIM], double *m
 static void find_answer(double d, const double rates[SQUEEZE][SQUEEZE], const double mobility[SQUEEZE],
                         double answer[SQUEEZE][SQUEEZE])
 {
-    double A[SQUEEZE][2 * SQUEEZE];
+    double A[SQUEEZE][SQUEEZE_ROW] = {{0.0}}, B[SQUEEZE][SQUEEZE_ROW] = {{0.0}};
     for (int i = 0; i < SQUEEZE; i++)
         for (int k = 0; k < SQUEEZE; k++) {
-            A[i][SQUEEZE + k] = d * rates[i][k];
-            A[i][k] = (i == k ? 1.0 : 0.0) + A[i][SQUEEZE + k] * mobility[k];
+            B[i][k] = d * rates[i][k];
+            A[i][k] = (i == k ? 1.0 : 0.0) + B[i][k] * mobility[k];
         }
+#pragma GCC unroll 6
     for (int i = 0; i < SQUEEZE; i++) {
         const double inv = 1.0 / A[i][i];
-        for (int k = 0; k < 2 * SQUEEZE; k++) A[i][k] *= inv;
+        row_scale(inv, A[i]), row_scale(inv, B[i]);
+#pragma GCC unroll 6
         for (int j = 0; j < SQUEEZE; j++) {
-            const double by = j == i ? 0.0 : A[j][i];
-            for (int k = 0; k < 2 * SQUEEZE; k++) A[j][k] -= by * A[i][k];
+            if (j == i) continue;
+            const double by = -A[j][i];
+            row_add(by, A[i], A[j]), row_add(by, B[i], B[j]);
         }
     }
-    for (int i = 0; i < SQUEEZE; i++) memcpy(answer[i], &A[i][SQUEEZE], sizeof answer[i]);
+    for (int i = 0; i < SQUEEZE; i++) memcpy(answer[i], B[i], sizeof answer[i]);
 }
 
 // Velocity of the land along the half's axes by rates of both halves in the order of the state.

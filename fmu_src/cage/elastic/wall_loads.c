@@ -117,19 +117,16 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     for (int half = 0; half < 2; half++) {
         loads->of_0 = loads->count;
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&fast->touch.K[half][j]), 0.0)),
-                      first = loads->count;
-            int ball[LANE_WIDTH];
+            const int mask = wide_mask(wide_above(wide_load(&fast->touch.K[half][j]), 0.0));
             RigidApproach approach;
             if (mask == 0) continue;
             const double *const n[3] = {fast->touch.x[half], fast->touch.r[half], fast->touch.t[half]};
             rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
-            for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-                if (mask >> i & 1 && add_load(model, h, fast, half, j, i, &approach, loads))
-                    ball[loads->count - 1 - first] = j + i;
-            for (int i = first; i < loads->count; i++) {
-                find_shape(model, fast, w, half, ball[i - first], loads->shape[i]);
-                for (int m = 0; m < N_MODES; m++) loads->shape[i][m] *= inv_root;
+            for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
+                if (!(mask >> i & 1) || !add_load(model, h, fast, half, j, i, &approach, loads)) continue;
+                double *shape = loads->shape[loads->count - 1];
+                find_shape(model, fast, w, half, j + i, shape);
+                for (int m = 0; m < N_MODES; m++) shape[m] *= inv_root;
             }
         }
     }
@@ -145,6 +142,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
 INLINE wide loads_at(const WallLoads *loads, int i, wide x)
 {
     const wide zero = wide_set(0.0), K = wide_load(&loads->K[i]), cK = loads->c * K;
+    if (!wide_any(wide_above(x, 0.0))) return zero;
     const wide from = wide_max(x, zero);
     wide delta = from / (1.0 + cK * wide_sqrt(from));
     for (int n = 0; n < 2; n++) {
@@ -178,6 +176,7 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
 {
     const double bend = t * (0.5 * t - loads->middle), lambda = model->p->cage.lambda;
     wall_load_array force, by_modes, ball_way, ball_speed;
+    bool changed = false;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q, by_modes);
     along_normals(loads, loads->balls.way, ball_way);
@@ -191,14 +190,20 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
             wide_fma(wide_set(t - loads->middle), acceleration, less_halves(loads, i, speeds, wide_load(&ball_speed[i])));
         const wide damped = wide_max(wide_fma(wide_set(lambda), rate, wide_load(&loads->damped[i])), wide_set(0.0));
         const wide Q = damped * loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u);
-        wide_store(&force[i], Q - wide_load(&loads->Q[i]));
+        const wide more = Q - wide_load(&loads->Q[i]);
+        wide_store(&force[i], more);
+        changed |= wide_any(wide_above(wide_abs(more), 0.0));
+    }
+    memset(loads->balls.push, 0, sizeof loads->balls.push);
+    if (!changed) {
+        memset(push, 0, CAGE_MOTIONS * sizeof *push);
+        return;
     }
     for (int m = 0; m < CAGE_MOTIONS; m++) {
         double sum = 0.0;
         for (int i = 0; i < loads->count; i++) sum += force[i] * loads->along[m][i];
         push[m] = sum / model->d->inertia[Y_CAGE_V_X + m];
     }
-    memset(loads->balls.push, 0, sizeof loads->balls.push);
     for (int i = 0; i < loads->count; i++)
         for (int m = 0; m < 3; m++)
             loads->balls.push[m][loads->ball[i]] -= force[i] * loads->normal[m][i] / model->d->m;
