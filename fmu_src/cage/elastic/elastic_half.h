@@ -20,7 +20,6 @@
 // rivet turns the sign of each motion of pads by an a or by a b: by mirror symmetry half of the rivets determine all.
 #pragma once
 
-#include <stdlib.h>
 #include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
 #include "numbers/isa.h"
@@ -99,9 +98,7 @@ struct ElasticHalf {
 // The longest step of elastic halves [s]: forces that are constant over it feed vibrations that turn by much more than pi.
 static inline double elastic_longest_step(const ElasticHalf *half)
 {
-    static double most = 0.0;
-    if (most == 0.0) { const char *e = getenv("RB_N"); most = e ? atof(e) : 5.0; }
-    return most * half->substep;
+    return 5.0 * half->substep;
 }
 
 // The half of the rivet table in the scene.  half: zeros, or the half of other parameters, of which the parts are
