@@ -16,7 +16,6 @@ from bearing_model.cage.elastic.cage_elastic import wall_amplitudes
 from bearing_model.cage.elastic.elastic_half import IN, ROOT, joints_out, mode_order
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape
 from bearing_model.cage.elastic.half_modes import OUT
-from bearing_model.cage.elastic.rim_films import RimFilmsStep
 from bearing_model.generated import variables
 from bearing_model.generated.variables import (
     CAGE_S,
@@ -124,7 +123,7 @@ def test_twins_are_equal(core, scene, isa, record_property):
 )
 def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
     """Two steps in a row and their substeps in both twins, in units of the error scales (observed 2e-12)."""
-    rng, worst, foreseen, follows = np.random.default_rng(6), 0.0, [], 0
+    rng, worst, foreseen = np.random.default_rng(6), 0.0, []
     monkeypatch.setattr(land_film, "bent_foresee", lambda *given: foreseen.append(bent_foresee(*given)) or foreseen[-1])
     c, model = core.model(ELASTIC | scene), Model.of(ELASTIC | scene)
     scale = model.d.scale
@@ -133,7 +132,7 @@ def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
         state = c.verlet_evaluate(0.0, y)
         at, end = View(core, state), verlet_evaluate(model, 0.0, y)
         assert np.max(np.abs(at.f - end.f) * 1e-6 / scale) < 1e-6
-        for h in (3e-6, 7e-6):  # one substep, three
+        for h in (3e-6, 1.4e-5):  # one substep, five
             film = np.array([[[yy, yz], [yz, zz]] for yy, yz, zz in state.cage.halves.film])
             end.cage.film = film
             start = VerletState(at.y.copy(), at.f.copy(), at.jerk.copy(), state.h, end.cage)
@@ -150,7 +149,6 @@ def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
                 found = np.frombuffer(core.ffi.buffer(values), float).reshape(expected.shape)
                 np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8 * np.abs(expected).max())
                 assert scene not in (BENT, JAMMED) or np.all(expected != 0.0)
-            follows += int(RimFilmsStep(model, h, of_twin).follows.sum())
             np.testing.assert_allclose(list(state.cage.elastic.fast.u_y)[:Z], end.cage.fast.u[0], rtol=1e-9)
             np.testing.assert_allclose(
                 list(state.cage.elastic.fast.rigid),
@@ -161,7 +159,6 @@ def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
     record_property("worst", float(worst))
     assert worst < 1e-9
     assert any(foreseen) == (scene == JAMMED)
-    assert bool(follows) == (scene == JAMMED)  # in the substeps
 
 
 @pytest.mark.parametrize(

@@ -71,7 +71,7 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has three substeps at most.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
+// that it has five substeps at most.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
 // of the order of the tolerance's scale.  So below SLOW steps and tolerance are smaller in proportion to its speed.  Films of the rate A that
 // the substeps leave out allow 1/A, or two substeps, which are always stable; films in pockets too, or one substep where lands guide the
 // cage, whose loss would err by 5 to 11 %.

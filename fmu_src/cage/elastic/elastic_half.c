@@ -8,8 +8,7 @@
 #include "rivet/rivet_rom.h"
 
 // Angle by which the fastest vibration of closed joints turns in a substep: velocity Verlet is stable up to
-// 2, and the law's rounding may make a joint stiffer by 30 %.  In three substeps the computed one turns by 6 asin(1.55/2) = 5.3;
-// from 5.6 on films that are held over a step feed it: their work is sin x + (x/2)(1 - cos x).
+// 2, and the law's rounding may make a joint stiffer by 30 %.
 static const double SUBSTEP_TURN = 1.55;
 
 // Part of a wall's velocity that a film takes in the longest step, below which the film need not follow in the substeps.
