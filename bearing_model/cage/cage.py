@@ -200,7 +200,8 @@ def cage_begin(model, h, start, middle, y, w):
 def cage_end(model, step, start, end, error, w):
     """After it: solves for the cage's velocities, sets the cage's rows of `end` (VerletState) and `error`, and takes from the other
     rates of the evaluation the share of films that are implicit.  Returns residual and delta of the halves' velocities [12],
-    changes of the balls' accelerations over the step that their predicted velocities have [3 Z], and the power of films beyond theirs [W].
+    excess of the balls' accelerations over those whose trapezoidal rule gives the impulses of loads on walls [3 Z], and the power of films
+    beyond theirs [W].
     """
     end.cage = CageMemory(omega_2=float(np.squeeze(cage_elastic_speed_2(w))), pockets=pocket_films_split(model, w))
     if model.modes:
@@ -244,7 +245,7 @@ def cage_longest_step(model, memory):
         return part * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
-    most = part * model.modes.longest_step
+    most = (6.0 * part - 1.0) * d  # one substep at the least part, five in the longest step
     films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate)
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 

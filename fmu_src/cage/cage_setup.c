@@ -92,7 +92,7 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
         const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
     }
-    const double most = part * elastic_longest_step(model->modes);
+    const double most = (6.0 * part - 1.0) * d;  // one substep at the least part, five in the longest step
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
     return fmin(most, fmin(lands, pockets));

@@ -4,10 +4,10 @@
 //
 //   gamma = h/2,  v_m = v_n + gamma a_n
 //   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z too, and behind it return mapping
-//   v^ = v_n + h a_n - limiter + p                                 predictor; limiter and p by loads on walls are the cage's (cage_begin)
+//   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's (cage_begin)
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
-//   S (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n - b)       one Newton iteration; S, b: the cage's (cage_end), b: changes of
-//                                                                  a that p has; + limiter
+//   S (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^ - b)    one Newton iteration; S, b: the cage's (cage_end), b: excess
+//                                                                  of the balls' a over the impulses of loads on walls
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
 //   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts, z too: trapezoidal rule
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1

@@ -178,7 +178,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     step; films: RimFilmsStep; pockets: PocketFilmsStep; changes y as cage_substeps.c does.
 
     Returns the slow accelerations at the step's end as they foresee them (of the modes [2, n], changes of those of the halves
-    [6, 2] and of the balls [3 Z]), and the JointStep.
+    [6, 2], of the balls their excess over the impulses of the substeps [3 Z]), and the JointStep.
     """
     half, d, h0, fast = model.modes, model.d, w.half[0], memory.fast
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -256,7 +256,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     slip.way = u - fast.u
     rates = speed + between_halves(model, h0, pushed)
     by_gyro = to_halves(model, h0, gyro * np.array([0.0, -rates[2], rates[1], 0.0, 0.0, 0.0]))
-    return held, push + by_gyro, loads.arrive(y), slip
+    return held, push + by_gyro, loads.arrive(h, y), slip
 
 
 def add_rates(model, change, y):

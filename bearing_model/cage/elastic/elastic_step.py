@@ -39,7 +39,7 @@ PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D
 @dataclass
 class ElasticStep:
     """Between the two halves of a step: slow accelerations at the end as the substeps foresee them, of the modes [2, n], changes of those
-    of halves [12] and balls [3 Z]; films in pockets; forces on bent rims at the end that with those at the start make their
+    of halves [12], their excess of balls [3 Z]; films in pockets; forces on bent rims at the end that with those at the start make their
     impulses so far [2, 4].
     """
 
@@ -122,8 +122,8 @@ def remember_modes(h, start, end, error):
 
 
 def elastic_end(model, halves, step, start, end, error, w):
-    """Solution, corrections and history; returns residual and delta [12], changes of the balls' accelerations that their predicted velocities
-    have [3 Z], and the power of films beyond theirs [W].
+    """Solution, corrections and history; returns residual and delta [12], excess of the balls' accelerations over the impulses of the
+    substeps [3 Z], and the power of films beyond theirs [W].
     """
     gamma, y, f, before, memory = halves.gamma, end.y, end.f, start.cage, end.cage
 

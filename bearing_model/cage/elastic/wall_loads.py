@@ -13,7 +13,7 @@ import numpy as np
 from bearing_model.cage.common.rigid_approach import rigid_approach
 from bearing_model.cage.elastic.elastic_half import ROOT
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
-from bearing_model.generated.variables import BALL_OMEGA_M, BALL_R, BALL_THETA, BALL_V_R, BALL_V_X, BALL_X, Z
+from bearing_model.generated.variables import BALL_R, BALL_THETA, BALL_X, Z
 
 # Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
 # r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
@@ -94,13 +94,14 @@ class WallLoads:
         self.speed = self.speed + 0.5 * sub * self.push
         self.way = self.way + sub * self.speed
 
-    def arrive(self, y):
-        """Adds the balls' motions to the state; returns the changes of their accelerations at the step's end [3 Z]."""
+    def arrive(self, h, y):
+        """Adds the balls' ways to the state; returns the excess of the changes of their accelerations at the step's end over those whose
+        trapezoidal rule gives their velocities [3 Z].
+        """
         part = np.array([np.ones(Z), np.ones(Z), 1.0 / (y[BALL_R] + self.way[1])])  # along the orbit angles
-        for blocks, motion in (((BALL_X, BALL_R, BALL_THETA), self.way), ((BALL_V_X, BALL_V_R, BALL_OMEGA_M), self.speed)):
-            for block, more in zip(blocks, part * motion, strict=True):
-                y[block] += more
-        return (part * self.push).ravel()
+        for block, more in zip((BALL_X, BALL_R, BALL_THETA), part * self.way, strict=True):
+            y[block] += more
+        return (part * (self.push - 2.0 / h * self.speed)).ravel()
 
     def accelerations(self, t, q, moved, speeds):
         """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads at the time t of the step, at the coordinates q and

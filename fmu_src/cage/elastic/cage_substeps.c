@@ -405,7 +405,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
                                              [MOTION_ABOUT_Z] = gyro * rates[MOTION_ABOUT_Y]};
     memcpy(foreseen->halves, push, sizeof push);
     to_halves(model, &w->half[0], 1.0, moment, 0, foreseen->halves);
-    ball_motions_arrive(&loads.balls, y, foreseen->balls);
+    ball_motions_arrive(&loads.balls, h, y, foreseen->balls);
     to_halves(model, &w->half[0], 1.0, moved, Y_CAGE_X, y);
     to_halves(model, &w->half[0], 1.0, speed, Y_CAGE_V_X, y);
     for (int i = 0; i < CAGE_MOTIONS; i++) {

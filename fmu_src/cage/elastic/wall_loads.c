@@ -211,15 +211,13 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
     add_forces(loads, force, slow, &slow[N_MODES]);
 }
 
-void ball_motions_arrive(const BallMotions *balls, double *y, double acceleration[BALL_MOTIONS])
+void ball_motions_arrive(const BallMotions *balls, double h, double *y, double excess[BALL_MOTIONS])
 {
-    enum { ROWS = 3 };
-    static const int PLACE[ROWS] = {Y_BALL_X, Y_BALL_R, Y_BALL_THETA}, RATE[ROWS] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M};
-    for (int i = 0; i < ROWS; i++)
+    static const int PLACE[3] = {Y_BALL_X, Y_BALL_R, Y_BALL_THETA};
+    for (int i = 0; i < 3; i++)
         for (int k = 0; k < Z; k++) {
             const double part = i == 2 ? 1.0 / y[Y_BALL_R + k] : 1.0;  // along the orbit angles
             y[PLACE[i] + k] += part * balls->way[i][k];
-            y[RATE[i] + k] += part * balls->speed[i][k];
-            acceleration[i * Z + k] = part * balls->push[i][k];
+            excess[i * Z + k] = part * (balls->push[i][k] - 2.0 / h * balls->speed[i][k]);
         }
 }

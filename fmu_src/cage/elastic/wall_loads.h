@@ -56,6 +56,7 @@ INLINE void ball_motions_move(double t, BallMotions *balls)
         for (int k = 0; k < Z; k++) balls->way[i][k] += t * balls->speed[i][k];
 }
 
-// Adds them to the state; acceleration: at the step's end, in the order of the balls' velocities.
+// Adds the ways of a step of length h to the state.  excess: of the changes of the accelerations at the step's end over those whose
+// trapezoidal rule gives the velocities, in the order of the balls' velocities.
 #define ball_motions_arrive FOR_ISA(ball_motions_arrive)
-void ball_motions_arrive(const BallMotions *balls, double *y, double acceleration[BALL_MOTIONS]);
+void ball_motions_arrive(const BallMotions *balls, double h, double *y, double excess[BALL_MOTIONS]);
