@@ -29,9 +29,9 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
     scene, model, rng, seen = core.model(changes), Model.of(changes), np.random.default_rng(3), {}
 
     class Watched(WallLoads):
-        def accelerations(self, t, q, by_joints):
-            seen["loads"], seen["q"], seen["t"], seen["moved"] = self, q, t, by_joints
-            return super().accelerations(t, q, by_joints)
+        def accelerations(self, t, q, moved, speeds):
+            seen["loads"], seen["q"], seen["t"], seen["moved"] = self, q, t, moved
+            return super().accelerations(t, q, moved, speeds)
 
     monkeypatch.setattr(cage_substeps, "WallLoads", Watched)
     errors, arrivals = [], 0
@@ -42,7 +42,7 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
         assert t == pytest.approx(4e-6)
         for load in loads.loads:
             x = load.x + load.rate * t - (np.sum(load.shape * seen["q"]) - load.start)  # the bend ends at 0
-            x = x - load.along @ seen["moved"][:, load.half]
+            x = x + load.normal @ loads.way[:, load.ball] - load.along @ seen["moved"][:, load.half]
             found = {name: end.cage.fast.touch[load.half][TOUCH.index(name)][load.ball] for name in ("K", "delta")}
             if found["K"] <= 0.0 or found["delta"] < 2e-7:
                 continue
