@@ -4,11 +4,12 @@ verlet.c and implicit.c.
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
     v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (cage_begin)
-    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^ - b)    one linear solve, b: excess of a over the impulses of loads on walls, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
+    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^ - b)    one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
-cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.
+cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.  b: excess of the balls' accelerations over the
+impulses of the loads on walls, which follow in the cage's substeps.
 The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls and ring
 one after the other, with Schur complements; here one dense solve does the same.  Vectors v, a, delta and all
 matrices have the N_V velocities of the state, in their order.

@@ -176,8 +176,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int part = 0; part < PARTS; part++)
         for (int i = FIRST[part]; i < END[part]; i++) delta[i] = residual[i] = gamma * (to->f[i] - f[i]);
-    for (int i = 0; i < BALL_MOTIONS; i++)
-        delta[VELOCITY + i] = residual[VELOCITY + i] -= gamma * balls[i];
+    for (int i = 0; i < BALL_MOTIONS; i++) delta[VELOCITY + i] = residual[VELOCITY + i] -= gamma * balls[i];
     implicit_solve(model, w, gamma, delta);
     to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
     to->f[Y_WORK] += film_power;

@@ -13,7 +13,7 @@ typedef struct {
 
 // Films of a step.
 typedef struct {
-    const RimFilms *films;  // at the step's start
+    const RimFilms *films;               // at the step's start
     double substep;                      // [s]
     double answer[2][SQUEEZE][SQUEEZE];  // (1 + d D Y)^-1 d D
     double mobility[2][SQUEEZE];         // Y

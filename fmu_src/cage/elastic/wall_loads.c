@@ -172,7 +172,8 @@ INLINE wide less_halves(const WallLoads *loads, int i, const double motion[CAGE_
 }
 
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
+                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
+                       double push[CAGE_MOTIONS])
 {
     const double bend = t * (0.5 * t - loads->middle), lambda = model->p->cage.lambda;
     wall_load_array force, by_modes, ball_way, ball_speed;
@@ -186,9 +187,10 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
         const wide way = wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * acceleration);
         const wide bodies = less_halves(loads, i, moved, wide_load(&ball_way[i]));
         const wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
-        const wide rate =
-            wide_fma(wide_set(t - loads->middle), acceleration, less_halves(loads, i, speeds, wide_load(&ball_speed[i])));
-        const wide damped = wide_max(wide_fma(wide_set(lambda), rate, wide_load(&loads->damped[i])), wide_set(0.0));
+        const wide rate = wide_fma(wide_set(t - loads->middle), acceleration,
+                                   less_halves(loads, i, speeds, wide_load(&ball_speed[i])));
+        const wide damped =
+            wide_max(wide_fma(wide_set(lambda), rate, wide_load(&loads->damped[i])), wide_set(0.0));
         const wide Q = damped * loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u);
         const wide more = Q - wide_load(&loads->Q[i]);
         wide_store(&force[i], more);

@@ -19,10 +19,10 @@ typedef struct {
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
-    int count, of_0;                      // all, those of half 0, which come first
-    double middle, c;                     // of the step [s]; compliance of the walls beside their modes
-    wall_load_array K, damped, Q;         // law K delta^1.5 times `damped` in the middle, load at the step's start
-    wall_load_array x, from;              // approach and motion of the wall at the step's start
+    int count, of_0;               // all, those of half 0, which come first
+    double middle, c;              // of the step [s]; compliance of the walls beside their modes
+    wall_load_array K, damped, Q;  // law K delta^1.5 times `damped` in the middle, load at the step's start
+    wall_load_array x, from;       // approach and motion of the wall at the step's start
     wall_load_array rate, acceleration;   // of the rigid approach, in the middle of the step and at its start
     wall_load_array along[CAGE_MOTIONS];  // motion along the normal by those of the halves
     wall_load_array normal[3];            // along (x, r, t) of the ball
@@ -41,7 +41,8 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
 // halves and of the balls.  q: coordinates at t; moved, speeds: rigid motions of the halves by the fast accelerations and by this part.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
+                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
+                       double push[CAGE_MOTIONS]);
 
 // Velocities of the balls by the changes of the loads, after another time t.
 INLINE void ball_motions_push(double t, BallMotions *balls)
