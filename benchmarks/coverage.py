@@ -16,9 +16,8 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 from blind import draw, in_words, model_of
-from common import BUILD, FMU, say, write
+from common import BUILD, FMU, say
 
 from riveted_bearing import UserError
 from riveted_bearing.running import accuracy
@@ -89,8 +88,8 @@ def main():
     parser.add_argument("--bearing", nargs="+", default=[FMU], metavar="FMU", help="FMUs that take turns")
     options = parser.parse_args()
     options.bearing = [str(Path(fmu).resolve()) for fmu in options.bearing]
-    rows = []
-    for options.seed in list(options.seed):
+    seeds, rows = options.seed, []
+    for options.seed in seeds:
         rows += [{"seed": options.seed} | row for row in run_all(options, BUILD / "coverage")]
 
 

@@ -308,15 +308,20 @@ def scale(symbol: Any, scales: Any) -> Any:
     return found[0] * factor, found[1] + found[0] * offset
 
 
-def hours_text(hours: Any) -> str:
-    """A life in hours, minutes or seconds with three digits, or that it is longer than LONGEST."""
+def hours_text(hours: Any, digits: int = 3) -> str:
+    """A life in hours, minutes or seconds with so many digits, or that it is longer than LONGEST."""
     if not math.isfinite(hours):
         return "no damage"
     if hours > LONGEST:
         return "> 1e6 h"
     if hours < SHORT:
-        return f"{3600.0 * hours:.3g} s" if hours < 1.0 / 60.0 else f"{60.0 * hours:.3g} min"
-    return f"{hours:.3g} h" if hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
+        number, unit = (3600.0 * hours, "s") if hours < 1.0 / 60.0 else (60.0 * hours, "min")
+    else:
+        number, unit = hours, "h"
+    if not number:
+        return f"0 {unit}"
+    rounded = round(number, digits - 1 - math.floor(math.log10(number)))
+    return f"{rounded:.3g} {unit}" if rounded < 1e3 else f"{rounded:,.0f} {unit}"
 
 
 def to_si(value: Any, scales: Any) -> float:

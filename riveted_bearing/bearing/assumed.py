@@ -23,7 +23,11 @@ RULES = files("riveted_bearing") / "data" / "rules.csv"
 OF_RULES = "6309"  # in which benchmarks/rules.py measures the effects of values by rule
 OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
 OF_ASPERITIES = ("oil.sigma_race",)  # move no stress in full film, where the film ratio alone moves with them
-OF_BUILD = ("cage.D_o", "cage.D_i", "cage.width")  # shape the stress table, as all of rivet.* do: another value needs a build
+OF_BUILD = (
+    "cage.D_o",
+    "cage.D_i",
+    "cage.width",
+)  # shape the stress table, as all of rivet.* do: another value needs a build
 TEMPERATURES = {  # usual range around the oil's temperature [K]
     "oil.T": (-25.0, 35.0, "oil from 60 to 120 degC, if it has 85 degC by assumption"),
     "cage.T": (-20.0, 25.0, "bearings that dissipate have parts 10 to 40 K apart"),

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.errors import shortlist
-from ..base.units import hours_text
+from ..base.units import LONGEST, hours_text
+from ..running.budget import digits, life_ends
 from ..running.summary import columns, flag_note, settled
 from .raceways import life_text
 
@@ -46,7 +47,7 @@ def judged(evidence, target):
     """State, headline and reason, of rivets and raceways together; target: hours or None."""
     if evidence.life is None:
         return "open", "No life can be told", evidence.untold
-    found, life = evidence.raceways, hours_text(evidence.life)
+    found, life = evidence.raceways, life_told(evidence)
     of_raceways = f"raceways {life_text(found)}"
     if target is None:
         return "", f"Life of the rivets {life}", f"{of_raceways}; no target was given (--target)"
@@ -59,10 +60,20 @@ def judged(evidence, target):
     return worst, verdict.get(worst, meets), f"rivets {reason}; {of_raceways}"
 
 
+def life_told(evidence):
+    """The life with the ends of all its errors."""
+    few, ends = digits(evidence.budgets), life_ends(evidence.budgets)
+    text = hours_text(evidence.life, few)
+    if not ends or evidence.life > LONGEST:
+        return text
+    return f"{text} ({' to '.join(hours_text(end, few) for end in ends)} with all its errors)"
+
+
 def rivets_judged(evidence, target):
     """State and reason of the rivets against a target [h]."""
+    few = digits(evidence.budgets)
     life, low, high = (
-        hours_text(x) for x in (evidence.life, evidence.low or evidence.life, evidence.high or evidence.life)
+        hours_text(x, few) for x in (evidence.life, evidence.low or evidence.life, evidence.high or evidence.life)
     )
     if evidence.life < target:
         sure = evidence.high is not None and evidence.high < target
@@ -98,7 +109,7 @@ def checks(evidence, target):
         state = rivets_judged(evidence, target)[0] if target else ""
         yield Check(
             "First rivet to fail",
-            f"{hours_text(evidence.life)} ({evidence.interval}), {evidence.place}",
+            f"{hours_text(evidence.life, digits(evidence.budgets))} ({evidence.interval}), {evidence.place}",
             f"at least {hours_text(target)}" if target else "",
             0.0 if target and math.isinf(evidence.life) else use,
             state,

@@ -25,7 +25,7 @@ from scipy import stats
 
 from ..base.errors import UserError
 from .runner import simulate
-from .summary import has_statistics, settled
+from .summary import columns, has_statistics, settled
 
 if TYPE_CHECKING:
     from .fmu import Model
@@ -43,7 +43,12 @@ DECADES = "damage"
 NAMED = ("stress", "static", "pocket_force")  # what an accuracy in per cent is of
 COLUMNS = {"stress": "stat.sigma_head_p999", "static": "stat.sigma_head_mean", "pocket_force": "stat.Q_c_rms"}
 CHANNELS = ("rivet.sigma_head_max", "cage.F_pocket_peak")
-PRIOR = {"stress": 0.014, "static": 0.0065, "pocket_force": 0.039, "damage": 0.09}  # of 102 scenes: their 95 % quantiles over 1.96
+PRIOR = {
+    "stress": 0.014,
+    "static": 0.0065,
+    "pocket_force": 0.039,
+    "damage": 0.09,
+}  # of 102 scenes: their 95 % quantiles over 1.96
 FINER = 0.1  # of the tolerance
 BLOCKS = 4  # of a run
 CONFIDENCE = 0.9
@@ -115,48 +120,52 @@ def sample(
         parameters["scene.stress"] = "fatigue"  # counts damage, and leaves the motion as it is
     outputs = tuple(dict.fromkeys([*scene.outputs, *CHANNELS])) if whole else CHANNELS
     changes: dict[str, Any] = {"parameters": parameters, "outputs": outputs}
-    result = simulate(model, replace(scene, accuracy=None, **changes | ({} if tolerance is None else {"tolerance": tolerance})))
+    result = simulate(
+        model, replace(scene, accuracy=None, **changes | ({} if tolerance is None else {"tolerance": tolerance}))
+    )
     found = sample_of(result, scene.name)
     return found if whole else replace(found, result=None)
 
 
-def sample_of(result: Result, name: str = "the run") -> Sample:
-    """The Sample of a Result."""
+def sample_of(result: Result, name: str = "the run", damage: float | None = None) -> Sample:
+    """The Sample of a Result; damage: log10 per hour, where the FMU counted none."""
     summary = result.summary
     if result.stopped:
         raise UserError(f"{name}: no accuracy of a run that stopped: {result.stopped}")
     if not has_statistics(result) or not summary.get("stat.time") or result.parameters.get("scene.stress") == "off":
-        raise UserError(f"{name}: no accuracy without statistics of stress after start.settle: a longer t_end is needed")
+        raise UserError(
+            f"{name}: no accuracy without statistics of stress after start.settle: a longer t_end is needed"
+        )
     values = {figure: float(summary[column]) for figure, column in COLUMNS.items()}
     hours = (summary["simulated_time"] - result.parameters["start.settle"]) / 3600.0
-    damage = max((value for key, value in summary.items() if "].damage_" in key), default=0.0)
-    if damage > 0.0:
-        values["damage"] = math.log10(damage / hours)
-    return Sample(values, block_variances(result, values), float(summary["cpu_time"]), result)
+    counted = max((value for key, value in summary.items() if "].damage_" in key), default=0.0)
+    if counted > 0.0 or damage is not None:
+        values[DECADES] = damage if damage is not None else math.log10(counted / hours)
+    blocks = block_variances(result, values["stress"])
+    return Sample(values, {name: blocks[name] for name in values if name in blocks}, float(summary["cpu_time"]), result)
 
 
-def block_variances(result, values):
+def block_variances(result: Result, p999: float) -> dict[str, float]:
     """Variance of each figure of a run by its BLOCKS: that of the blocks' own figures over their number.
 
-    The figures of blocks are scaled to the run's, because a sampled quantile of a short block lies lower.
+    p999: of the whole run, to which the quantiles of blocks are scaled, because that of a short block lies lower.
     """
-    late = settled(result)
-    if not all(channel in result.data for channel in CHANNELS):
+    late, slope = settled(result), result.parameters["fatigue.k_2"]
+    heads = [CHANNELS[0]] if CHANNELS[0] in result.data else columns(result, "rivet[", "].sigma_head_peak")
+    if not heads or np.count_nonzero(late) < BLOCKS:
         return {}
-    stress, force = (np.array_split(result.data[channel][late], BLOCKS) for channel in CHANNELS)
-    slope = result.parameters["fatigue.k_2"]
-    kinds = {
-        "stress": [np.quantile(x, 0.999) for x in stress],
-        "static": [x.mean() for x in stress],
-        "pocket_force": [math.sqrt(np.mean(x**2)) for x in force],
-    }
+    stress = np.array_split(np.max([result.data[name][late] for name in heads], axis=0), BLOCKS)
+    kinds = {"stress": [np.quantile(x, 0.999) for x in stress], "static": [x.mean() for x in stress]}
+    if CHANNELS[1] in result.data:
+        force = np.array_split(result.data[CHANNELS[1]][late], BLOCKS)
+        kinds["pocket_force"] = [math.sqrt(np.mean(x**2)) for x in force]
     found = {}
     for figure, blocks in kinds.items():
-        mean = float(np.mean(blocks))
-        found[figure] = float((values[figure] / mean) ** 2 * np.var(blocks, ddof=1) / BLOCKS) if mean else 0.0
+        scale = p999 / max(float(np.mean(blocks)), 1.0) if figure == "stress" else 1.0
+        found[figure] = float(scale**2 * np.var(blocks, ddof=1) / BLOCKS)
     swings = [np.quantile(x, 0.999) - np.mean(np.concatenate(stress)) for x in stress]
-    if "damage" in values and min(swings) > 0.0:
-        found["damage"] = float(np.var(slope * np.log10(swings), ddof=1) / BLOCKS)
+    if min(swings) > 0.0:
+        found[DECADES] = float(np.var(slope * np.log10(swings), ddof=1) / BLOCKS)
     return found
 
 
@@ -259,7 +268,9 @@ class Reached:
             "confidence": SURE,
             "tolerance": self.tolerance,
             "cost": self.cost,
-            "figures": {name: each.record() | {"plain_run": self.plain.values[name]} for name, each in self.found.items()},
+            "figures": {
+                name: each.record() | {"plain_run": self.plain.values[name]} for name, each in self.found.items()
+            },
             "missed": self.missed,
         }
 
@@ -270,7 +281,7 @@ class Runs:
     def __init__(self, model, scene, progress):
         self.model, self.scene, self.progress = model, scene, progress
         self.first = int(scene.parameters.get("start.seed", model.default(model.parameters["start.seed"])))
-        self.done: dict[tuple[int, int], Sample] = {}
+        self.done = {}
 
     def __call__(self, level, count):
         """The first samples of a level."""
@@ -307,7 +318,9 @@ def accurate(
         open_ones = {name: each for name, each in wide.items() if name not in missed}
         if not open_ones:
             break
-        if level + 1 < LEVELS and any(of_bias(each) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)):
+        if level + 1 < LEVELS and any(
+            of_bias(each) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)
+        ):
             before, level, m = {name: each.shift for name, each in found.items()}, level + 1, 1
             continue
         needed = max(runs_needed(each, target) for each in open_ones.values())
@@ -321,7 +334,9 @@ def accurate(
             )
         n = int(max(n + 1, min(math.ceil(needed), GROWTH * n)))
         m = (n + 1) // 2
-    return Reached(target, runs.tolerance(level), found, missed, runs(0, 1)[0], plain[0].result, (plain, fine), runs.seconds)
+    return Reached(
+        target, runs.tolerance(level), found, missed, runs(0, 1)[0], plain[0].result, (plain, fine), runs.seconds
+    )
 
 
 def of_bias(each):
@@ -350,9 +365,7 @@ def no_way(each, target, before, level):
     """Why no further runs bring a figure within the target, "" if they may."""
     share = 100.0 / abs(each.value)
     if each.one_motion and each.seeds > target * abs(each.value):
-        return (
-            f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
-        )
+        return f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
     if is_bias(each) and of_bias(each) > target * abs(each.value):
         if before and abs(each.shift) > FALLS * abs(before):
             return f"its bias of {share * abs(before):.2g} % does not fall with the tolerance: {share * abs(each.shift):.2g} % is left at a tenth of it"

@@ -15,17 +15,21 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from scipy.stats import norm
 
+from ..base.errors import UserError
 from ..base.units import with_error
-from .accuracy import CONFIDENCE, DECADES, FIGURES, PRIOR, Found
+from ..bearing.assumed import Assumed, all_assumed
+from .accuracy import CONFIDENCE, DECADES, FIGURES, PRIOR, WITHIN, Found, Runs, accurate, found_in, sample_of
 from .summary import TABLE_TITLE
 
 if TYPE_CHECKING:
-    from ..bearing.assumed import Assumed
+    from .fmu import Model
+    from .results import Result
+    from .scene import Scene
 
 RULE = (
     "independent parts: shifts add with their signs, half-widths of each side as the root of the sum of their squares; "
@@ -40,7 +44,10 @@ MODEL = (
     ("rigid rings", "races and seats keep their circles; no measurement of thin housings"),
     ("lubrication regime", "film or mixed is chosen by scene.lubrication; starvation is not computed"),
 )
+DIGITS = ((0.2, 1), (0.02, 2))  # half-width in decades from which on a life has so few digits
 SHOWN = 6  # parts in a line of text
+JUDGED = ("stress", DECADES)
+CHECKS = (4, 2)  # runs and finer runs of a check
 
 
 @dataclass(frozen=True)
@@ -103,11 +110,41 @@ class Budget:
         }
 
 
+def of_record(record: dict[str, Any]) -> Budget:
+    """The Budget that record() wrote."""
+    parts = tuple(Part(**part) for part in record["parts"])
+    return Budget(record["figure"], record["value"], parts, tuple((e["name"], e["known"]) for e in record["not_added"]))
+
+
+def budgets(result: Result, plain: Any, fine: Any = ()) -> dict[str, Budget]:
+    """The Budget of each figure that Samples of a Result's scene have."""
+    rows, found = list(all_assumed(result.about, result.parameters)), found_in(plain, fine)
+    known = result.about, result.summary, result.parameters
+    return {figure: budget_of(figure, found[figure], *known, rows) for figure in JUDGED if figure in found}
+
+
+def of_result(result: Result, damage: float | None = None) -> dict[str, Budget]:
+    """The Budgets that a Result carries, else those of the one run; damage: log10 per hour, where the FMU counted none.  None
+    without statistics.
+    """
+    if found := result.about.get("budget"):
+        return {figure: of_record(record) for figure, record in found.items()}
+    try:
+        return budgets(result, [sample_of(result, damage=damage)])
+    except UserError:
+        return {}
+
+
 # Parts ----------------------------------------------------------------------------------------------------------------
 
 
 def budget_of(
-    figure: str, found: Found, about: dict[str, Any], summary: dict[str, Any], parameters: dict[str, Any], rows: Any = ()
+    figure: str,
+    found: Found,
+    about: dict[str, Any],
+    summary: dict[str, Any],
+    parameters: dict[str, Any],
+    rows: Any = (),
 ) -> Budget:
     """The Budget of a figure from its Found, what a Result says of its FMU, and the Assumed of its bearing."""
     value = found.plain
@@ -115,7 +152,7 @@ def budget_of(
     swing = PRIOR[DECADES] / PRIOR["stress"] if figure == DECADES else 1.0  # decades of damage per relative stress
     parts = [*numerical_parts(figure, found), *table_parts(about, summary, size, swing, figure, value)]
     parts += [part for row in rows if (part := assumed_part(row, figure, size))]
-    unsized = [(row.name, f"assumed, {row.words[1]}: {row.unknown}") for row in rows if row.effect is None]
+    unsized = [(row.name, row.unknown) for row in rows if row.effect is None]
     if parameters.get("scene.cage") == "two_half":
         low, high = (size * swing * end for end in RIGID_HALVES)
         parts.append(sided("rigid halves", low, high, "docs/validation.md: elastic halves in eight working points"))
@@ -166,7 +203,7 @@ def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
         return None
     ends = [math.copysign(math.sqrt(max(0.0, e**2 - se**2)), e) for e, se in row.effect[figure]]
     below, above = max(0.0, -min(ends)), max(0.0, *ends)
-    return Part(row.name, 0.0, size * below, size * above, f"assumed, {row.words[1]}: {row.screened}")
+    return Part(row.name, 0.0, size * below, size * above, f"assumed, {row.words[1]}")
 
 
 # In words -------------------------------------------------------------------------------------------------------------
@@ -192,7 +229,48 @@ def amounts(budget: Budget) -> list[tuple[str, str, str]]:
     return rows
 
 
+def unsized_lines(budget: Budget) -> list[str]:
+    """What is not added and why, the names of one reason in a line."""
+    reasons: dict[str, list[str]] = {}
+    for name, known in budget.unsized:
+        reasons.setdefault(known, []).append(name)
+    return [f"not added: {', '.join(names)}: {reason}" for reason, names in reasons.items()]
+
+
+def digits(budgets: Any) -> int:
+    """Digits that a life may have."""
+    half = budgets[DECADES].half if DECADES in budgets else 0.0
+    return next((few for width, few in DIGITS if half > width), 3)
+
+
+def life_ends(budgets: Any) -> tuple[float, float] | None:
+    """Ends of the life [h] by all parts of its error, None if they are not known."""
+    if DECADES not in budgets:
+        return None
+    return 10.0 ** -budgets[DECADES].high, 10.0 ** -budgets[DECADES].low
+
+
 def in_line(budget: Budget) -> str:
     """The largest parts in a line."""
     shown = [f"{name} {size}" for name, size, _ in amounts(budget)[:SHOWN]]
     return f"{FIGURES[budget.figure][0]} {told(budget)}: {', '.join(shown)}"
+
+
+# A run with its error -------------------------------------------------------------------------------------------------
+
+
+def known_result(
+    model: Model, scene: Scene, check: bool, within: float = WITHIN, progress: Any = lambda runs: None
+) -> Result:
+    """The Result of a scene with its accuracy, if the scene asks for one, and with its Budgets if `check` is true, in `about`."""
+    plain = replace(scene, accuracy=None)
+    if scene.accuracy is None:
+        runs = Runs(model, plain, progress)
+        n, m = CHECKS
+        samples, about, result = (runs(0, n), runs(1, m)), {}, runs(0, 1)[0].result
+    else:
+        reached = accurate(model, plain, scene.accuracy, within, progress)
+        samples, about, result = reached.samples, {"accuracy": reached.record()}, reached.result
+    if check:
+        about["budget"] = {figure: budget.record() for figure, budget in budgets(result, *samples).items()}
+    return replace(result, about=result.about | about)

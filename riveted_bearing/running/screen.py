@@ -16,6 +16,7 @@ import numpy as np
 
 from ..base.errors import UserError
 from ..bearing.assumed import (
+    OF_ASPERITIES,
     TEMPERATURES,
     YOURS,
     assumed_ranges,
@@ -37,7 +38,8 @@ if TYPE_CHECKING:
 SEEDS = 3
 SPAN = 0.1  # s after start.settle, or as long as that
 SCREENED = ("stress", "static", DECADES)
-OF_BUILD = "shape of the FMU's stress table: another value needs an FMU of its own (compare-designs)"
+IN_FILM = "moves no stress in full film"
+OF_BUILD = "part of the FMU's stress table, so that another value needs an FMU of its own (compare-designs)"
 
 
 def screened(model: Model, say: Any = lambda done, total: None, further: Any = None) -> dict[str, Any]:
@@ -80,7 +82,10 @@ def changed_scenes(model, scene, further):
         low, high = min(oil[name], oil["oil.T"] + below), max(oil[name], oil["oil.T"] + above)
         moved = [n for n in oil if n == name or (name == "oil.T" and n not in given)]
         at = (
-            replace(scene, inputs=scene.inputs | {n: History(np.zeros(1), np.array([oil[n] + end - oil[name]])) for n in moved})
+            replace(
+                scene,
+                inputs=scene.inputs | {n: History(np.zeros(1), np.array([oil[n] + end - oil[name]])) for n in moved},
+            )
             for end in (low, high)
         )
         scenes[name] = (low, high, source, *at)
@@ -114,8 +119,13 @@ def measured(model, say, further):
         "seconds": time.perf_counter() - begun,
         "base": {f: float(np.mean([run.values[f] for run in base])) for f in SCREENED if has(f, base)},
         "entries": entries,
-        "not_covered": {name: OF_BUILD for name in needed if is_of_build(name)} | not_covered,
+        "not_covered": {name: why for name in needed if name not in entries and (why := reason(name))} | not_covered,
     }
+
+
+def reason(name):
+    """Why a value is not screened."""
+    return OF_BUILD if is_of_build(name) else IN_FILM if name in OF_ASPERITIES else ""
 
 
 def has(figure, runs):
