@@ -335,6 +335,6 @@ def lowest_mode(model):
 # What is written ------------------------------------------------------------------------------------------------------
 
 
-def ends_of(outcome: Any) -> Any:
+def ends_of(outcome: Any) -> tuple[float, float, float]:
     """Life, lower and upper end of its interval [h]."""
     return outcome.estimate.life, outcome.estimate.low, outcome.estimate.high

@@ -92,7 +92,7 @@ def mission_text(life):
     return "shares of time", "of any length"
 
 
-def ends_of(life):
+def ends_of(life: Any) -> tuple[float, float, float]:
     """Life, lower and upper end of a Life's interval [h]."""
     return life.estimate.life, life.low, life.estimate.high
 
