@@ -88,9 +88,15 @@ class Assumed:
         if not self.size(figure):
             noise = max(100.0 * se if percent else se for _, se in pairs)
             return f"within the seeds' ±{noise:.1g} {unit}" if noise else "none"
-        low, high = min(low, 0.0), max(high, 0.0)
-        digits = ".0f" if percent and max(high, -low) >= 1.0 else ".1g" if percent else ".2f"
-        return f"{low:+{digits}} … {high:+{digits}} {unit}".replace("-", "−")
+        least, digits = (1.0, ".0f") if percent else (0.1, ".1f")
+        if max(high, -low) < least:
+            return f"below {least:g} {unit}"
+        return (
+            " … ".join(
+                f"{end:+{digits}}" if abs(end) >= 0.5 * least else "0" for end in (min(low, 0.0), max(high, 0.0))
+            ).replace("-", "−")
+            + f" {unit}"
+        )
 
 
 @cache

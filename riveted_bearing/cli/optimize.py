@@ -101,7 +101,7 @@ def print_optimum(found, present, parts=None):
     for place, row in enumerate([*rows, ("present design", present, *found.present)]):
         best = place == found.best
         title, *rest = row
-        stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.4g}" for name in missing]
+        stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.3g}" for name in missing]
         texts = "recommended" if best else title, *cells(study, *rest), *stress
         shown_points.add_row(*texts, style="bold" if best else None)
     console.print(shown_points)
@@ -129,10 +129,11 @@ def go_apart(was, now):
 
 def cells(study, point, mean, error):
     """Values of a point and its responses as text."""
+    from ..base.units import with_error
     from ..running.responses import display_of, displayed
 
     values = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, point, strict=True)]
     return values + [
-        f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}"
+        with_error(float(displayed(name, m)), float(display_of(name)[1] * e))
         for name, m, e in zip(study.responses, mean, error, strict=True)
     ]

@@ -203,13 +203,15 @@ def looks_like_a_file(path):
 
 def statistics_table(result):
     """Mean, RMS, 99.9 % quantile and largest value after settling."""
+    from ..running.budget import computed_share, shown
     from ..running.summary import summary_rows
 
+    share = computed_share(result)
     rows = (
         (
             row.channel + ("" if row.every_step else " *"),
             row.unit,
-            *map(four_digits, (row.mean, row.rms, row.p999, row.largest)),
+            *(shown(row, value, share) for value in (row.mean, row.rms, row.p999, row.largest)),
         )
         for row in summary_rows(result)
     )
@@ -220,18 +222,19 @@ def early_table(result):
     """What there is without statistics."""
     from ..running.summary import early_rows
 
-    rows = ((channel, unit, *map(four_digits, values)) for channel, unit, *values in early_rows(result))
+    rows = ((channel, unit, *map(three_digits, values)) for channel, unit, *values in early_rows(result))
     return table(("", "unit", "at the end", "largest since the start"), rows, left=2)
 
 
-def four_digits(value):
+def three_digits(value):
     """A figure of the table."""
-    return f"{value if abs(value) > ROUNDING else 0.0:.4g}"
+    return f"{value if abs(value) > ROUNDING else 0.0:.3g}"
 
 
 def print_summary(result):
     """The figures of a run on the terminal."""
     from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
+    from ..running.budget import computed_share, shown
     from ..running.in_run import alone_note, change_lines
     from ..running.summary import (
         count_note,
@@ -252,10 +255,10 @@ def print_summary(result):
     console.print(statistics_table(result) if has_statistics(result) else early_table(result))
     rivets = rivet_rows(result)
     if rivets:
-        worst = max(rivets, key=lambda row: row[1].p999)
+        worst, share = max(rivets, key=lambda row: row[1].p999), computed_share(result)
         console.print(
             f"of the single rivets, rivet {worst[0]} has the largest p99.9 in its head: "
-            f"{worst[1].p999:.4g} MPa, in its middle {worst[2].p999:.4g} MPa"
+            f"{shown(worst[1], worst[1].p999, share)} MPa, in its middle {shown(worst[2], worst[2].p999, share)} MPa"
         )
     if missing := no_statistics(result):
         note(missing)

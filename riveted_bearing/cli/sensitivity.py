@@ -98,7 +98,9 @@ def print_screening(model, record):
     shown = (
         (row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in rows if row.effect
     )
-    console.print(table(("assumed", "value", "range", "stress", "damage per hour", "source of the range"), shown))
+    console.print(
+        table(("assumed", "value", "range", "stress", "damage per hour", "source of the range"), shown, left=6)
+    )
     for line in {row.unknown: None for row in rows if not row.effect}:
         names = ", ".join(row.name for row in rows if row.unknown == line and not row.effect)
         console.print(f"[dim]not covered: {names}: {escape(line)}[/]", soft_wrap=True)

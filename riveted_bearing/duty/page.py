@@ -296,7 +296,7 @@ CHARTS = {
 
 def wrong_chart(fig, life):
     """What the life's error is made of."""
-    tornado(fig, life.budgets[DECADES], -1.0, "true life over the number [decades]")
+    tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades")
 
 
 def charts_of(life):

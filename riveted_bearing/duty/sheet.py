@@ -143,9 +143,9 @@ def wrong_picture(budget):
     """The picture of an error budget, nothing without one."""
     if budget is None:
         return {}
-    sign, label = (-1.0, "true life over the number [decades]") if budget.figure == DECADES else (1.0, "")
+    sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
     return {
-        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label), (3.4, 2.0), "How wrong the verdict may be")
+        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label), (3.4, 2.1), "How wrong the verdict may be")
     }
 
 

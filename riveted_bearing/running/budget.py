@@ -21,10 +21,10 @@ from typing import TYPE_CHECKING, Any
 from scipy.stats import norm
 
 from ..base.errors import UserError
-from ..base.units import with_error
+from ..base.units import certain, figure, with_error
 from ..bearing.assumed import Assumed, all_assumed
 from .accuracy import CONFIDENCE, DECADES, FIGURES, PRIOR, WITHIN, Found, Runs, accurate, found_in, sample_of
-from .summary import TABLE_TITLE
+from .summary import TABLE_TITLE, Row
 
 if TYPE_CHECKING:
     from .fmu import Model
@@ -45,6 +45,7 @@ MODEL = (
     ("lubrication regime", "film or mixed is chosen by scene.lubrication; starvation is not computed"),
 )
 DIGITS = ((0.2, 1), (0.02, 2))  # half-width in decades from which on a life has so few digits
+ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 SHOWN = 6  # parts in a line of text
 JUDGED = ("stress", DECADES)
 CHECKS = (4, 2)  # runs and finer runs of a check
@@ -204,6 +205,26 @@ def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
     ends = [math.copysign(math.sqrt(max(0.0, e**2 - se**2)), e) for e, se in row.effect[figure]]
     below, above = max(0.0, -min(ends)), max(0.0, *ends)
     return Part(row.name, 0.0, size * below, size * above, f"assumed, {row.words[1]}")
+
+
+def computed_share(result: Result) -> float:
+    """Half-width of the stress over the stress by what computes it: all parts but the assumed values."""
+    budget = of_result(result).get("stress")
+    if budget is None or not budget.value:
+        return 0.0
+    parts = [part for part in budget.parts if not part.source.startswith("assumed")]
+    return math.sqrt(sum((0.5 * (part.below + part.above)) ** 2 for part in parts)) / abs(budget.value)
+
+
+def shown(row: Row, value: float, share: float) -> str:
+    """A figure of a summary's Row with the digits that it has: of a stress those that its computed share leaves, else three."""
+    if abs(value) <= ROUNDING:
+        return "0"
+    return (
+        certain(value, share * abs(value))
+        if row.unit == "MPa" and share and row.every_step
+        else figure(float(f"{value:.3g}"))
+    )
 
 
 # In words -------------------------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
 from ..running.accuracy import FIGURES
-from ..running.budget import RULE, amounts, of_result, told, unsized_lines
+from ..running.budget import RULE, amounts, computed_share, of_result, shown, told, unsized_lines
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
@@ -175,6 +175,8 @@ def wrong(result):
         "told_with_error": told,
         "unsized_lines": unsized_lines,
         "rule": RULE,
+        "shown": shown,
+        "share": computed_share(result),
     }
 
 
@@ -311,7 +313,7 @@ def weakest(lives):
 
 def cards(result, lives):
     """The figures to see first: (title, value, unit, remark)."""
-    rows = {row.channel: row for row in summary_rows(result)}
+    rows, share = {row.channel: row for row in summary_rows(result)}, computed_share(result)
     if not rows:
         for channel, unit, last, largest in list(early_rows(result))[:FIRST]:
             yield (
@@ -327,7 +329,8 @@ def cards(result, lives):
     ):
         if channel in rows:
             row = rows[channel]
-            yield title, figure(row.p999), row.unit, f"p99.9 · mean {figure(row.mean)} · largest {figure(row.largest)}"
+            p999, mean, largest = (shown(row, value, share) for value in (row.p999, row.mean, row.largest))
+            yield title, p999, row.unit, f"p99.9 · mean {mean} · largest {largest}"
     if "cage slip ratio" in rows:
         yield (
             "Cage slip",
