@@ -107,7 +107,7 @@ def ranges():
     return own, {row["name"]: Range(float(row["low"]), float(row["high"]), row["source"]) for row in rows}
 
 
-def ranges_of(given, example, parameters):
+def ranges_of(given: Any, example: bool, parameters: Any) -> dict[str, Range]:
     """Ranges of the values that were neither given nor follow from others; example: whether the bearing is the 6207, else
     those by rule are among them.
     """

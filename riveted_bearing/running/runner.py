@@ -216,7 +216,7 @@ def origin_of(model: Model, scene: Scene) -> dict[str, Any]:
         "given": sorted(given_names(model, scene)),
         "ruled": sorted(ruled_names(model)),
         "example": is_example(model),
-        "screening": known(model),
+        "screening": known(model) or {},
         "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},
         "rivet": model.rivet,
         "not_given": not_given(

@@ -18,8 +18,7 @@ from ..base.units import duration, figure
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
-from ..running.accuracy import FIGURES
-from ..running.budget import RULE, amounts, computed_share, of_result, shown, told, unsized_lines
+from ..running.budget import computed_share, shown
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
@@ -46,7 +45,7 @@ from . import charts, plot
 from .animation import frames, number_of_balls
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
-from .tornado import tornado
+from .tornado import wrong
 
 if TYPE_CHECKING:
     from ..running.results import Result
@@ -159,25 +158,6 @@ def render(result, decides=None, measured=()):
         figure=figure,
         duration=duration,
     )
-
-
-def wrong(result):
-    """The error budgets that a Result carries, as tables and pictures."""
-    found = list(of_result(result).values()) if "budget" in result.about else []
-    pictures = [
-        charts.svg(lambda fig, each=each: tornado(fig, each), (4.9, 3.0), f"How wrong: {FIGURES[each.figure][0]}")
-        for each in found
-    ]
-    return {
-        "budgets": found,
-        "budget_pictures": pictures,
-        "amounts": amounts,
-        "told_with_error": told,
-        "unsized_lines": unsized_lines,
-        "rule": RULE,
-        "shown": shown,
-        "share": computed_share(result),
-    }
 
 
 def curve(result: Result) -> str:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from ..running.accuracy import FIGURES
-from ..running.budget import amounts
+from ..running.budget import RULE, amounts, computed_share, of_result, shown, told, unsized_lines
+from . import charts
 from .style import FORCE, HEAD, MIDDLE
 
 if TYPE_CHECKING:
     from ..running.budget import Budget
+    from ..running.results import Result
 
 MOST = 7  # bars beside the whole
 
@@ -31,3 +33,22 @@ def tornado(fig: Any, budget: Budget, sign: float = 1.0, label: str = "") -> Non
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
     ax.set(xlabel=label or f"truth less number [{unit}]")
+
+
+def wrong(result: Result) -> dict[str, Any]:
+    """The error budgets that a Result carries, as tables and pictures."""
+    found = list(of_result(result).values()) if "budget" in result.about else []
+    pictures = [
+        charts.svg(lambda fig, each=each: tornado(fig, each), (4.9, 3.0), f"How wrong: {FIGURES[each.figure][0]}")
+        for each in found
+    ]
+    return {
+        "budgets": found,
+        "budget_pictures": pictures,
+        "amounts": amounts,
+        "told_with_error": told,
+        "unsized_lines": unsized_lines,
+        "rule": RULE,
+        "shown": shown,
+        "share": computed_share(result),
+    }
