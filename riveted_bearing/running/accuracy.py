@@ -7,7 +7,7 @@ From n runs x of the default tolerance with different seeds, and m finer runs y 
     w      tau^2/(tau^2 + s_b^2), tau^2 the larger of PRIOR^2 and b^2 - s_b^2: the share of b that is no scatter
     value  mean x + w b
     seeds  t [var(mean x + w b) + C]^(1/2)               C: common to all seeds, where they fall on one motion
-    numerical  z [(1 - w)^2 tau^2 + (w b/2)^2]^(1/2)     what b leaves open, and the finer run's own error
+    numerical  [z^2 (1 - w)^2 tau^2 + (w b/2)^2]^(1/2)   what b leaves open, and the bound of the finer run's own error
 
 PRIOR is the standard deviation of the default's bias in the scenes of benchmarks/blind.py, known before any finer run.  The error of
 a run falls by three at least with a tenth of the tolerance, so that the finer run still has half of b.  Both half-widths add as the
@@ -52,8 +52,8 @@ PRIOR = {
 FINER = 0.1  # of the tolerance
 BLOCKS = 4  # of a run
 CONFIDENCE = 0.9
-LEVEL = 0.05  # of the tests of the seeds' scatter against that of the blocks
-ONE_MOTION = 0.1  # variance of the seeds over that of the blocks, from which down all seeds fall on one motion
+LEVEL = 0.01  # of the tests of the seeds' scatter against that of the blocks
+ONE_MOTION = 0.1  # variance of the seeds over that of the blocks, below which all seeds fall on one motion
 
 
 @dataclass(frozen=True)
@@ -141,14 +141,15 @@ def sample_of(result: Result, name: str = "the run", damage: float | None = None
     counted = max((value for key, value in summary.items() if "].damage_" in key), default=0.0)
     if counted > 0.0 or damage is not None:
         values[DECADES] = damage if damage is not None else math.log10(counted / hours)
-    blocks = block_variances(result, values["stress"])
+    blocks = block_variances(result, values)
     return Sample(values, {name: blocks[name] for name in values if name in blocks}, float(summary["cpu_time"]), result)
 
 
-def block_variances(result: Result, p999: float) -> dict[str, float]:
+def block_variances(result: Result, values: dict[str, float]) -> dict[str, float]:
     """Variance of each figure of a run by its BLOCKS: that of the blocks' own figures over their number.
 
-    p999: of the whole run, to which the quantiles of blocks are scaled, because that of a short block lies lower.
+    values: of the whole run, to which those of blocks are scaled, because a quantile of a short block lies lower and largest forces
+    of all balls lie higher.
     """
     late, slope = settled(result), result.parameters["fatigue.k_2"]
     heads = [CHANNELS[0]] if CHANNELS[0] in result.data else columns(result, "rivet[", "].sigma_head_peak")
@@ -161,7 +162,8 @@ def block_variances(result: Result, p999: float) -> dict[str, float]:
         kinds["pocket_force"] = [math.sqrt(np.mean(x**2)) for x in force]
     found = {}
     for figure, blocks in kinds.items():
-        scale = p999 / max(float(np.mean(blocks)), 1.0) if figure == "stress" else 1.0
+        mean = float(np.mean(blocks))
+        scale = values.get(figure, mean) / mean if mean else 0.0
         found[figure] = float(scale**2 * np.var(blocks, ddof=1) / BLOCKS)
     swings = [np.quantile(x, 0.999) - np.mean(np.concatenate(stress)) for x in stress]
     if min(swings) > 0.0:
@@ -186,9 +188,10 @@ def spread_of(values: Any, blocks: Any) -> tuple[float, float, float]:
     if n < 2:
         return within, freedom, 0.0
     ratio, law = own / within, stats.f(n - 1, freedom)
-    if ratio < min(law.ppf(LEVEL), ONE_MOTION):
+    low, high = law.ppf(LEVEL), law.ppf(1.0 - LEVEL)
+    if ratio < min(low, ONE_MOTION):
         return own, BLOCKS - 1, within - own
-    if not law.ppf(LEVEL) < ratio < law.ppf(1.0 - LEVEL):
+    if not low < ratio < high:
         return own, n - 1, 0.0
     return ((n - 1) * own + freedom * within) / (n - 1 + freedom), n - 1 + freedom, 0.0
 
@@ -213,8 +216,8 @@ def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confiden
     tau2 = max(tau**2, b**2 - s2)
     w = tau2 / (tau2 + s2) if s2 > 0.0 else 1.0
     variance = max(V / n + w**2 * s2 + 2.0 * w * shared / n, 0.0) + common
-    left = math.sqrt((1.0 - w) ** 2 * tau2 + (0.5 * w * b) ** 2)
-    return Found(mean + w * b, mean, w * b, float(t) * math.sqrt(variance), float(z) * left, one, (n, m))
+    left = math.hypot(float(z) * (1.0 - w) * math.sqrt(tau2), 0.5 * w * b)
+    return Found(mean + w * b, mean, w * b, float(t) * math.sqrt(variance), left, one, (n, m))
 
 
 def found_in(plain: Any, fine: Any = (), confidence: float = CONFIDENCE) -> dict[str, Found]:
@@ -238,6 +241,7 @@ SURE = 0.95  # confidence of an accuracy that is reached
 LEVELS = 3  # of the tolerance, each a tenth of the one before it
 WITHIN = 600.0  # s of processor time, unless more is allowed
 GROWTH = 2.0  # of the runs in a round
+ENOUGH = 4  # runs from which on their scatter is believed
 FALLS = 0.5  # largest share of a bias that a tenth of the tolerance may leave, else it does not fall
 
 
@@ -325,7 +329,7 @@ def accurate(
             continue
         needed = max(runs_needed(each, target) for each in open_ones.values())
         each_costs = runs.seconds / len(runs.done) * 1.5
-        if needed * each_costs > within:
+        if needed * each_costs > within and n >= ENOUGH:
             name, each = max(open_ones.items(), key=lambda item: item[1].half / abs(item[1].value))
             raise UserError(
                 f"accuracy {100 * target:g} %: {FIGURES[name][0]} is known to {100 * each.half / abs(each.value):.2g} % after {len(runs.done)} "
@@ -341,7 +345,7 @@ def accurate(
 
 def of_bias(each):
     """The part of a half-width that the finer run's own error makes, which no seeds reduce."""
-    return float(stats.norm.ppf(0.5 + 0.5 * SURE)) * abs(0.5 * each.shift)
+    return 0.5 * abs(each.shift)
 
 
 def is_bias(each):
@@ -364,7 +368,7 @@ def reachable(each, target, needed, runs):
 def no_way(each, target, before, level):
     """Why no further runs bring a figure within the target, "" if they may."""
     share = 100.0 / abs(each.value)
-    if each.one_motion and each.seeds > target * abs(each.value):
+    if each.one_motion and each.runs[0] >= ENOUGH and each.seeds > target * abs(each.value):
         return f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
     if is_bias(each) and of_bias(each) > target * abs(each.value):
         if before and abs(each.shift) > FALLS * abs(before):
