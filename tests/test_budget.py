@@ -378,7 +378,11 @@ def test_blocks_are_of_the_size_of_the_run():
     """A series of 40 blocks' worth of samples with known scatter: RMS of a force that is six times the run's own figure, and stress."""
     rng = np.random.default_rng(2)
     t = np.linspace(0.0, 1.0, 4001)
-    data = {"time": t, "rivet.sigma_head_max": 200e6 + 1e6 * rng.normal(size=t.size), "cage.F_pocket_peak": 18.0 + 0.0 * t}
+    data = {
+        "time": t,
+        "rivet.sigma_head_max": 200e6 + 1e6 * rng.normal(size=t.size),
+        "cage.F_pocket_peak": 18.0 + 0.0 * t,
+    }
     data["cage.F_pocket_peak"][1001:2001] = 20.0
     result = SimpleNamespace(data=data, parameters={"start.settle": 0.0, "fatigue.k_2": 15.0}, summary={})
     found = accuracy.block_variances(result, {"pocket_force": 3.0, "stress": 203e6, "static": 200e6})
