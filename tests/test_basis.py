@@ -466,7 +466,11 @@ def test_clearances_of_the_bearings_own_file_are_not_assumed(model):
     )
     by_rule = {"cage.land_width", "cage.land_x", "joint.preload", "joint.fit", "joint.swell", "bearing.P_d"}
     by_rule |= {"ring.m", "ring.c", "ring.J_t", "ring.c_tilt"}  # rivet and cage's section are the FMU's own
-    assert set(assumed_ranges(given)) == OF_4109 - {"oil.alpha"} | by_rule | {"cage.guide_clearance", "oil.eta", "oil.rho_mix"}
+    assert set(assumed_ranges(given)) == OF_4109 - {"oil.alpha"} | by_rule | {
+        "cage.guide_clearance",
+        "oil.eta",
+        "oil.rho_mix",
+    }
 
 
 # The same bits, whether the FMU's own inputs are written out or not ---------------------------------------------------

@@ -363,7 +363,7 @@ def test_the_life_of_a_sheet_is_judged_with_its_error():
     seen = SimpleNamespace(
         budgets={"damage": budget.Budget("damage", -4.0, (budget.Part("seeds", 0.0, 0.3, 0.3, ""),))}, life=1e4
     )
-    assert verdict.life_told(seen) == "10,000 h (5,000 h to 20,000 h with all its errors)"
+    assert verdict.errors_told(seen) == " (5,000 h to 20,000 h with all its errors)"
 
 
 def test_samples_do_not_keep_the_accuracy(model):

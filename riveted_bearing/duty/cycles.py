@@ -35,7 +35,9 @@ def rainflow_columns(result):
     columns = [np.concatenate([np.full(len(table), channel) for channel, table in tables])]
     columns += list(np.concatenate([table for _, table in tables]).T)
     found = {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
-    blocks = block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]}) if has_statistics(result) else {}
+    blocks = (
+        block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]}) if has_statistics(result) else {}
+    )
     return found | {name: blocks.get(name.partition(".")[2], np.nan) for name in BLOCK_COLUMNS}
 
 

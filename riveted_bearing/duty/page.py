@@ -67,7 +67,11 @@ def cards(life: Life) -> Iterator[Any]:
     yield "Life of the rivets", hours_text(found.life, few), f"{life.place} · Miner's sum 1"
     if (ends := life_ends(life.budgets)) and found.life <= LONGEST:
         largest = ", ".join(part.name for part in life.budgets[DECADES].parts[:3])
-        yield "with all its errors", interval_text(found.life, *ends, few=few), f"90 %, by parts: {largest} first"
+        yield (
+            "with all its errors",
+            " – ".join(hours_text(end, few) for end in ends),
+            f"90 %, by parts: {largest} first",
+        )
     yield (
         f"{100 * settings['confidence']:g} % interval",
         interval_text(*ends_of(life), few=few),

@@ -145,7 +145,7 @@ def wrong_picture(budget):
         return {}
     sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
     return {
-        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label), (3.4, 2.1), "How wrong the verdict may be")
+        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label), (3.0, 2.1), "How wrong the verdict may be")
     }
 
 

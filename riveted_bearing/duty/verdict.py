@@ -47,7 +47,7 @@ def judged(evidence, target):
     """State, headline and reason, of rivets and raceways together; target: hours or None."""
     if evidence.life is None:
         return "open", "No life can be told", evidence.untold
-    found, life = evidence.raceways, life_told(evidence)
+    found, life = evidence.raceways, f"{hours_text(evidence.life, digits(evidence.budgets))}{errors_told(evidence)}"
     of_raceways = f"raceways {life_text(found)}"
     if target is None:
         return "", f"Life of the rivets {life}", f"{of_raceways}; no target was given (--target)"
@@ -57,16 +57,15 @@ def judged(evidence, target):
     worst = next(each for each in ("bad", "open", "good") if each in states)
     verdict = {"bad": f"Misses the target of {wanted}", "open": f"Target of {wanted} not safe"}
     meets = f"{'Rivets meet' if found.untold else 'Meets'} the target of {wanted}"
-    return worst, verdict.get(worst, meets), f"rivets {reason}; {of_raceways}"
+    return worst, verdict.get(worst, meets), f"rivets {reason}{errors_told(evidence)}; {of_raceways}"
 
 
-def life_told(evidence):
-    """The life with the ends of all its errors."""
-    few, ends = digits(evidence.budgets), life_ends(evidence.budgets)
-    text = hours_text(evidence.life, few)
-    if not ends or evidence.life > LONGEST:
-        return text
-    return f"{text} ({' to '.join(hours_text(end, few) for end in ends)} with all its errors)"
+def errors_told(evidence):
+    """The ends of a life by all its errors, "" where they are not known or both beyond what can be told."""
+    ends = life_ends(evidence.budgets)
+    if not ends or min(ends) > LONGEST:
+        return ""
+    return f" ({' to '.join(hours_text(end, digits(evidence.budgets)) for end in ends)} with all its errors)"
 
 
 def rivets_judged(evidence, target):
