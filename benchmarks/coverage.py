@@ -27,7 +27,7 @@ SETTLE, SPAN, LONGEST, STEP = 0.05, 0.08, 0.12, 1e-4  # [s], as in blind.py, but
 SEEDS, MANY, REFERENCE = 4, 24, 1e-6
 FIRST = 101  # seed of the reference
 FIGURES = ("stress", "static", "pocket_force", "damage")
-WITHIN = 60.0  # s that an accuracy may take in a scene
+WITHIN = 20.0  # s that an accuracy may take in a scene
 
 
 def times(omega):
@@ -57,7 +57,8 @@ def compare(number, options):
     try:
         scene = scene_of(fmu, drawn)
         ours = [accuracy.sample(model, scene, s + 1) for s in range(SEEDS)]
-        finer = [accuracy.sample(model, scene, s + 1, accuracy.finer(model, scene)) for s in range(SEEDS)]
+        tolerance = accuracy.finer_tolerance(model, scene)
+        finer = [accuracy.sample(model, scene, s + 1, tolerance) for s in range(SEEDS)]
         reference = [accuracy.sample(model, scene, FIRST + s, REFERENCE) for s in range(MANY)]
     except (ArithmeticError, UserError) as problem:
         return row | {"failed": str(problem)[:200]}

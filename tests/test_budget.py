@@ -138,7 +138,7 @@ def stand_in(monkeypatch, bias=(0.0, 0.0, 0.0), noise=0.0, memory=0):
         value = 100.0 * (1.0 + bias[min(level, len(bias) - 1)] + noise * rng.normal())
         blocks = (100.0 * noise) ** 2
         names = accuracy.NAMED
-        return accuracy.Sample(dict.fromkeys(names, value), dict.fromkeys(names, blocks), 1.0, None)
+        return accuracy.Sample(dict.fromkeys(names, value), dict.fromkeys(names, blocks), 1.0, 2.0**level * 1e4)
 
     monkeypatch.setattr(accuracy, "sample", sample)
 

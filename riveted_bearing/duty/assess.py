@@ -16,7 +16,7 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
-from ..running.accuracy import finer
+from ..running.accuracy import finer_tolerance
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
@@ -74,17 +74,13 @@ class Runs:
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
         fmu = model.path.read_bytes()
         fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
-        self.model, self.keys, self.finer_keys, scenes = model, {}, {}, {}
+        self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
                 scene = started(replace(case.scene, outputs=outputs), model, first, s)
                 self.keys[c, s] = key_of(scene, fingerprint)
                 scenes[self.keys[c, s]] = scene
-                if s < PAIRS:
-                    scene = replace(scene, tolerance=finer(model, scene))
-                    self.finer_keys[c, s] = key_of(scene, fingerprint)
-                    scenes[self.finer_keys[c, s]] = scene
         self.sweep = Sweep(
             mission.name,
             mission.description,
@@ -115,7 +111,11 @@ class Runs:
 
     def finer(self, c):
         """Keys of the finer runs of case c, on its first seeds."""
-        keys = [self.finer_keys[c, s] for s in range(min(PAIRS, self.mission.settings["max_seeds"]))]
+        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), []
+        for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
+            scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
+            keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
+            self.sweep.scenes[keys[-1]] = scene
         if missing := [key for key in keys if key not in self.damages]:
             rows = run_sweep(self.sweep, self.folder, self.client, self.progress, missing)
             places = {key: i for i, key in enumerate(rows["key"])}

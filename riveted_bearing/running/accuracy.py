@@ -1,13 +1,14 @@
 """How far a run's statistics are from converged ones: the error of the step, and the scatter of the seeds.
 
-From n runs x of the default tolerance with different seeds, and m finer runs y of a tenth of it on the first m seeds:
+From n runs x of the default tolerance with different seeds, and m finer runs y on the first m seeds.  Finer is the first tenth of the
+tolerance whose run takes FINE_STEPS times the steps: where something else limits the step, the next tenth is tried.
 
     V      variance of a run about the long run, of the seeds or of the blocks of a run (spread_of)
     b      mean of y - x, the numerical bias of x with the opposite sign; s_b its standard error
     w      tau^2/(tau^2 + s_b^2), tau^2 the larger of PRIOR^2 and b^2 - s_b^2: the share of b that is no scatter
     value  mean x + w b
     seeds  t [var(mean x + w b) + C]^(1/2)               C: common to all seeds, where they fall on one motion
-    numerical  [z^2 (1 - w)^2 tau^2 + (w b/2)^2]^(1/2)   what b leaves open, and the bound of the finer run's own error
+    numerical  [z^2 (1 - w)^2 tau^2 + (w b/2)^2]^(1/2)   what b leaves open, and the bound of the finer run's own error; RESOLUTION at least
 
 PRIOR is the standard deviation of the default's bias in the scenes of benchmarks/blind.py, known before any finer run.  The error of
 a run falls by three at least with a tenth of the tolerance, so that the finer run still has half of b.  Both half-widths add as the
@@ -49,7 +50,8 @@ PRIOR = {
     "pocket_force": 0.039,
     "damage": 0.09,
 }  # of 102 scenes: their 95 % quantiles over 1.96
-FINER = 0.1  # of the tolerance
+FINER, FINE_STEPS, FINEST = 0.1, 1.5, 1e-6  # of the tolerance, times the steps, and the least tolerance
+RESOLUTION = 1e-3  # of a value, or decades: less is never told
 BLOCKS = 4  # of a run
 CONFIDENCE = 0.9
 LEVEL = 0.01  # of the tests of the seeds' scatter against that of the blocks
@@ -63,6 +65,7 @@ class Sample:
     values: dict
     blocks: dict
     cost: float
+    steps: float = 0.0
     result: Any = field(default=None, repr=False)
 
 
@@ -103,11 +106,6 @@ def tolerance_of(model: Model, scene: Scene) -> float:
     return float(given or model.default(model.parameters["solver.tol"]))
 
 
-def finer(model: Model, scene: Scene) -> float:
-    """The tolerance of the finer runs."""
-    return FINER * tolerance_of(model, scene)
-
-
 def sample(
     model: Model, scene: Scene, seed: int | None = None, tolerance: float | None = None, whole: bool = False
 ) -> Sample:
@@ -142,7 +140,13 @@ def sample_of(result: Result, name: str = "the run", damage: float | None = None
     if counted > 0.0 or damage is not None:
         values[DECADES] = damage if damage is not None else math.log10(counted / hours)
     blocks = block_variances(result, values)
-    return Sample(values, {name: blocks[name] for name in values if name in blocks}, float(summary["cpu_time"]), result)
+    return Sample(
+        values,
+        {name: blocks[name] for name in values if name in blocks},
+        float(summary["cpu_time"]),
+        float(summary["solver.steps"]),
+        result,
+    )
 
 
 def block_variances(result: Result, values: dict[str, float]) -> dict[str, float]:
@@ -216,7 +220,7 @@ def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confiden
     tau2 = max(tau**2, b**2 - s2)
     w = tau2 / (tau2 + s2) if s2 > 0.0 else 1.0
     variance = max(V / n + w**2 * s2 + 2.0 * w * shared / n, 0.0) + common
-    left = math.hypot(float(z) * (1.0 - w) * math.sqrt(tau2), 0.5 * w * b)
+    left = max(math.hypot(float(z) * (1.0 - w) * math.sqrt(tau2), 0.5 * w * b), RESOLUTION * size)
     return Found(mean + w * b, mean, w * b, float(t) * math.sqrt(variance), left, one, (n, m))
 
 
@@ -284,25 +288,42 @@ class Runs:
 
     def __init__(self, model, scene, progress):
         self.model, self.scene, self.progress = model, scene, progress
+        self.tolerances = [tolerance_of(model, scene)]
         self.first = int(scene.parameters.get("start.seed", model.default(model.parameters["start.seed"])))
-        self.done = {}
+        self.done, self.seconds = {}, 0.0
 
     def __call__(self, level, count):
         """The first samples of a level."""
         for s in range(count):
+            tolerance = self.tolerance(level)
             if (level, s) not in self.done:
-                self.done[level, s] = sample(self.model, self.scene, self.first + s, self.tolerance(level), s == 0)
-                self.progress(len(self.done))
+                self.done[level, s] = self.run(s, tolerance)
         return [self.done[level, s] for s in range(count)]
 
     def tolerance(self, level):
-        """The tolerance of a level."""
-        return tolerance_of(self.model, self.scene) * FINER**level
+        """The tolerance of a level; the first run with a finer one shows whether it is."""
+        while len(self.tolerances) <= level:
+            above, tolerance = len(self.tolerances) - 1, self.tolerances[-1]
+            steps = self(above, 1)[0].steps
+            while tolerance > 2.0 * FINEST:  # rounding
+                tolerance *= FINER
+                self.done[above + 1, 0] = self.run(0, tolerance)
+                if self.done[above + 1, 0].steps >= FINE_STEPS * steps:
+                    break
+            self.tolerances.append(tolerance)
+        return self.tolerances[level]
 
-    @property
-    def seconds(self):
-        """Processor time so far."""
-        return sum(run.cost for run in self.done.values())
+    def run(self, s, tolerance):
+        """The Sample of a seed at a tolerance, that of the first seed with its Result; its processor time counts."""
+        found = sample(self.model, self.scene, self.first + s, tolerance, s == 0)
+        self.seconds += found.cost
+        self.progress(len(self.done) + 1)
+        return found
+
+
+def finer_tolerance(model: Model, scene: Scene) -> float:
+    """The tolerance of a scene's finer runs."""
+    return Runs(model, scene, lambda runs: None).tolerance(1)
 
 
 def accurate(
