@@ -392,7 +392,7 @@ def with_error(value: float, half: float, below: float | None = None, above: flo
     ('290 ± 12', '290 (−12 … +28)')
     """
     if not half > 0.0 or not math.isfinite(half):
-        return f"{value:.3g}"
+        return f"{value:.3g} ± 0" if half == 0.0 else f"{value:.3g}"
     place = math.floor(math.log10(half)) - 1
     shown, *ends = (placed(x, place) for x in (value, half, below or half, above or half))
     lopsided = below is not None and above is not None and abs(above - below) > 0.1 * half

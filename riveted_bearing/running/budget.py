@@ -164,11 +164,7 @@ def budget_of(
 def numerical_parts(figure, found):
     """Error of the step and of the seeds."""
     n, m = found.runs
-    source = (
-        f"{m} finer runs (a tenth of the tolerance) on common seeds"
-        if m
-        else "no finer run: 102 scenes of benchmarks/blind.py"
-    )
+    source = f"{m} runs of finer steps on common seeds" if m else "no finer run: 102 scenes of benchmarks/blind.py"
     yield Part("numerical", found.shift, found.numerical, found.numerical, source)
     runs = f"{n} seeds" if n > 1 else "blocks of one run"
     if found.one_motion:
