@@ -57,8 +57,8 @@ def compare(number, options):
     try:
         scene = scene_of(fmu, drawn)
         ours = [accuracy.sample(model, scene, s + 1) for s in range(SEEDS)]
-        tolerance = accuracy.finer_tolerance(model, scene)
-        finer = [accuracy.sample(model, scene, s + 1, tolerance) for s in range(SEEDS)]
+        row["tolerance"] = accuracy.finer_tolerance(model, scene)
+        finer = [accuracy.sample(model, scene, s + 1, row["tolerance"]) for s in range(SEEDS)]
         reference = [accuracy.sample(model, scene, FIRST + s, REFERENCE) for s in range(MANY)]
     except (ArithmeticError, UserError) as problem:
         return row | {"failed": str(problem)[:200]}
@@ -181,13 +181,18 @@ def main():
         pairs = zip(kept(options, "", compare), kept(options, "-accuracy", to_accuracy), strict=True)
         for row, reached in pairs:
             told = {} if "failed" in row else {"figures": judged(row, reached, options.accuracy)}
-            bare = {key: row[key] for key in ("scene", "bearing", "words", "failed") if key in row}
+            bare = {key: row[key] for key in ("scene", "bearing", "words", "failed", "tolerance") if key in row}
             rows.append(
                 {"seed": options.seed} | bare | {k: v for k, v in reached.items() if k in ("cost", "refused")} | told
             )
     found = summary(rows)
     say_summary(found)
-    settings = {"scene_seeds": " ".join(map(str, seeds)), "seeds": SEEDS, "many": MANY, "tolerance": REFERENCE}
+    settings = {
+        "scene_seeds": " ".join(map(str, seeds)),
+        "seeds": SEEDS,
+        "many": MANY,
+        "reference_tolerance": REFERENCE,
+    }
     write("coverage", settings | {"target": options.accuracy} | found | {"rows": rows}, False)
 
 
