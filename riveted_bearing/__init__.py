@@ -57,6 +57,9 @@ def run(
     step: float | str | None = None,
     outputs: Sequence[str] | None = None,
     tolerance: float | None = None,
+    accuracy: float | str | None = None,
+    within: float = 600.0,
+    check: bool = False,
     progress: Callable[[float], None] | None = None,
 ) -> "Result":
     """Simulate the FMU at its own working point, or a scene, and return the Result.
@@ -65,7 +68,9 @@ def run(
     inputs; parameters, inputs: changes by full variable name, values as in the file (SI numbers, "30 N", item names;
     inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
     seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about
-    twenty times a second. Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the
+    twenty times a second.  accuracy: "2 %" of stress and pocket force, for which tolerance and seeds are chosen in several runs of at
+    most `within` seconds of processor time; check: the error budgets, for which the FMU is screened once.  Both stand in the Result's
+    `about` as "accuracy" and "budget".  Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the
     Result holds the run up to that time, and its member `stopped` gives the reason.
 
         >>> import riveted_bearing as rb
@@ -77,13 +82,21 @@ def run(
     from .running.scene import load_scene
 
     model = Model(fmu)
-    simulation = {"t_end": t_end, "step": step, "outputs": outputs, "tolerance": tolerance}
+    simulation = {"t_end": t_end, "step": step, "outputs": outputs, "tolerance": tolerance, "accuracy": accuracy}
     changes = {
         "simulation": {key: value for key, value in simulation.items() if value is not None},
         "parameters": dict(parameters or {}) | ({} if seed is None else {"start.seed": seed}),
         "inputs": dict(inputs or {}),
     }
-    return simulate(model, load_scene(scene, model, ("run()", changes)), progress)
+    plan = load_scene(scene, model, ("run()", changes))
+    if not check and plan.accuracy is None:
+        return simulate(model, plan, progress)
+    from .running.budget import known_result
+    from .running.screen import screened
+
+    if check:
+        screened(model)
+    return known_result(model, plan, check, within)
 
 
 def info(target: str | Path | None = None, fmu: str | Path | None = None, *, cage: str | None = None) -> "Case":

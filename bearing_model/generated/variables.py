@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 MODEL_IDENTIFIER = "RivetedBearing"
-MODEL_GUID = "{ae4e2735-5ca2-37ba-869a-999813c74597}"
+MODEL_GUID = "{c531c50c-41fd-c893-1cf7-688c9357876f}"
 Z = 9
 
 
@@ -117,19 +117,18 @@ class Method(IntEnum):
     FIXED = 3
 
 
-# Assumed parameters that move the rivets' stress most, strongest first: smallest and largest usual value over the value, the mean change of
-# the worst head's 99.9 % quantile at the working point over that range (Morris' mu*) over the quantile itself, and the source.
+# Assumed parameters that move the rivets' stress: smallest and largest usual value over the value, and the source.
 ASSUMPTIONS = {
-    "cage.pocket_clearance": (0.5, 2.0, 0.28, "0.1 to 0.4 mm are usual in a 6207"),
-    "cage.guide_clearance": (0.5, 2.0, 0.21, "0.1 to 0.4 mm are usual in a 6207"),
-    "oil.eta": (0.4, 2.1, 0.17, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
-    "oil.B": (0.5, 2.0, 0.06, "traction of other oils than 4109 at small slip"),
-    "oil.rho_mix": (0.25, 1.3, 0.03, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
-    "oil.A": (0.75, 1.5, 0.03, "0.03 to 0.06 in full sliding; SKF: 0.04 synthetic, 0.05 mineral oils"),
-    "oil.C": (0.6, 1.5, 0.03, "traction of other oils than 4109 at large slip"),
-    "oil.rho": (0.9, 1.1, 0.02, "oils from PAO to ester, hot"),
-    "oil.alpha": (0.6, 1.6, 0.004, "oils from ester to mineral oil, hot"),
-    "oil.sigma_race": (0.25, 2.0, 0.0, "fine to usual finish; in full film the film ratio alone moves with it"),
+    "cage.pocket_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
+    "cage.guide_clearance": (0.5, 2.0, "0.1 to 0.4 mm are usual in a 6207"),
+    "oil.eta": (0.4, 2.1, "5 mm2/s aviation oils (MIL-PRF-23699) from 150 down to 60 degC"),
+    "oil.B": (0.5, 2.0, "traction of other oils than 4109 at small slip"),
+    "oil.rho_mix": (0.25, 1.3, "1 to 5 % oil between the rings (Parker, NASA TP-2275, 1984)"),
+    "oil.A": (0.75, 1.5, "0.03 to 0.06 in full sliding; SKF: 0.04 synthetic, 0.05 mineral oils"),
+    "oil.C": (0.6, 1.5, "traction of other oils than 4109 at large slip"),
+    "oil.rho": (0.9, 1.1, "oils from PAO to ester, hot"),
+    "oil.alpha": (0.6, 1.6, "oils from ester to mineral oil, hot"),
+    "oil.sigma_race": (0.25, 2.0, "fine to usual finish; in full film the film ratio alone moves with it"),
 }
 
 # Items of enumerations that are gone: number and reason by type and name.

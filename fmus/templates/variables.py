@@ -39,11 +39,10 @@ class {{ name }}(IntEnum):
 
 {% endfor %}
 
-# Assumed parameters that move the rivets' stress most, strongest first: smallest and largest usual value over the value, the mean change of
-# the worst head's 99.9 % quantile at the working point over that range (Morris' mu*) over the quantile itself, and the source.
+# Assumed parameters that move the rivets' stress: smallest and largest usual value over the value, and the source.
 ASSUMPTIONS = {
 {% for name, entry in table.assumptions.items() %}
-    {{ name | quoted }}: ({{ entry.low }}, {{ entry.high }}, {{ entry.stress }}, {{ entry.source | quoted }}),
+    {{ name | quoted }}: ({{ entry.low }}, {{ entry.high }}, {{ entry.source | quoted }}),
 {% endfor %}
 }
 

@@ -308,15 +308,20 @@ def scale(symbol: Any, scales: Any) -> Any:
     return found[0] * factor, found[1] + found[0] * offset
 
 
-def hours_text(hours: Any) -> str:
-    """A life in hours, minutes or seconds with three digits, or that it is longer than LONGEST."""
+def hours_text(hours: Any, digits: int = 3) -> str:
+    """A life in hours, minutes or seconds with so many digits, or that it is longer than LONGEST."""
     if not math.isfinite(hours):
         return "no damage"
     if hours > LONGEST:
         return "> 1e6 h"
     if hours < SHORT:
-        return f"{3600.0 * hours:.3g} s" if hours < 1.0 / 60.0 else f"{60.0 * hours:.3g} min"
-    return f"{hours:.3g} h" if hours < 1e3 else f"{round(hours, 2 - math.floor(math.log10(hours))):,.0f} h"
+        number, unit = (3600.0 * hours, "s") if hours < 1.0 / 60.0 else (60.0 * hours, "min")
+    else:
+        number, unit = hours, "h"
+    if not number:
+        return f"0 {unit}"
+    rounded = round(number, digits - 1 - math.floor(math.log10(number)))
+    return f"{rounded:.3g} {unit}" if rounded < 1e3 else f"{rounded:,.0f} {unit}"
 
 
 def to_si(value: Any, scales: Any) -> float:
@@ -377,3 +382,34 @@ def figure(value: Any) -> str:
 def duration(seconds: float) -> str:
     """A life in hours, in seconds if it is short."""
     return f"{figure(seconds)} s" if seconds < 360.0 else hours_text(seconds / 3600.0)
+
+
+def with_error(value: float, half: float, below: float | None = None, above: float | None = None) -> str:
+    """A value with the half-width of its interval, of which two digits are told: 290 ± 12; where the ends lie at different
+    distances both are told: 290 (−12 … +35).
+
+    >>> with_error(289.5, 12.3), with_error(289.5, 20.0, 12.0, 28.0)
+    ('290 ± 12', '290 (−12 … +28)')
+    """
+    if not half > 0.0 or not math.isfinite(half):
+        return f"{value:.3g} ± 0" if half == 0.0 else f"{value:.3g}"
+    place = math.floor(math.log10(half)) - 1
+    shown, *ends = (placed(x, place) for x in (value, half, below or half, above or half))
+    lopsided = below is not None and above is not None and abs(above - below) > 0.1 * half
+    return f"{shown} (−{ends[1]} … +{ends[2]})" if lopsided else f"{shown} ± {ends[0]}"
+
+
+def certain(value: float, half: float) -> str:
+    """A value alone with the digits that the half-width of its interval leaves: those above its first one.
+
+    >>> certain(289.5, 12.3), certain(289.5, 3.0), certain(0.0, 0.0)
+    ('290', '290', '0')
+    """
+    if not half > 0.0 or not math.isfinite(half):
+        return f"{value:.3g}"
+    return placed(value, math.floor(math.log10(half)))
+
+
+def placed(value, place):
+    """A value rounded to a power of ten."""
+    return f"{round(value, -place) + 0.0:.{max(0, -place)}f}"

@@ -1,13 +1,13 @@
 """Values that nobody gave and that the rivets' stress moves with, and who gave the others.
 
 Ranges of the 6207's own values stand in fmus/variables.toml, those of values by rule in data/rules.csv, which
-benchmarks/rules.py writes with docs/rules.md.  The change of the stress over a range is another one in each bearing:
-that of the 6207 is said of the 6207 alone, that of the 6309 decides which values by rule are named.
+benchmarks/rules.py writes with docs/rules.md.  How far a range moves stress and damage is another amount in each bearing:
+running/screening.py measures it in the FMU at hand, and without it no amount is told.
 """
 
 import csv
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from typing import Any
@@ -23,38 +23,36 @@ RULES = files("riveted_bearing") / "data" / "rules.csv"
 OF_RULES = "6309"  # in which benchmarks/rules.py measures the effects of values by rule
 OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
 OF_ASPERITIES = ("oil.sigma_race",)  # move no stress in full film, where the film ratio alone moves with them
-MATTERS = 0.05  # change of the 6309's stress from which a value by rule is named: below it is within the seeds' scatter
+OF_BUILD = (
+    "cage.D_o",
+    "cage.D_i",
+    "cage.width",
+)  # shape the stress table, as all of rivet.* do: another value needs a build
 TEMPERATURES = {  # usual range around the oil's temperature [K]
     "oil.T": (-25.0, 35.0, "oil from 60 to 120 degC, if it has 85 degC by assumption"),
     "cage.T": (-20.0, 25.0, "bearings that dissipate have parts 10 to 40 K apart"),
 }
 DEEPEST = 1.05  # clearance of a ribbon's pocket over that at which its sphere ends in the split
+SEEN = 2.0  # standard errors from which an effect is more than the seeds' scatter
+UNKNOWN = "not screened in this bearing (riveted-bearing build --screen, sensitivity --quick)"
 
 
 @dataclass(frozen=True)
-class Effect:
-    """Usual range of a value as factors of it, the change of the stress over it, and where the range comes from.
-
-    stress: change of the worst head's 99.9 % quantile, over the quantile; None if it is not known in the bearing.
-    """
+class Range:
+    """Usual range of a value as factors of it, and where the range comes from."""
 
     low: float
     high: float
-    stress: float | None
     source: str
-
-    @property
-    def change(self):
-        """The change of the stress in words, "" if it is not known."""
-        if self.stress is None:
-            return ""
-        return f"{100 * self.stress:.0f} %" if self.stress >= 0.01 else "below 1 %"
 
 
 @dataclass(frozen=True)
 class Assumed:
     """An assumed value with its usual range in `unit`; value, low, high are None where the FMU does not hold the value,
     a dimension of the rivet.
+
+    effect: changes of each figure at both ends with their standard errors, {"stress": [[-0.07, 0.01], [0.33, 0.02]]}: relative, of the
+    damage in decades; None where it is not known, for the reason `unknown`.  screened: where it was measured.
     """
 
     name: str
@@ -62,90 +60,142 @@ class Assumed:
     value: float | None
     low: float | None
     high: float | None
-    effect: Effect
+    source: str
+    factors: tuple
+    effect: Any = None
+    unknown: str = UNKNOWN
+    screened: str = ""
 
     @property
     def words(self):
         """Value and usual range, each with its unit."""
         if self.value is None:
-            return "by rule", f"{self.effect.low:g} … {self.effect.high:g} times"
+            return "by rule", f"{self.factors[0]:g} … {self.factors[1]:g} times"
         unit = suffix(self.unit)
         return f"{self.value:.3g}{unit}", f"{self.low + 0.0:.3g} … {self.high + 0.0:.3g}{unit}"
 
+    def size(self, figure):
+        """Largest change of a figure, 0 for one that is not known or within the scatter."""
+        return max((abs(e) for e, se in (self.effect or {}).get(figure, ()) if abs(e) > SEEN * se), default=0.0)
+
+    def change(self, figure):
+        """The change of a figure over the range in words, "" if it is not known."""
+        pairs = (self.effect or {}).get(figure)
+        if pairs is None:
+            return ""
+        percent = figure != "damage"
+        unit, (low, high) = "%" if percent else "decades", sorted(100.0 * e if percent else e for e, _ in pairs)
+        if not self.size(figure):
+            noise = max(100.0 * se if percent else se for _, se in pairs)
+            return f"within the seeds' ±{noise:.1g} {unit}" if noise else "none"
+        least, digits = (1.0, ".0f") if percent else (0.1, ".1f")
+        if max(high, -low) < least:
+            return f"below {least:g} {unit}"
+        return (
+            " … ".join(
+                f"{end:+{digits}}" if abs(end) >= 0.5 * least else "0" for end in (min(low, 0.0), max(high, 0.0))
+            ).replace("-", "−")
+            + f" {unit}"
+        )
+
 
 @cache
-def effects():
-    """Effect by name of the values of the 6207, and by name of those by rule."""
-    own = {name: Effect(*entry) for name, entry in variables.ASSUMPTIONS.items()}
+def ranges():
+    """Range by name of the values of the 6207, and by name of those by rule."""
+    own = {name: Range(*entry) for name, entry in variables.ASSUMPTIONS.items()}
     rows = csv.DictReader(RULES.read_text(encoding="utf-8").splitlines()[1:])
-    by_rule = {
-        row["name"]: Effect(*(float(row[key]) for key in ("low", "high", "stress")), row["source"]) for row in rows
-    }
-    return own, {name: effect for name, effect in by_rule.items() if name in own or effect.stress >= MATTERS}
+    return own, {row["name"]: Range(float(row["low"]), float(row["high"]), row["source"]) for row in rows}
 
 
-def effects_of(given, example, parameters):
-    """Effects of the values that were neither given nor follow from others; example: whether the bearing is the 6207,
-    else those by rule are among them, and the changes of the stress are not known.
+def ranges_of(given: Any, example: bool, parameters: Any) -> dict[str, Range]:
+    """Ranges of the values that were neither given nor follow from others; example: whether the bearing is the 6207, else
+    those by rule are among them.
     """
-    own, by_rule = effects()
+    own, by_rule = ranges()
     found = own if example else own | by_rule
-    return {
-        name: effect if example else replace(effect, stress=None)
-        for name, effect in sorted(found.items(), key=lambda item: -item[1].stress)
-        if not is_known(name, given, parameters)
-    }
+    return {name: each for name, each in found.items() if not is_known(name, given, parameters)}
 
 
-def assumed_rows(result: Any) -> Iterator[Any]:
-    """The Assumed of a run, in the 6207 the strongest first; temperatures last."""
-    about, parameters = result.about, result.parameters
+def is_of_build(name: str) -> bool:
+    """Whether another value needs another FMU."""
+    return name.startswith("rivet.") or name in OF_BUILD
+
+
+def assumed_rows(result: Any, figure: str = "stress") -> list[Assumed]:
+    """The Assumed of a run, those that move the figure most first; those without a known effect last."""
+    rows = list(all_assumed(result.about, result.parameters))
+    return sorted(rows, key=lambda row: (row.effect is None, -row.size(figure)))
+
+
+def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
+    """The Assumed of what a Result says of its FMU and its parameters, with the effects of the FMU's screening."""
     sizes, given = about.get("rivet", {}), set(about.get("given", ()))
     example = about.get("example", not (about.get("ruled") or about.get("not_given")))
-    for name, effect in effects_of(given, example, parameters).items():
+    screening = about.get("screening") or {}
+    for name, each in ranges_of(given, example, parameters).items():
         if name.startswith("rivet."):
-            yield assumed(name, "mm", 1e3, sizes.get(name), effect)
+            yield assumed(name, "mm", 1e3, sizes.get(name), each, screening=screening)
         elif name in parameters:
             unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
             factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
-            yield assumed(name, unit, factor, parameters[name], effect, parameters)
+            yield assumed(name, unit, factor, parameters[name], each, parameters, screening)
     temperatures = {name: T - 273.15 for name, T in about.get("temperatures", {}).items()}
     for name, T in temperatures.items():
         low, high, source = TEMPERATURES[name]
         if name not in given:
             ends = min(T, temperatures["oil.T"] + low), max(T, temperatures["oil.T"] + high)
-            yield Assumed(name, "degC", T, *ends, Effect(low, high, None, source))
+            yield Assumed(name, "degC", T, *ends, source, (low, high), *known_effect(name, screening))
+    for name, entry in screening.get("entries", {}).items():
+        if entry["source"] == YOURS and name in parameters:
+            unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
+            factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
+            ends = (factor * entry["low"], factor * entry["high"])
+            yield Assumed(name, unit, factor * parameters[name], *ends, YOURS, ends, *known_effect(name, screening))
 
 
-def assumed(name, unit, factor, value, effect, parameters=None):
+YOURS = "your own range"
+
+
+def known_effect(name, screening):
+    """Effect of a value, why it is not known, and where it was measured."""
+    if not screening:
+        return None, UNKNOWN, ""
+    if entry := screening["entries"].get(name):
+        return entry["effect"], "", f"screened in this bearing at its own loads and speed, {screening['seeds']} seeds"
+    return None, screening["not_covered"].get(name, UNKNOWN), ""
+
+
+def assumed(name, unit, factor, value, each, parameters=None, screening=None):
     """An Assumed of a value in SI."""
+    factors, told = (each.low, each.high), known_effect(name, screening or {})
     if value is None:
-        return Assumed(name, unit, None, None, None, effect)
-    return Assumed(name, unit, factor * value, *(factor * end for end in ends(name, value, effect, parameters)), effect)
+        return Assumed(name, unit, None, None, None, each.source, factors, *told)
+    low, high = (factor * end for end in ends(name, value, each, parameters))
+    return Assumed(name, unit, factor * value, low, high, each.source, factors, *told)
 
 
-def ends(name, value, effect, parameters):
+def ends(name, value, each, parameters):
     """Usual range of a value, SI."""
-    return sorted((max(effect.low, least_share(name, parameters)) * value, effect.high * value))
+    return sorted((max(each.low, least_share(name, parameters)) * value, each.high * value))
 
 
 def measured_in(rows: Any) -> Any:
-    """Where the changes of the stress over the ranges of some Assumed were measured, in words."""
-    if any(row.effect.stress is not None for row in rows):
-        return f"measured at the working point of the {EXAMPLE}"
-    return "not measured in this bearing: `riveted-bearing sensitivity` does it"
+    """Where the changes of the figures over the ranges of some Assumed were measured, in words."""
+    return next((row.screened for row in rows if row.effect), UNKNOWN)
 
 
 def assumed_ranges(model: Any, scene: Any = None) -> Any:
-    """Usual ranges of the assumed parameters: {name: (lowest, highest)} in SI."""
+    """Usual ranges of the assumed parameters that a run can set: {name: (lowest, highest)} in SI."""
     values = {name: model.default(variable) for name, variable in model.parameters.items()} | (
         scene.parameters if scene else {}
     )
-    found = effects_of(given_names(model, scene), is_example(model), values)
+    found = ranges_of(given_names(model, scene), is_example(model), values)
     return {
-        name: tuple(ends(name, values[name], effect, values))
-        for name, effect in found.items()
-        if name in model.parameters and (name not in OF_ASPERITIES or values.get("scene.lubrication") == "mixed")
+        name: tuple(ends(name, values[name], each, values))
+        for name, each in found.items()
+        if name in model.parameters
+        and not is_of_build(name)
+        and (name not in OF_ASPERITIES or values.get("scene.lubrication") == "mixed")
     }
 
 

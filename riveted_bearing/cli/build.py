@@ -10,6 +10,7 @@ from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeEl
 
 from .printing import note, print_paths
 from .terminal import command, console, messages
+from .terminal import screen as screening_of
 
 TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second
 
@@ -44,6 +45,12 @@ def build(
         str | None,
         typer.Option(help="shape of the cage; default: the bearing file's, else machined", metavar="machined|ribbon"),
     ] = None,
+    screen: Annotated[
+        bool,
+        typer.Option(
+            "--screen", help="measure what each assumed value does to stress and damage, and keep it beside the FMU"
+        ),
+    ] = False,
     platforms: Annotated[
         str | None,
         typer.Option(help="all, or names such as linux64,win64: cross-compiled; default: this machine's compiler"),
@@ -73,6 +80,8 @@ def build(
         path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes, cage)
     console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
     console.print(str(path), style="cyan", soft_wrap=True)
+    if screen:
+        screening_of(Model(path))
     shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing, cage)))}"
     console.print(
         f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True

@@ -8,7 +8,17 @@ from rich.markup import escape
 
 from ..base.files import make_folder
 from .printing import document_of, print_paths, table
-from .terminal import SCHEDULER, WORKERS, command, console, design_runs, messages, number_or_text, print_warnings
+from .terminal import (
+    SCHEDULER,
+    WORKERS,
+    command,
+    console,
+    design_runs,
+    messages,
+    number_or_text,
+    print_warnings,
+    screen,
+)
 
 MOST_DIFFERENCES = 12  # on the terminal
 
@@ -38,6 +48,8 @@ def compare_designs(
     chosen = read_designs(designs, number_or_text)
     folder = out or Path("results") / f"{mission.stem}_designs"
     make_folder(folder)
+    for model in {design.model.path: design.model for design in chosen}.values():
+        screen(model)
 
     def say(name):
         if messages.is_terminal:
@@ -64,13 +76,14 @@ def print_comparison(found, hours_text):
     from ..duty.designs import ends_of
     from ..duty.designs_page import ratio_text, verdict
     from ..duty.page import interval_text
+    from ..running.budget import digits, in_line
 
     names = [outcome.design.name for outcome in found.outcomes]
     rows = (
         (
             name,
-            hours_text(outcome.estimate.life),
-            interval_text(*ends_of(outcome)),
+            hours_text(outcome.estimate.life, digits(outcome.budgets)),
+            interval_text(*ends_of(outcome), few=digits(outcome.budgets)),
             outcome.place,
             ratio_text(outcome.life),
             verdict(outcome),
@@ -80,6 +93,9 @@ def print_comparison(found, hours_text):
     heads = "design", "life", f"{100 * found.confidence:g} % interval", "fails first", "life/first", ""
     console.print(table(heads, rows))
     console.print(other_figures(found))
+    for outcome in found.outcomes:
+        for budget in outcome.budgets.values():
+            console.print(f"[dim]{escape(outcome.design.name)}: {escape(in_line(budget))}[/]", soft_wrap=True)
     differ = ((name, *texts) for name, texts in found.differences[:MOST_DIFFERENCES])
     console.print(table(("differs", *names), differ, left=1 + len(names)))
     if len(found.differences) > MOST_DIFFERENCES:

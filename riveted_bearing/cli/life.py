@@ -7,8 +7,19 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, messages, print_basis, print_warnings
+from .printing import print_budgets, print_paths, table
+from .terminal import (
+    FMU,
+    SCHEDULER,
+    WORKERS,
+    command,
+    console,
+    design_runs,
+    messages,
+    print_basis,
+    print_warnings,
+    screen,
+)
 
 SHEET = "summary.html"  # of the command `summary`, in the same folder
 
@@ -32,6 +43,7 @@ def life(
     missing runs.
     """
     from ..duty.assess import Runs, assess, check_folder, is_current
+    from ..duty.life_budget import to_accuracy, with_budgets
     from ..duty.mission import load_mission
     from ..duty.notes import matrix_warnings, notes
     from ..duty.page import percent
@@ -39,12 +51,13 @@ def life(
     from ..running.fmu import Model
 
     model = Model(fmu)
-    plan = load_mission(mission, model)
-    print_warnings(plan.warnings)
+    plan, told = to_accuracy(load_mission(mission, model), model)
+    print_warnings([*plan.warnings, *told])
     tolerances = read_tolerances(plan, model)
     folder = out or Path("results") / plan.name
     check_folder(folder, plan, "choose another folder by --out")
     make_folder(folder)
+    screen(model)
     reached = []
 
     def say(found, target):
@@ -56,7 +69,7 @@ def life(
 
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
-        found = assess(plan, runs, say)
+        found = with_budgets(assess(plan, runs, say), runs)
         of_bearings = scatter(found, tolerances, model, folder, client, progress) if tolerances else None
     texts, warnings = notes(found, runs, of_bearings), matrix_warnings(runs)
     print_warnings(warnings)
@@ -104,5 +117,6 @@ def print_life(found, remarks):
         console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
     heads = "", "load", "speed", "in the mission", "simulated", "damage", "per", "share"
     console.print(table(heads, part_rows(found), left=3))
+    print_budgets(list(found.budgets.values()))
     for remark in remarks:
         console.print(f"[dim]{escape(remark)}[/]", soft_wrap=True)

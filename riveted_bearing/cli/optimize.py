@@ -7,8 +7,8 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import document_of, note, print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+from .printing import document_of, note, print_budgets, print_paths, table
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
 
 
 @command
@@ -29,6 +29,7 @@ def optimize(
     """
     from ..design.bench import Bench
     from ..design.optimize import optuna_library, plan_optimize, search, write_optimum, write_picture
+    from ..running.budget import of_record
     from ..running.fmu import Model
 
     document, model = document_of(study, "study"), Model(fmu)
@@ -39,10 +40,23 @@ def optimize(
         bench = Bench(study, document, model, folder, client, progress).check(plan.responses)
         make_folder(folder)
         found = search(plan, bench)
+    budgets = best_budgets(found, bench, model)
     print_basis(bench.basis())
     print_optimum(found, present_values(plan.box.names, bench.scene, model), parts_of_stress(found, bench))
-    written = write_optimum(found, folder / "optimize.json", bench.basis())
+    print_budgets([of_record(record) for record in budgets.values()])
+    written = write_optimum(found, folder / "optimize.json", bench.basis(), budgets)
     print_paths(("results", written), ("picture", write_picture(found, folder / "optimize.png")))
+
+
+def best_budgets(found, bench, model):
+    """Records of the recommended point's error budgets by figure; none without such a point or without statistics."""
+    from ..running.budget import known_result
+
+    if found.best is None or bench.scene.parameters["scene.statistics"] == "off":
+        return {}
+    screen(model)
+    scene = bench.scene_at(found.study.box.names, found.points[found.candidates[found.best]])
+    return known_result(model, scene, True).about["budget"]
 
 
 def present_values(names, scene, model):
@@ -87,7 +101,7 @@ def print_optimum(found, present, parts=None):
     for place, row in enumerate([*rows, ("present design", present, *found.present)]):
         best = place == found.best
         title, *rest = row
-        stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.4g}" for name in missing]
+        stress = [f"{1e-6 * parts[place][PARTS.index(name)]:.3g}" for name in missing]
         texts = "recommended" if best else title, *cells(study, *rest), *stress
         shown_points.add_row(*texts, style="bold" if best else None)
     console.print(shown_points)
@@ -115,10 +129,11 @@ def go_apart(was, now):
 
 def cells(study, point, mean, error):
     """Values of a point and its responses as text."""
+    from ..base.units import with_error
     from ..running.responses import display_of, displayed
 
     values = [f"{displayed(name, value):.4g}" for name, value in zip(study.box.names, point, strict=True)]
     return values + [
-        f"{displayed(name, m):.4g} ± {display_of(name)[1] * e:.2g}"
+        with_error(float(displayed(name, m)), float(display_of(name)[1] * e))
         for name, m, e in zip(study.responses, mean, error, strict=True)
     ]

@@ -43,3 +43,19 @@ def print_runs(rows, what, path):
     for text in dict.fromkeys(failures):
         note(text, "[bold red]failed:[/]")
     return len(failures) > 0
+
+
+def print_budgets(budgets):
+    """Error budgets, the largest part first."""
+    from ..running.accuracy import FIGURES
+    from ..running.budget import RULE, amounts, told, unsized_lines
+
+    for budget in budgets:
+        console.print(
+            f"[bold]{FIGURES[budget.figure][0]} {told(budget)}[/]  [dim]90 % interval, by parts:[/]", soft_wrap=True
+        )
+        console.print(table(("", "truth less number", ""), amounts(budget), left=3))
+    for line in unsized_lines(budgets[0]) if budgets else ():
+        console.print(f"[dim]{escape(line)}[/]", soft_wrap=True)
+    if budgets:
+        console.print(f"[dim]{RULE}[/]", soft_wrap=True)

@@ -1,6 +1,7 @@
 """riveted-bearing run: one scene through the FMU."""
 
 import re
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Annotated
@@ -12,8 +13,19 @@ from ..base.errors import UserError, extra, unknown
 from ..base.files import FORMATS, make_folder
 from ..base.interrupts import held_interrupts
 from ..base.shipped import shipped_scenes
-from .printing import note, print_paths, table
-from .terminal import FMU, SETTINGS, STOPPED, changes, command, console, print_basis, simulation_progress
+from .printing import note, print_budgets, print_paths, table
+from .terminal import (
+    FMU,
+    SETTINGS,
+    STOPPED,
+    changes,
+    command,
+    console,
+    messages,
+    print_basis,
+    screen,
+    simulation_progress,
+)
 
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 
@@ -35,6 +47,17 @@ def run(
     seed: Annotated[int | None, typer.Option(help="start.seed: initial spacing of the balls")] = None,
     t_end: Annotated[str | None, typer.Option(help='simulated time, e.g. 0.4 or "400 ms"')] = None,
     step: Annotated[str | None, typer.Option(help='communication step, e.g. 1e-4 or "0.1 ms"')] = None,
+    accuracy: Annotated[
+        str | None,
+        typer.Option(help='"2 %" of stress and pocket force: tolerance and seeds are chosen, in several runs'),
+    ] = None,
+    within: Annotated[str, typer.Option(help='processor time that an accuracy may take, e.g. "1 h"')] = "10 min",
+    check: Annotated[
+        bool,
+        typer.Option(
+            help="how wrong stress and damage are: further seeds, finer runs, and once a screening of this FMU"
+        ),
+    ] = False,
     plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
 ):
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
@@ -46,13 +69,18 @@ def run(
 
     model = Model(fmu)
     target = result_path(scene or model.path, out, format or lean_format(out))
-    plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step)))
+    plan = load_scene(scene, model, ("the command line", changes(model, settings or [], seed, t_end, step, accuracy)))
     for text in odd_materials(plan.parameters):
         note(text)
     make_folder(target.parent)
+    if check:
+        screen(model)
+    if plan.accuracy is not None or check:
+        result = known_run(model, plan, check, time_of(within))
     with held_interrupts():  # from the first step until its results are written
-        with simulation_progress(plan) as progress:
-            result = simulate(model, plan, progress)
+        if plan.accuracy is None and not check:
+            with simulation_progress(plan) as progress:
+                result = simulate(model, plan, progress)
         print_summary(result)
         print_without_effect(model, plan, result)
         paths = [write_result(result, target)]
@@ -77,13 +105,61 @@ def run(
         raise typer.Exit(STOPPED)
 
 
+def time_of(within):
+    """Seconds of the option --within."""
+    from ..base.units import SECONDS, to_si
+    from .terminal import number_or_text
+
+    try:
+        return to_si(number_or_text(within), SECONDS)
+    except UserError as problem:
+        raise UserError(f"--within {within}: {problem}") from None
+
+
+def known_run(model, plan, check, within):
+    """The Result of a scene with how far its figures are known, by several runs."""
+    from ..running.budget import known_result
+
+    count = 0
+
+    def say(runs):
+        nonlocal count
+        count = runs
+        if messages.is_terminal:
+            messages.print(f"[dim]run {runs} done[/]")
+
+    return known_result(model, plan, check, within, say)
+
+
+def print_known(result):
+    """What an accuracy took and what the plain run would have said; the error budgets, the largest part first."""
+    from ..base.units import with_error
+    from ..running.accuracy import FIGURES
+    from ..running.budget import of_record
+
+    if found := result.about.get("accuracy"):
+        rows = []
+        for name, each in found["figures"].items():
+            words, unit, factor = FIGURES[name]
+            value, half = factor * each["value"], factor * each["half_width"]
+            plain = with_error(factor * each["plain_run"], half).partition(" ")[0]
+            rows.append((words, unit, with_error(value, half), plain, found["missed"].get(name, "reached")))
+        heads = f"to {100 * found['target']:g} %", "unit", f"{100 * found['confidence']:g} % interval", "plain run", ""
+        console.print(table(heads, rows, left=2))
+        n, m = next(iter(found["figures"].values()))["runs"]
+        console.print(
+            f"{n} seeds at tolerance {found['tolerance']:.0e}, {m} of them with finer steps too: {found['cost']:.2g} times the processor time of a plain run"
+        )
+    print_budgets([of_record(record) for record in result.about.get("budget", {}).values()])
+
+
 def print_without_effect(model, scene, result):
     """What the scene sets without effect; of a run that was interrupted nothing."""
     from ..running.effects import all_figures, in_words, without_effect
 
     if result.stopped and result.stopped.startswith("interrupted"):
         return
-    cost = result.summary["wall_time"]
+    cost, scene = result.summary["wall_time"], replace(scene, accuracy=None)
     idle, until = without_effect(model, scene, result.about["set"], whole=all_figures(result), cost=cost)
     if idle:
         console.print(escape(in_words(idle, until)), soft_wrap=True)
@@ -127,13 +203,15 @@ def looks_like_a_file(path):
 
 def statistics_table(result):
     """Mean, RMS, 99.9 % quantile and largest value after settling."""
+    from ..running.budget import computed_share, shown
     from ..running.summary import summary_rows
 
+    share = computed_share(result)
     rows = (
         (
             row.channel + ("" if row.every_step else " *"),
             row.unit,
-            *map(four_digits, (row.mean, row.rms, row.p999, row.largest)),
+            *(shown(row, value, share) for value in (row.mean, row.rms, row.p999, row.largest)),
         )
         for row in summary_rows(result)
     )
@@ -144,18 +222,19 @@ def early_table(result):
     """What there is without statistics."""
     from ..running.summary import early_rows
 
-    rows = ((channel, unit, *map(four_digits, values)) for channel, unit, *values in early_rows(result))
+    rows = ((channel, unit, *map(three_digits, values)) for channel, unit, *values in early_rows(result))
     return table(("", "unit", "at the end", "largest since the start"), rows, left=2)
 
 
-def four_digits(value):
+def three_digits(value):
     """A figure of the table."""
-    return f"{value if abs(value) > ROUNDING else 0.0:.4g}"
+    return f"{value if abs(value) > ROUNDING else 0.0:.3g}"
 
 
 def print_summary(result):
     """The figures of a run on the terminal."""
     from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
+    from ..running.budget import computed_share, shown
     from ..running.in_run import alone_note, change_lines
     from ..running.summary import (
         count_note,
@@ -176,10 +255,10 @@ def print_summary(result):
     console.print(statistics_table(result) if has_statistics(result) else early_table(result))
     rivets = rivet_rows(result)
     if rivets:
-        worst = max(rivets, key=lambda row: row[1].p999)
+        worst, share = max(rivets, key=lambda row: row[1].p999), computed_share(result)
         console.print(
             f"of the single rivets, rivet {worst[0]} has the largest p99.9 in its head: "
-            f"{worst[1].p999:.4g} MPa, in its middle {worst[2].p999:.4g} MPa"
+            f"{shown(worst[1], worst[1].p999, share)} MPa, in its middle {shown(worst[2], worst[2].p999, share)} MPa"
         )
     if missing := no_statistics(result):
         note(missing)
@@ -201,14 +280,20 @@ def print_summary(result):
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
         soft_wrap=True,
     )
-    if rows := list(assumed_rows(result)):
+    print_known(result)
+    if rows := assumed_rows(result):
+        moving = [row for row in rows if row.size("stress")] or rows
         meant = f"usual range: change of the worst head over it, {measured_in(rows)}"
         texts = (
-            f"{row.name} {row.words[0]} ({': '.join(filter(None, (row.words[1], row.effect.change)))})" for row in rows
+            f"{row.name} {row.words[0]} ({': '.join(filter(None, (row.words[1], row.change('stress'))))})"
+            for row in moving
         )
         console.print(
-            f"[dim]assumed, and the stress moves with it ({meant}): {escape(', '.join(texts))}[/]", soft_wrap=True
+            f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]",
+            soft_wrap=True,
         )
+        if rest := [row for row in rows if row not in moving]:
+            console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]", soft_wrap=True)
     for source, names in about.get("not_given", {}).items():
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
     if names := assumed_as_bronze(result):

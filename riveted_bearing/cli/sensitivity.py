@@ -7,20 +7,29 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
+from ..base.errors import UserError
 from ..base.files import make_folder
 from .printing import document_of, print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
 
 
 @command
 def sensitivity(
     study: Annotated[
-        Path,
+        Path | None,
         typer.Argument(
-            help="study file (TOML): factors with ranges, responses; see docs/life.md", metavar="STUDY.toml"
+            help="study file (TOML): factors with ranges, responses; see docs/life.md; with --quick only its [between]",
+            metavar="STUDY.toml",
         ),
-    ],
+    ] = None,
     fmu: FMU = None,
+    quick: Annotated[
+        bool,
+        typer.Option(
+            "--quick",
+            help="only the FMU's screening: each assumed value at both ends of its range, kept beside the FMU",
+        ),
+    ] = False,
     out: Annotated[
         Path | None, typer.Option(help="folder of runs, sensitivity.json and picture; default: results/STUDY")
     ] = None,
@@ -35,7 +44,13 @@ def sensitivity(
     from ..design.sensitivity import analyse, plan_sensitivity, salib, write_indices, write_picture
     from ..running.fmu import Model
 
-    document, model = document_of(study, "study"), Model(fmu)
+    model = Model(fmu)
+    if quick:
+        print_screening(model, screen(model, own_ranges(study, model)))
+        return
+    if study is None:
+        raise UserError("sensitivity: a study file is needed, or --quick for the screening of what is assumed")
+    document = document_of(study, "study")
     folder = out or Path("results") / study.stem
     salib()  # before there is a folder
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
@@ -50,6 +65,51 @@ def sensitivity(
         ("results", write_indices(found, folder / "sensitivity.json")),
         ("picture", write_picture(found, folder / "sensitivity.png")),
     )
+
+
+def own_ranges(study, model):
+    """Ranges of a study's [between] by name, such as the tolerances of a drawing; none without a study."""
+    from ..base.schema import checked
+    from ..design.bench import Box
+    from ..design.sensitivity import SensitivityFile
+
+    if study is None:
+        return {}
+    between = checked(SensitivityFile, document_of(study, "study"), study).between
+    box = Box(study, between, model)
+    if inputs := [name for name in box.names if name not in model.parameters]:
+        raise UserError(f"{study}: between: {', '.join(inputs)}: inputs are not screened; parameters are allowed")
+    return {name: (low, high) for name, low, high in zip(box.names, box.low, box.high, strict=True)}
+
+
+def print_screening(model, record):
+    """The screening of an FMU, what moves the damage most first."""
+    from ..bearing.assumed import all_assumed
+    from ..running.runner import origin_of
+    from ..running.scene import load_scene
+    from ..running.screening import paths
+
+    scene = load_scene(None, model)
+    values = {name: model.default(variable) for name, variable in model.parameters.items()} | scene.parameters
+    rows = sorted(
+        all_assumed(origin_of(model, scene), values), key=lambda row: (-row.size("damage"), -row.size("stress"))
+    )
+    console.print(f"[bold]{escape(model.bearing)}[/]", soft_wrap=True)
+    shown = (
+        (row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in rows if row.effect
+    )
+    console.print(
+        table(("assumed", "value", "range", "stress", "damage per hour", "source of the range"), shown, left=6)
+    )
+    for line in {row.unknown: None for row in rows if not row.effect}:
+        names = ", ".join(row.name for row in rows if row.unknown == line and not row.effect)
+        console.print(f"[dim]not covered: {names}: {escape(line)}[/]", soft_wrap=True)
+    console.print(
+        f"[dim]99.9 % quantile of the worst head, damage of the worst place; one at a time, {record['seeds']} common seeds of "
+        f"{record['t_end']:.3g} s; in {record['seconds']:.0f} s[/]",
+        soft_wrap=True,
+    )
+    print_paths(("results", next(path for path in paths(model) if path.is_file())))
 
 
 def print_indices(found, box):

@@ -21,6 +21,7 @@ from .terminal import (
     design_runs,
     number_or_text,
     print_warnings,
+    screen,
 )
 
 
@@ -97,19 +98,21 @@ def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):
     """The Sheet of a mission, and the folder of its runs, of which a second call does only missing ones."""
     from ..duty.assess import RECORD, Runs, assess, is_current
     from ..duty.evidence import of_mission
+    from ..duty.life_budget import to_accuracy, with_budgets
     from ..duty.mission import load_mission
     from ..duty.notes import matrix_warnings, notes
     from ..duty.sheet import mission_sheet
     from ..running.fmu import Model
 
     model = Model(fmu)
-    plan = load_mission(path, model)
-    print_warnings(plan.warnings)
+    plan, told = to_accuracy(load_mission(path, model), model)
+    print_warnings([*plan.warnings, *told])
     folder = folder_of(plan, out)
     make_folder(folder)
+    screen(model)
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
-        found = assess(plan, runs)
+        found = with_budgets(assess(plan, runs), runs)
         evidence = of_mission(found, runs, model, lambda done, total: progress(done, 0, total))
     warnings = matrix_warnings(runs)
     print_warnings(warnings)

@@ -146,7 +146,7 @@ def resumable(folder):
         raise typer.Exit(INTERRUPTED) from None
 
 
-def changes(model, settings, seed, t_end, step):
+def changes(model, settings, seed, t_end, step, accuracy=None):
     """The options of the command line as a document with the structure of a scene file."""
     document = {"parameters": {}, "inputs": {}, "simulation": {}}
     for setting in settings:
@@ -170,9 +170,25 @@ def changes(model, settings, seed, t_end, step):
     if seed is not None:
         document["parameters"]["start.seed"] = seed
     document["simulation"] |= {
-        key: number_or_text(value) for key, value in (("t_end", t_end), ("step", step)) if value is not None
+        key: number_or_text(value)
+        for key, value in (("t_end", t_end), ("step", step), ("accuracy", accuracy))
+        if value is not None
     }
     return document
+
+
+def screen(model, further=None):
+    """The screening of an FMU, measured if it has none; says so and shows how far it is."""
+    from ..running.screen import screened
+    from ..running.screening import known
+
+    record = known(model)
+    if record is None or further:
+        messages.print(
+            f"[dim]what is assumed, screened once for {escape(model.path.name)} (some minutes of processor time at most)[/]"
+        )
+    with sweep_progress() as progress:
+        return screened(model, lambda done, total: progress("screening", done, 0, total), further)
 
 
 def is_of_rivet(name):

@@ -232,8 +232,10 @@ def most_promising(study, values):
     return [int(i) for i in ranked[: study.file.candidates]]
 
 
-def write_optimum(found: Any, path: Path, basis: Any = ()) -> Path:
-    """Write the answer as JSON, whole or not at all; basis: what the runs rest on.  Returns the path."""
+def write_optimum(found: Any, path: Path, basis: Any = (), budgets: Any = None) -> Path:
+    """Write the answer as JSON, whole or not at all; basis: what the runs rest on; budgets: records of the recommended point's
+    error budgets.  Returns the path.
+    """
     study = found.study
     rows = [
         {
@@ -251,6 +253,7 @@ def write_optimum(found: Any, path: Path, basis: Any = ()) -> Path:
             "standard_error": dict(zip(study.responses, found.present[1].tolist(), strict=True)),
         },
         "recommended": None if found.best is None else rows[found.best],
+        "error_budget": budgets or {},
         "fresh_seeds": study.file.check_seeds,
         "candidates": rows,
         "trials": len(found.points),

@@ -16,11 +16,12 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
+from ..running.accuracy import finer_tolerance
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
 from .confidence import Estimate, until_sure
-from .cycles import outputs_of, rainflow_columns, rainflow_fields, stored_cycles
+from .cycles import BLOCK_COLUMNS, outputs_of, rainflow_columns, rainflow_fields, stored_cycles
 from .miner import Duty, part_rates
 from .mission import Mission
 from .raceways import finite
@@ -31,6 +32,8 @@ PLACES = ("head", "mid")
 SAFETY = 10.0  # of the bound on the damage of points that are not simulated
 SPEED_SQUARED = ("shaft.omega",)  # centrifugal loads
 RECORD = "life.json"
+PAIRS = 3  # finer runs of the case that decides
+FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind")
 
 
 @dataclass(frozen=True)
@@ -48,6 +51,7 @@ class Life:
     counts: tuple
     samples: tuple = field(repr=False)
     rates: np.ndarray = field(repr=False)
+    budgets: dict = field(default_factory=dict, repr=False, compare=False)  # error budgets, by figure (life_budget.py)
 
     @property
     def place(self):
@@ -70,7 +74,7 @@ class Runs:
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
         fmu = model.path.read_bytes()
         fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
-        self.keys, scenes = {}, {}
+        self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
@@ -87,7 +91,7 @@ class Runs:
             scenes,
             (rainflow_columns, rainflow_fields),
         )
-        self.strengths, self.damages, self.matrices, self.cost = {}, {}, {}, {}
+        self.strengths, self.damages, self.matrices, self.cost, self.figures = {}, {}, {}, {}, {}
         self.per = {}  # of each run: what makes its damage one per hour of a point, or per event
 
     def __call__(self, counts):
@@ -104,6 +108,20 @@ class Runs:
                 if (key := self.keys[c, s]) not in self.damages:
                     self.take(c, s, key, rows, places[key])
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
+
+    def finer(self, c):
+        """Keys of the finer runs of case c, on its first seeds."""
+        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), []
+        for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
+            scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
+            keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
+            self.sweep.scenes[keys[-1]] = scene
+        if missing := [key for key in keys if key not in self.damages]:
+            rows = run_sweep(self.sweep, self.folder, self.client, self.progress, missing)
+            places = {key: i for i, key in enumerate(rows["key"])}
+            for s, key in enumerate(keys):
+                self.take(c, s, key, rows, places[key])
+        return keys
 
     def take(self, c, s, key, rows, i):
         """Read the damage of one run, row i."""
@@ -135,6 +153,7 @@ class Runs:
         laws = [fatigue_law_at({n: rows[n][i] for n in rows}, 1 + c // 2, PLACES[c % 2]) for c in range(own.size)]
         self.matrices[key] = (matrix, laws, own)
         self.cost[key] = float(rows["whole_cpu_time"][i])
+        self.figures[key] = {name: float(rows[name][i]) for name in (*FIGURES_KEPT, *BLOCK_COLUMNS) if name in rows}
 
     def counted(self):
         """Damage of all matrices over the FMU's own count, with the FMU's law, at the place of each run with the most
@@ -331,6 +350,7 @@ def record(life):
         "low_h": finite(life.low),
         "high_h": finite(found.high),
         "confidence": mission.settings["confidence"],
+        "error_budget": {figure: budget.record() for figure, budget in life.budgets.items()},
         "raceways": raceway_record(mission.raceways()),
         "points": [
             {

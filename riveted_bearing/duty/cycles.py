@@ -9,9 +9,12 @@ the head, 2 k + 1 for the middle of rivet k + 1), range and mean [Pa], count.
 
 import numpy as np
 
+from ..running.accuracy import block_variances
 from ..running.rainflow import CHANNELS, cycles_of, stress_history
+from ..running.summary import has_statistics
 
 RANGE_STEP, MEAN_STEP, LEAST = 0.02, 1e6, 1e4  # of ln range; [Pa]; smaller ranges do no damage
+BLOCK_COLUMNS = {"blocks.stress": "Pa2", "blocks.damage": "1"}  # variance by the blocks of a run (accuracy.py)
 COLUMNS = ("channel", "range", "mean", "count")
 ENDS = tuple(f"].{channel}{kind}" for channel in CHANNELS.values() for kind in ("", "_peak"))
 
@@ -31,7 +34,11 @@ def rainflow_columns(result):
     ]
     columns = [np.concatenate([np.full(len(table), channel) for channel, table in tables])]
     columns += list(np.concatenate([table for _, table in tables]).T)
-    return {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
+    found = {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
+    blocks = (
+        block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]}) if has_statistics(result) else {}
+    )
+    return found | {name: blocks.get(name.partition(".")[2], np.nan) for name in BLOCK_COLUMNS}
 
 
 def rainflow_fields():
@@ -43,7 +50,7 @@ def rainflow_fields():
     return [
         pa.field(f"cycles.{name}", pa.list_(kinds.get(name, pa.float64())), metadata={"unit": units[name]})
         for name in COLUMNS
-    ]
+    ] + [pa.field(name, pa.float64(), metadata={"unit": unit}) for name, unit in BLOCK_COLUMNS.items()]
 
 
 def classed(history):

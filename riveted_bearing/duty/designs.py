@@ -26,6 +26,7 @@ from ..running.summary import static_and_swing
 from ..studies.rows import columns_of
 from .assess import Runs, assess, place_text, places
 from .confidence import Estimate, estimate, ratio_interval
+from .life_budget import budgets_of
 from .mission import plan_mission
 from .mission_file import MissionFile
 from .notes import matrix_warnings
@@ -78,7 +79,7 @@ class Ratio:
 class Outcome:
     """What was found for one design: estimate of its life, place that fails first in words, Ratio of life to the first
     design's (None for it), and of each part means of RESPONSES with their Ratios: {part: {response: (mean, Ratio)}};
-    deciding: the part with the most damage; raceways: its Raceways.
+    deciding: the part with the most damage; raceways: its Raceways; budgets: of its errors, by figure.
     """
 
     design: Design
@@ -88,6 +89,7 @@ class Outcome:
     responses: dict = field(repr=False)
     deciding: str = ""
     raceways: Raceways = field(default_factory=Raceways, repr=False)
+    budgets: dict = field(default_factory=dict, repr=False)
 
 
 @dataclass(frozen=True)
@@ -203,6 +205,7 @@ def compare_designs(
                 key=dict(zip((part.name for part in missions[k].parts), found[k].shares, strict=True)).__getitem__,
             ),
             missions[k].raceways(),
+            budgets_of(missions[k], found[k], range(len(missions[k].parts)), all_runs[k]),
         )
         for k, design in enumerate(designs)
     ]
@@ -332,6 +335,6 @@ def lowest_mode(model):
 # What is written ------------------------------------------------------------------------------------------------------
 
 
-def ends_of(outcome: Any) -> Any:
+def ends_of(outcome: Any) -> tuple[float, float, float]:
     """Life, lower and upper end of its interval [h]."""
     return outcome.estimate.life, outcome.estimate.low, outcome.estimate.high

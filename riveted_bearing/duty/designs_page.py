@@ -9,6 +9,8 @@ from matplotlib.ticker import NullFormatter
 
 from ..base.files import write_json
 from ..base.units import LONGEST, hours_text
+from ..running.accuracy import DECADES
+from ..running.budget import RULE, amounts, digits, told, unsized_lines
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING
 from .designs import APART, HEAD_STRESS, RESPONSES, ends_of
@@ -91,6 +93,7 @@ def record(found):
                 "low_h": finite(outcome.estimate.low),
                 "high_h": finite(outcome.estimate.high),
                 "place": outcome.place,
+                "error_budget": {figure: budget.record() for figure, budget in outcome.budgets.items()},
                 "life_ratio": ratio_record(outcome.life),
                 "raceways": raceway_record(outcome.raceways),
                 "responses": {
@@ -180,6 +183,7 @@ def ratio_chart(fig, found):
 def write_page(found: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns its path."""
     from ..show import charts
+    from ..show.tornado import tornado
 
     height = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
     return save_page(
@@ -187,12 +191,28 @@ def write_page(found: Any, path: Path) -> Path:
         "designs.html",
         found=found,
         responses=RESPONSES,
-        hours_text=hours_text,
         raceway_card=card,
-        interval_text=lambda outcome: interval_text(*ends_of(outcome)),
+        interval_text=lambda outcome: interval_text(*ends_of(outcome), few=digits(outcome.budgets)),
+        life_text=lambda outcome: hours_text(outcome.estimate.life, digits(outcome.budgets)),
+        budgets=lambda outcome: list(outcome.budgets.values()),
+        amounts=amounts,
+        told_with_error=told,
+        unsized_lines=unsized_lines,
+        rule=RULE,
         ratio_text=ratio_text,
         verdict=verdict,
         charts={
+            **{
+                f"wrong {k}": charts.svg(
+                    lambda fig, budget=outcome.budgets[DECADES]: tornado(
+                        fig, budget, -1.0, "true life over the number [decades]"
+                    ),
+                    (4.9, 2.6),
+                    f"How wrong the life of design {k + 1} may be",
+                )
+                for k, outcome in enumerate(found.outcomes)
+                if DECADES in outcome.budgets
+            },
             "life": charts.svg(lambda fig: life_chart(fig, found), (4.9, max(1.8, height[0])), "Life of the designs"),
             "ratios": charts.svg(
                 lambda fig: ratio_chart(fig, found), (4.9, max(1.8, height[1])), "Head stress of the designs"

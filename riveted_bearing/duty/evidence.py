@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,8 @@ from bearing_model.instance.fatigue import fully_reversed
 
 from ..base.errors import UserError
 from ..bearing.strength import damage_of_matrix
+from ..running.budget import digits
+from ..running.budget import of_result as of_run
 from ..running.rainflow import CHANNELS, cycle_damages, fatigue_law_at
 from ..running.runner import simulate
 from ..running.summary import breaks, columns, has_statistics, life_is_known, settled
@@ -51,6 +54,7 @@ class Evidence:
     damage: tuple  # of each rivet in the worst part, at the worse of its places; by it `rivet` is the first to fail
     untold: str = ""
     raceways: Raceways = field(default_factory=Raceways, repr=False)
+    budgets: dict = field(default_factory=dict, repr=False)  # error budgets by figure
 
 
 def of_mission(life: Life, runs: Runs, model: Model, progress: Any = lambda done, total: None) -> Any:
@@ -85,7 +89,7 @@ def of_mission(life: Life, runs: Runs, model: Model, progress: Any = lambda done
         life.low,
         found.high,
         life.place,
-        f"{100 * mission.settings['confidence']:g} %: {interval_text(*ends_of(life))}",
+        f"{100 * mission.settings['confidence']:g} %: {interval_text(*ends_of(life), few=digits(life.budgets))}",
         functools.cache(lambda x: scaled_lives(life, runs, used, x)),
         largest_amplitudes((matrix, laws) for matrix, laws, _ in matrices),
         knees_of(strength, laws),
@@ -94,6 +98,7 @@ def of_mission(life: Life, runs: Runs, model: Model, progress: Any = lambda done
         rivet,
         worse_places(of_rivets),
         raceways=mission.raceways(),
+        budgets=life.budgets,
     )
 
 
@@ -217,6 +222,7 @@ def of_result(result, name, raceways):
         worse_places(damage),
         untold,
         raceways,
+        of_run(result, -math.log10(life) if life and math.isfinite(life) else None),
     )
 
 

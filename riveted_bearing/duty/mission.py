@@ -126,7 +126,7 @@ def idle_settings(model, parts):
     idle = {name: True for part in tried for name in own_names(part.scene, model) if name not in FORCED}
 
     def prepared(scene):  # seeds are the life's own
-        return replace(scene, outputs=outputs_of(model), parameters=scene.parameters | {"start.seed": 1})
+        return replace(scene, accuracy=None, outputs=outputs_of(model), parameters=scene.parameters | {"start.seed": 1})
 
     for part in tried:
         names = [name for name in own_names(part.scene, model) if idle.get(name)]

@@ -12,10 +12,13 @@ import numpy as np
 from scipy.stats import t as student
 
 from ..base.units import LONGEST, figure, hours_text
+from ..running.accuracy import DECADES
+from ..running.budget import RULE, amounts, digits, life_ends, told, unsized_lines
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
+from ..show.tornado import tornado
 from .raceways import card
 
 if TYPE_CHECKING:
@@ -42,8 +45,13 @@ def write_page(life: Life, path: Path, notes: Any, warnings: Any = ()) -> Path:
         told=life.estimate.life <= LONGEST,
         charts={
             name: charts.svg(lambda fig, draw=draw: draw(fig, life), size, label)
-            for name, (draw, size, label) in CHARTS.items()
+            for name, (draw, size, label) in charts_of(life).items()
         },
+        budgets=list(life.budgets.values()),
+        amounts=amounts,
+        told_with_error=told,
+        unsized_lines=unsized_lines,
+        rule=RULE,
     )
 
 
@@ -55,8 +63,20 @@ def share_text(share):
 def cards(life: Life) -> Iterator[Any]:
     """The figures to see first: (title, value, remark)."""
     found, settings = life.estimate, life.mission.settings
-    yield "Life of the rivets", hours_text(found.life), f"{life.place} · Miner's sum 1"
-    yield f"{100 * settings['confidence']:g} % interval", interval_text(*ends_of(life)), width_text(life)
+    few = digits(life.budgets)
+    yield "Life of the rivets", hours_text(found.life, few), f"{life.place} · Miner's sum 1"
+    if (ends := life_ends(life.budgets)) and found.life <= LONGEST:
+        largest = ", ".join(part.name for part in life.budgets[DECADES].parts[:3])
+        yield (
+            "with all its errors",
+            " – ".join(hours_text(end, few) for end in ends),
+            f"90 %, by parts: {largest} first",
+        )
+    yield (
+        f"{100 * settings['confidence']:g} % interval",
+        interval_text(*ends_of(life), few=few),
+        f"of the runs, {width_text(life)}",
+    )
     yield "Life of the raceways", *card(life.mission.raceways())
     yield "Mission", *mission_text(life)
     yield (
@@ -76,7 +96,7 @@ def mission_text(life):
     return "shares of time", "of any length"
 
 
-def ends_of(life):
+def ends_of(life: Any) -> tuple[float, float, float]:
     """Life, lower and upper end of a Life's interval [h]."""
     return life.estimate.life, life.low, life.estimate.high
 
@@ -88,9 +108,9 @@ def open_ends(life, low, high):
     return [end for end, far in (("lower", life > OPEN * low), ("upper", high > OPEN * life)) if far]
 
 
-def interval_text(life: Life, low: Any, high: Any) -> str:
-    """The interval, without the ends that are open."""
-    low_text, high_text, ends = hours_text(low), hours_text(high), open_ends(life, low, high)
+def interval_text(life: Any, low: Any, high: Any, few: int = 3) -> str:
+    """The interval, without the ends that are open; few: digits."""
+    low_text, high_text, ends = hours_text(low, few), hours_text(high, few), open_ends(life, low, high)
     if len(ends) == 2:
         return "open at both ends"
     if ends == ["lower"]:
@@ -278,14 +298,30 @@ CHARTS = {
 }
 
 
+def wrong_chart(fig, life):
+    """What the life's error is made of."""
+    tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades")
+
+
+def charts_of(life):
+    """The charts that a Life has."""
+    wrong = {"wrong": (wrong_chart, TALL, "How wrong the life may be, by parts")}
+    return CHARTS | (wrong if DECADES in life.budgets else {})
+
+
 def write_picture(life: Life, path: Path) -> Path:
-    """The four charts as one PNG, whole or not at all; returns the path."""
+    """The charts as one PNG, whole or not at all; returns the path."""
+    shown = charts_of(life).values()
+    rows = (len(shown) + 1) // 2
     with plt.rc_context(STYLE):
-        whole = plt.figure(figsize=(11, 7.4), layout="constrained")
+        whole = plt.figure(figsize=(11, 3.7 * rows), layout="constrained")
         whole.suptitle(
-            f"{life.mission.name}: life {hours_text(life.estimate.life)}, {life.place}", x=0.01, ha="left", fontsize=11
+            f"{life.mission.name}: life {hours_text(life.estimate.life, digits(life.budgets))}, {life.place}",
+            x=0.01,
+            ha="left",
+            fontsize=11,
         )
-        for part, (draw, _, label) in zip(whole.subfigures(2, 2).ravel(), CHARTS.values(), strict=True):
+        for part, (draw, _, label) in zip(whole.subfigures(rows, 2).ravel(), shown, strict=False):
             draw(part, life)
             part.suptitle(label, x=0.02, ha="left", fontsize=10, fontweight="bold")
         return save_figure(whole, path)

@@ -23,6 +23,7 @@ import numpy as np
 from ..base.units import figure
 from ..base.version import __version__
 from ..bearing.assumed import assumed_rows, measured_in
+from ..running.accuracy import DECADES
 from ..running.fmu import Model
 from ..running.in_run import alone_note, change_lines
 from ..running.responses import display_of
@@ -31,6 +32,7 @@ from ..show import charts
 from ..show.pages import save_page
 from ..show.report import curve
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, plt
+from ..show.tornado import tornado
 from .evidence import of_result
 from .page import mission_text, part_rows, share_text
 from .raceways import of_result as raceways_of
@@ -70,8 +72,10 @@ class Sheet:
 # Verdict --------------------------------------------------------------------------------------------------------------
 
 
-def assumptions(result, decides=None):
-    """The strongest assumptions with their range and effect, and where that is from; decides: a Sensitivity."""
+def assumptions(result, figure, decides=None):
+    """The assumptions that move the figure of the verdict most with their range and effect, and where that is from; decides: a
+    Sensitivity.
+    """
     if decides:
         name = decides.responses[0]
         unit, factor, _ = display_of(name)
@@ -86,10 +90,10 @@ def assumptions(result, decides=None):
             effect = f"{factor * indices['mu_star'][k]:.2g} {unit}".strip()
             rows.append((factor_name, f"{shown} {own_unit}".strip(), f"{span} {own_unit}".strip(), effect))
         return tuple(rows), f"mean change of {name} over the range, by the study {decides.name}"
-    rows = list(assumed_rows(result))[:MOST_ASSUMED]
-    return tuple(
-        (row.name, *row.words, f"{row.effect.change} of stress" if row.effect.change else "–") for row in rows
-    ), f"change of the worst head's stress over the usual range, {measured_in(rows)}"
+    rows = assumed_rows(result, figure)[:MOST_ASSUMED]
+    of = "damage" if figure == DECADES else "the worst head's stress"
+    shown = tuple((row.name, *row.words, row.change(figure) or "–") for row in rows)
+    return shown, f"change of {of} over the usual range, {measured_in(rows)}"
 
 
 # The sheet ------------------------------------------------------------------------------------------------------------
@@ -98,7 +102,8 @@ def assumptions(result, decides=None):
 def make_sheet(name, description, basis, evidence, target=None, decides=None, parts=(), remarks=(), files=()):
     """The Sheet of some Evidence; target: life [h] or None; files: paths whose digests stand on it."""
     worst = evidence.results[evidence.worst]
-    rows, source = assumptions(worst, decides)
+    figure_judged = DECADES if DECADES in evidence.budgets else "stress"
+    rows, source = assumptions(worst, figure_judged, decides)
     found, parts = tuple(checks(evidence, target)), tuple(parts[:MOST_PARTS])
     limits = list(limits_crossed(evidence.results))
     if len(limits) > MOST_LIMITS:
@@ -118,6 +123,7 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
                 (2.5, 2.0),
                 "Damage of the rivets on the circle",
             ),
+            **wrong_picture(evidence.budgets.get(figure_judged)),
             "when": charts.svg(
                 lambda fig: history_chart(fig, worst, evidence.rivet),
                 (4.9, 2.0),
@@ -131,6 +137,16 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
             (clipped(path.name, 40), hashlib.sha256(path.read_bytes()).hexdigest()[:16]) for path in map(Path, files)
         ),
     )
+
+
+def wrong_picture(budget):
+    """The picture of an error budget, nothing without one."""
+    if budget is None:
+        return {}
+    sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
+    return {
+        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label), (3.0, 2.1), "How wrong the verdict may be")
+    }
 
 
 def free_lines(checks, parts):

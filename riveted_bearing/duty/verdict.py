@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.errors import shortlist
-from ..base.units import hours_text
+from ..base.units import LONGEST, hours_text
+from ..running.budget import digits, life_ends
 from ..running.summary import columns, flag_note, settled
 from .raceways import life_text
 
@@ -46,7 +47,7 @@ def judged(evidence, target):
     """State, headline and reason, of rivets and raceways together; target: hours or None."""
     if evidence.life is None:
         return "open", "No life can be told", evidence.untold
-    found, life = evidence.raceways, hours_text(evidence.life)
+    found, life = evidence.raceways, f"{hours_text(evidence.life, digits(evidence.budgets))}{errors_told(evidence)}"
     of_raceways = f"raceways {life_text(found)}"
     if target is None:
         return "", f"Life of the rivets {life}", f"{of_raceways}; no target was given (--target)"
@@ -56,13 +57,22 @@ def judged(evidence, target):
     worst = next(each for each in ("bad", "open", "good") if each in states)
     verdict = {"bad": f"Misses the target of {wanted}", "open": f"Target of {wanted} not safe"}
     meets = f"{'Rivets meet' if found.untold else 'Meets'} the target of {wanted}"
-    return worst, verdict.get(worst, meets), f"rivets {reason}; {of_raceways}"
+    return worst, verdict.get(worst, meets), f"rivets {reason}{errors_told(evidence)}; {of_raceways}"
+
+
+def errors_told(evidence):
+    """The ends of a life by all its errors, "" where they are not known or both beyond what can be told."""
+    ends = life_ends(evidence.budgets)
+    if not ends or min(ends) > LONGEST:
+        return ""
+    return f" ({' to '.join(hours_text(end, digits(evidence.budgets)) for end in ends)} with all its errors)"
 
 
 def rivets_judged(evidence, target):
     """State and reason of the rivets against a target [h]."""
+    few = digits(evidence.budgets)
     life, low, high = (
-        hours_text(x) for x in (evidence.life, evidence.low or evidence.life, evidence.high or evidence.life)
+        hours_text(x, few) for x in (evidence.life, evidence.low or evidence.life, evidence.high or evidence.life)
     )
     if evidence.life < target:
         sure = evidence.high is not None and evidence.high < target
@@ -98,7 +108,7 @@ def checks(evidence, target):
         state = rivets_judged(evidence, target)[0] if target else ""
         yield Check(
             "First rivet to fail",
-            f"{hours_text(evidence.life)} ({evidence.interval}), {evidence.place}",
+            f"{hours_text(evidence.life, digits(evidence.budgets))} ({evidence.interval}), {evidence.place}",
             f"at least {hours_text(target)}" if target else "",
             0.0 if target and math.isinf(evidence.life) else use,
             state,

@@ -13,6 +13,7 @@ from fmpy import __version__ as fmpy_version
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Discard
 
+from ..base.errors import UserError
 from ..base.interrupts import held_interrupts
 from ..base.version import __version__
 from ..bearing.assumed import TEMPERATURES, given_names, is_example, ruled_names
@@ -22,6 +23,7 @@ from .fmu import Instance
 from .record import Record
 from .results import Result
 from .scene import own_names
+from .screening import known
 
 if TYPE_CHECKING:
     from .fmu import Model
@@ -34,6 +36,10 @@ def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
     """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run
     after the step under way.
     """
+    if scene.accuracy is not None:
+        raise UserError(
+            f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose tolerance and seeds by it; here both are given"
+        )
     with held_interrupts() as interrupts, Instance(model) as instance:
         instance.initialize(scene)
         parameters = instance.parameters()
@@ -179,7 +185,7 @@ def changes_in_words(scene):
 
 def provenance(model, scene, end):
     """Origin of a result that ended at a time [s]: scene, inputs, FMU, versions, machine, date."""
-    return {
+    return origin_of(model, scene) | {
         "scene": scene.name,
         "description": scene.description,
         "t_end": scene.t_end,
@@ -190,24 +196,31 @@ def provenance(model, scene, end):
             for name, history in scene.inputs.items()
             if len(history.t) <= 1000
         },
-        "fmu": str(model.path),
-        "given": sorted(given_names(model, scene)),
         "set": own_names(scene, model),
-        "ruled": sorted(ruled_names(model)),
-        "example": is_example(model),
-        "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},
-        "rivet": model.rivet,
-        "not_given": not_given(
-            {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}
-        ),
         "basis": dict(basis(model, [scene])),
         "replaced": list(scene.replaced),
         "changes": changes_in_words(scene),
         "units": scene.units,
         "guid": model.description.guid,
-        "model": model.description.description or model.description.modelName,
         "generated": f"{model.description.generationTool or ''} {model.description.generationDateAndTime or ''}".strip(),
         "versions": {"riveted-bearing": __version__, "fmpy": fmpy_version, "python": platform.python_version()},
         "machine": f"{platform.system()} {platform.machine()}",
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
+    }
+
+
+def origin_of(model: Model, scene: Scene) -> dict[str, Any]:
+    """Who gave which values of an FMU in a scene, and what is known of them."""
+    return {
+        "fmu": str(model.path),
+        "given": sorted(given_names(model, scene)),
+        "ruled": sorted(ruled_names(model)),
+        "example": is_example(model),
+        "screening": known(model) or {},
+        "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},
+        "rivet": model.rivet,
+        "not_given": not_given(
+            {name: origin for name, origin in model.origin.items() if name not in {*scene.parameters, *scene.inputs}}
+        ),
+        "model": model.description.description or model.description.modelName,
     }

@@ -18,6 +18,7 @@ from ..base.units import duration, figure
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
+from ..running.budget import computed_share, shown
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
@@ -44,6 +45,7 @@ from . import charts, plot
 from .animation import frames, number_of_balls
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
+from .tornado import wrong
 
 if TYPE_CHECKING:
     from ..running.results import Result
@@ -139,7 +141,8 @@ def render(result, decides=None, measured=()):
         clearance=clearance_of_cage(result.parameters),
         fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
-        assumed=(rows := list(assumed_rows(result))),
+        assumed=(rows := assumed_rows(result)),
+        **wrong(result),
         measured_in=measured_in(rows),
         as_bronze=assumed_as_bronze(result),
         notes=[text for note in (settle_note, count_note, speed_note, alone_note) if (text := note(result))],
@@ -290,7 +293,7 @@ def weakest(lives):
 
 def cards(result, lives):
     """The figures to see first: (title, value, unit, remark)."""
-    rows = {row.channel: row for row in summary_rows(result)}
+    rows, share = {row.channel: row for row in summary_rows(result)}, computed_share(result)
     if not rows:
         for channel, unit, last, largest in list(early_rows(result))[:FIRST]:
             yield (
@@ -306,7 +309,8 @@ def cards(result, lives):
     ):
         if channel in rows:
             row = rows[channel]
-            yield title, figure(row.p999), row.unit, f"p99.9 · mean {figure(row.mean)} · largest {figure(row.largest)}"
+            p999, mean, largest = (shown(row, value, share) for value in (row.p999, row.mean, row.largest))
+            yield title, p999, row.unit, f"p99.9 · mean {mean} · largest {largest}"
     if "cage slip ratio" in rows:
         yield (
             "Cage slip",

@@ -33,7 +33,7 @@ SETTINGS = {
     "simulation.tolerance": {"1": (1.0, 0.0)},
 }
 SAMPLED = ("cage.dislocation", "rivet[*].sigma_head", "rivet[*].sigma_mid")  # unless simulation.outputs names others
-WORDS = ("description", "source", "replaced", "units", "oil")  # of a scene: no other run
+WORDS = ("accuracy", "description", "source", "replaced", "units", "oil")  # of a scene: no other run
 ROW_VERSION = 2
 MOST_RUNS = 1_000_000  # of a design, all of which is in memory
 RUN_MEMORY = 7e3  # of a run in a design [B], measured

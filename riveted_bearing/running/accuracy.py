@@ -1,0 +1,399 @@
+"""How far a run's statistics are from converged ones: the error of the step, and the scatter of the seeds.
+
+From n runs x of the default tolerance with different seeds, and m finer runs y on the first m seeds.  Finer is the first tenth of the
+tolerance whose run takes FINE_STEPS times the steps: where something else limits the step, the next tenth is tried.
+
+    V      variance of a run about the long run, of the seeds or of the blocks of a run (spread_of)
+    b      mean of y - x, the numerical bias of x with the opposite sign; s_b its standard error
+    w      tau^2/(tau^2 + s_b^2), tau^2 the larger of PRIOR^2 and b^2 - s_b^2: the share of b that is no scatter
+    value  mean x + w b
+    seeds  t [var(mean x + w b) + C]^(1/2)               C: common to all seeds, where they fall on one motion
+    numerical  [z^2 (1 - w)^2 tau^2 + (w b/2)^2]^(1/2)   what b leaves open, and the bound of the finer run's own error; RESOLUTION at least
+
+PRIOR is the standard deviation of the default's bias in the scenes of benchmarks/blind.py, known before any finer run.  The error of
+a run falls by three at least with a tenth of the tolerance, so that the finer run still has half of b.  Both half-widths add as the
+root of their squares.  benchmarks/coverage.py measures how often the interval holds a reference.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import stats
+
+from ..base.errors import UserError
+from .runner import simulate
+from .summary import columns, has_statistics, settled
+
+if TYPE_CHECKING:
+    from .fmu import Model
+    from .results import Result
+    from .scene import Scene
+
+# name -> in words, unit, factor from SI; DECADES is a logarithm, the others are judged relative to their value
+FIGURES = {
+    "stress": ("99.9 % quantile of the worst head", "MPa", 1e-6),
+    "static": ("mean of the worst head", "MPa", 1e-6),
+    "pocket_force": ("RMS of the pocket force", "N", 1.0),
+    "damage": ("damage of the worst place", "decades", 1.0),
+}
+DECADES = "damage"
+NAMED = ("stress", "static", "pocket_force")  # what an accuracy in per cent is of
+COLUMNS = {"stress": "stat.sigma_head_p999", "static": "stat.sigma_head_mean", "pocket_force": "stat.Q_c_rms"}
+CHANNELS = ("rivet.sigma_head_max", "cage.F_pocket_peak")
+PRIOR = {
+    "stress": 0.014,
+    "static": 0.0065,
+    "pocket_force": 0.039,
+    "damage": 0.09,
+}  # of 102 scenes: their 95 % quantiles over 1.96
+FINER, FINE_STEPS, FINEST = 0.1, 1.5, 1e-6  # of the tolerance, times the steps, and the least tolerance
+RESOLUTION = 1e-3  # of a value, or decades: less is never told
+BLOCKS = 4  # of a run
+CONFIDENCE = 0.9
+LEVEL = 0.01  # of the tests of the seeds' scatter against that of the blocks
+ONE_MOTION = 0.1  # variance of the seeds over that of the blocks, below which all seeds fall on one motion
+
+
+@dataclass(frozen=True)
+class Sample:
+    """Figures of one run, the variance of each by its blocks, and its processor time [s]."""
+
+    values: dict
+    blocks: dict
+    cost: float
+    steps: float = 0.0
+    result: Any = field(default=None, repr=False)
+
+
+@dataclass(frozen=True)
+class Found:
+    """A figure's value corrected by its bias, the plain mean, the bias's share (shift), half-widths of seeds and step, and
+    whether all seeds fall on one motion.
+    """
+
+    value: float
+    plain: float
+    shift: float
+    seeds: float
+    numerical: float
+    one_motion: bool
+    runs: tuple
+
+    @property
+    def half(self):
+        """Half-width of the interval about `value`."""
+        return math.hypot(self.seeds, self.numerical)
+
+    def record(self):
+        """As JSON has it."""
+        return vars(self) | {"half_width": self.half}
+
+    def within(self, share):
+        """Whether the interval is within a share of the value."""
+        return self.half <= share * abs(self.value)
+
+
+# One run --------------------------------------------------------------------------------------------------------------
+
+
+def tolerance_of(model: Model, scene: Scene) -> float:
+    """The tolerance at which a scene runs."""
+    given = scene.tolerance or scene.parameters.get("solver.tol")
+    return float(given or model.default(model.parameters["solver.tol"]))
+
+
+def sample(
+    model: Model, scene: Scene, seed: int | None = None, tolerance: float | None = None, whole: bool = False
+) -> Sample:
+    """The Sample of a scene with a start seed and a tolerance, None for its own; UserError where it has no statistics.
+
+    whole: with the Result and all outputs of the scene.
+    """
+    parameters = dict(scene.parameters) | ({} if seed is None else {"start.seed": seed})
+    if parameters.get("scene.stress", "peak") == "peak":
+        parameters["scene.stress"] = "fatigue"  # counts damage, and leaves the motion as it is
+    outputs = tuple(dict.fromkeys([*scene.outputs, *CHANNELS])) if whole else CHANNELS
+    changes: dict[str, Any] = {"parameters": parameters, "outputs": outputs}
+    result = simulate(
+        model, replace(scene, accuracy=None, **changes | ({} if tolerance is None else {"tolerance": tolerance}))
+    )
+    found = sample_of(result, scene.name)
+    return found if whole else replace(found, result=None)
+
+
+def sample_of(result: Result, name: str = "the run", damage: float | None = None) -> Sample:
+    """The Sample of a Result; damage: log10 per hour, where the FMU counted none."""
+    summary = result.summary
+    if result.stopped:
+        raise UserError(f"{name}: no accuracy of a run that stopped: {result.stopped}")
+    if not has_statistics(result) or not summary.get("stat.time") or result.parameters.get("scene.stress") == "off":
+        raise UserError(
+            f"{name}: no accuracy without statistics of stress after start.settle: a longer t_end is needed"
+        )
+    values = {figure: float(summary[column]) for figure, column in COLUMNS.items()}
+    hours = (summary["simulated_time"] - result.parameters["start.settle"]) / 3600.0
+    counted = max((value for key, value in summary.items() if "].damage_" in key), default=0.0)
+    if counted > 0.0 or damage is not None:
+        values[DECADES] = damage if damage is not None else math.log10(counted / hours)
+    blocks = block_variances(result, values)
+    return Sample(
+        values,
+        {name: blocks[name] for name in values if name in blocks},
+        float(summary["cpu_time"]),
+        float(summary["solver.steps"]),
+        result,
+    )
+
+
+def block_variances(result: Result, values: dict[str, float]) -> dict[str, float]:
+    """Variance of each figure of a run by its BLOCKS: that of the blocks' own figures over their number.
+
+    values: of the whole run, to which those of blocks are scaled, because a quantile of a short block lies lower and largest forces
+    of all balls lie higher.
+    """
+    late, slope = settled(result), result.parameters["fatigue.k_2"]
+    heads = [CHANNELS[0]] if CHANNELS[0] in result.data else columns(result, "rivet[", "].sigma_head_peak")
+    if not heads or np.count_nonzero(late) < BLOCKS:
+        return {}
+    stress = np.array_split(np.max([result.data[name][late] for name in heads], axis=0), BLOCKS)
+    kinds = {"stress": [np.quantile(x, 0.999) for x in stress], "static": [x.mean() for x in stress]}
+    if CHANNELS[1] in result.data:
+        force = np.array_split(result.data[CHANNELS[1]][late], BLOCKS)
+        kinds["pocket_force"] = [math.sqrt(np.mean(x**2)) for x in force]
+    found = {}
+    for figure, blocks in kinds.items():
+        mean = float(np.mean(blocks))
+        scale = values.get(figure, mean) / mean if mean else 0.0
+        found[figure] = float(scale**2 * np.var(blocks, ddof=1) / BLOCKS)
+    swings = [np.quantile(x, 0.999) - np.mean(np.concatenate(stress)) for x in stress]
+    if min(swings) > 0.0:
+        found[DECADES] = float(np.var(slope * np.log10(swings), ddof=1) / BLOCKS)
+    return found
+
+
+# Several runs ---------------------------------------------------------------------------------------------------------
+
+
+def spread_of(values: Any, blocks: Any) -> tuple[float, float, float]:
+    """Variance of a run about the long run, its degrees of freedom, and the part of it that is common to all seeds.
+
+    Seeds and blocks tell the same where both are chance: then both count.  Seeds that scatter more have come to several
+    motions; seeds that scatter less fall on one motion, whose change from block to block no seed shows.
+    """
+    n, own = len(values), float(np.var(values, ddof=1)) if len(values) > 1 else 0.0
+    within = float(np.mean(blocks)) if len(blocks) else 0.0
+    if not len(blocks) or within <= 0.0:
+        return own, max(n - 1, 1), 0.0
+    freedom = n * (BLOCKS - 1)
+    if n < 2:
+        return within, freedom, 0.0
+    ratio, law = own / within, stats.f(n - 1, freedom)
+    low, high = law.ppf(LEVEL), law.ppf(1.0 - LEVEL)
+    if ratio < min(low, ONE_MOTION):
+        return own, BLOCKS - 1, within - own
+    if not low < ratio < high:
+        return own, n - 1, 0.0
+    return ((n - 1) * own + freedom * within) / (n - 1 + freedom), n - 1 + freedom, 0.0
+
+
+def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confidence: float = CONFIDENCE) -> Found:
+    """The Found of a figure from values of plain runs [n], of finer ones on the first seeds [m], and the plain runs' block
+    variances.
+    """
+    x, y = np.asarray(plain, float), np.asarray(fine, float)
+    n, m, mean = len(x), len(y), float(np.mean(plain))
+    size = 1.0 if figure == DECADES else abs(mean)
+    V, freedom, common = spread_of(x, blocks)
+    t, z = stats.t.ppf(0.5 + 0.5 * confidence, freedom), stats.norm.ppf(0.5 + 0.5 * confidence)
+    tau, one = PRIOR[figure] * size, bool(common > 0.0)
+    if not m:
+        return Found(mean, mean, 0.0, float(t) * math.sqrt(V / n + common), float(z) * tau, one, (n, 0))
+    d = y - x[:m]
+    b, of_pair, shared = float(d.mean()), 2.0 * V, -V
+    if m > 2:
+        of_pair, shared = float(np.var(d, ddof=1)), float(np.cov(x[:m], d)[0, 1])
+    s2 = of_pair / m
+    tau2 = max(tau**2, b**2 - s2)
+    w = tau2 / (tau2 + s2) if s2 > 0.0 else 1.0
+    variance = max(V / n + w**2 * s2 + 2.0 * w * shared / n, 0.0) + common
+    left = max(math.hypot(float(z) * (1.0 - w) * math.sqrt(tau2), 0.5 * w * b), RESOLUTION * size)
+    return Found(mean + w * b, mean, w * b, float(t) * math.sqrt(variance), left, one, (n, m))
+
+
+def found_in(plain: Any, fine: Any = (), confidence: float = CONFIDENCE) -> dict[str, Found]:
+    """The Found of each figure that all Samples have."""
+    names = [name for name in FIGURES if all(name in run.values for run in [*plain, *fine])]
+    return {
+        name: found_of(
+            name,
+            [run.values[name] for run in plain],
+            [run.values[name] for run in fine],
+            [run.blocks[name] for run in plain if name in run.blocks],
+            confidence,
+        )
+        for name in names
+    }
+
+
+# To an accuracy -------------------------------------------------------------------------------------------------------
+
+SURE = 0.95  # confidence of an accuracy that is reached
+LEVELS = 3  # of the tolerance, each a tenth of the one before it
+WITHIN = 600.0  # s of processor time, unless more is allowed
+GROWTH = 2.0  # of the runs in a round
+ENOUGH = 4  # runs from which on their scatter is believed
+FALLS = 0.5  # largest share of a bias that a tenth of the tolerance may leave, else it does not fall
+
+
+@dataclass(frozen=True)
+class Reached:
+    """What an accuracy took: the tolerance of its runs, their Found by figure, why a figure is not within it, the plain run, the
+    Result and Samples (plain, finer) at that tolerance, and the processor time [s].
+    """
+
+    target: float
+    tolerance: float
+    found: dict
+    missed: dict
+    plain: Sample
+    result: Any = field(repr=False)
+    samples: tuple = field(repr=False)
+    seconds: float
+
+    @property
+    def cost(self):
+        """Processor time over that of a plain run."""
+        return self.seconds / max(self.plain.cost, 1e-9)
+
+    def record(self):
+        """As JSON has it."""
+        return {
+            "target": self.target,
+            "confidence": SURE,
+            "tolerance": self.tolerance,
+            "cost": self.cost,
+            "figures": {
+                name: each.record() | {"plain_run": self.plain.values[name]} for name, each in self.found.items()
+            },
+            "missed": self.missed,
+        }
+
+
+class Runs:
+    """Samples of a scene by seed and level of the tolerance, simulated when they are asked for."""
+
+    def __init__(self, model, scene, progress):
+        self.model, self.scene, self.progress = model, scene, progress
+        self.tolerances = [tolerance_of(model, scene)]
+        self.first = int(scene.parameters.get("start.seed", model.default(model.parameters["start.seed"])))
+        self.done, self.seconds = {}, 0.0
+
+    def __call__(self, level, count):
+        """The first samples of a level."""
+        for s in range(count):
+            tolerance = self.tolerance(level)
+            if (level, s) not in self.done:
+                self.done[level, s] = self.run(s, tolerance)
+        return [self.done[level, s] for s in range(count)]
+
+    def tolerance(self, level):
+        """The tolerance of a level; the first run with a finer one shows whether it is."""
+        while len(self.tolerances) <= level:
+            above, tolerance = len(self.tolerances) - 1, self.tolerances[-1]
+            steps = self(above, 1)[0].steps
+            while tolerance > 2.0 * FINEST:  # rounding
+                tolerance *= FINER
+                self.done[above + 1, 0] = self.run(0, tolerance)
+                if self.done[above + 1, 0].steps >= FINE_STEPS * steps:
+                    break
+            self.tolerances.append(tolerance)
+        return self.tolerances[level]
+
+    def run(self, s, tolerance):
+        """The Sample of a seed at a tolerance, that of the first seed with its Result; its processor time counts."""
+        found = sample(self.model, self.scene, self.first + s, tolerance, s == 0)
+        self.seconds += found.cost
+        self.progress(len(self.done) + 1)
+        return found
+
+
+def finer_tolerance(model: Model, scene: Scene) -> float:
+    """The tolerance of a scene's finer runs."""
+    return Runs(model, scene, lambda runs: None).tolerance(1)
+
+
+def accurate(
+    model: Model, scene: Scene, target: float, within: float = WITHIN, progress: Any = lambda runs: None
+) -> Reached:
+    """Run a scene until its NAMED figures are within `target` of their values, or until more runs do not help; UserError where it
+    would take longer than `within` [s of processor time].
+
+    Two runs and a finer one, then more of both, or a finer tolerance where the bias decides.
+    """
+    runs, level, n, m, before = Runs(model, scene, progress), 0, 2, 1, {}
+    while True:
+        plain, fine = runs(level, n), runs(level + 1, m)
+        found = {name: each for name, each in found_in(plain, fine, SURE).items() if name in NAMED}
+        wide = {name: each for name, each in found.items() if each.value and not each.within(target)}
+        missed = {name: why for name, each in wide.items() if (why := no_way(each, target, before.get(name), level))}
+        open_ones = {name: each for name, each in wide.items() if name not in missed}
+        if not open_ones:
+            break
+        if level + 1 < LEVELS and any(
+            of_bias(each) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)
+        ):
+            before, level, m = {name: each.shift for name, each in found.items()}, level + 1, 1
+            continue
+        needed = max(runs_needed(each, target) for each in open_ones.values())
+        each_costs = runs.seconds / len(runs.done) * 1.5
+        if needed * each_costs > within and n >= ENOUGH:
+            name, each = max(open_ones.items(), key=lambda item: item[1].half / abs(item[1].value))
+            raise UserError(
+                f"accuracy {100 * target:g} %: {FIGURES[name][0]} is known to {100 * each.half / abs(each.value):.2g} % after {len(runs.done)} "
+                f"runs; {100 * target:g} % would take about {needed:,.0f} seeds, {needed * each_costs:,.0f} s of processor time, and {within:,.0f} s are "
+                f"allowed: {100 * reachable(each, target, needed, within / each_costs):.2g} % can be reached, or a longer time (within)"
+            )
+        n = int(max(n + 1, min(math.ceil(needed), GROWTH * n)))
+        m = (n + 1) // 2
+    return Reached(
+        target, runs.tolerance(level), found, missed, runs(0, 1)[0], plain[0].result, (plain, fine), runs.seconds
+    )
+
+
+def of_bias(each):
+    """The part of a half-width that the finer run's own error makes, which no seeds reduce."""
+    return 0.5 * abs(each.shift)
+
+
+def is_bias(each):
+    """Whether the shift is more than scatter."""
+    return abs(each.shift) > each.seeds
+
+
+def runs_needed(each, target):
+    """Runs with which the scatter would be narrow enough beside the bias."""
+    bias = of_bias(each) if is_bias(each) else 0.0
+    room = (target * abs(each.value)) ** 2 - bias**2
+    return each.runs[0] * (each.half**2 - bias**2) / room if room > 0.0 else GROWTH * each.runs[0]
+
+
+def reachable(each, target, needed, runs):
+    """Share of the value that a number of runs reaches."""
+    return target * math.sqrt(needed / max(runs, 1.0))
+
+
+def no_way(each, target, before, level):
+    """Why no further runs bring a figure within the target, "" if they may."""
+    share = 100.0 / abs(each.value)
+    if each.one_motion and each.runs[0] >= ENOUGH and each.seeds > target * abs(each.value):
+        return f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
+    if is_bias(each) and of_bias(each) > target * abs(each.value):
+        if before and abs(each.shift) > FALLS * abs(before):
+            return f"its bias of {share * abs(before):.2g} % does not fall with the tolerance: {share * abs(each.shift):.2g} % is left at a tenth of it"
+        if level + 1 >= LEVELS:
+            return f"its bias is still {share * abs(each.shift):.2g} % at the finest tolerance"
+    return ""

@@ -1,0 +1,140 @@
+"""What decides the stress of the bearing at hand: each assumed value at both ends of its range, the others as they are.
+
+One at a time, with common seeds, at the FMU's own loads and speed; temperatures are among the values, and ranges that a study gives.
+Effects are relative changes of the stress, and decades of the damage.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import replace
+from datetime import UTC, datetime
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..base.errors import UserError
+from ..bearing.assumed import (
+    OF_ASPERITIES,
+    TEMPERATURES,
+    YOURS,
+    assumed_ranges,
+    given_names,
+    is_example,
+    is_of_build,
+    ranges_of,
+)
+from ..bearing.oil import PARTS_TEMPERATURES
+from .accuracy import CHANNELS, DECADES, sample
+from .basis import values
+from .inputs import History
+from .scene import load_scene
+from .screening import VERSION, keep, known
+
+if TYPE_CHECKING:
+    from .fmu import Model
+
+SEEDS = 3
+SPAN = 0.1  # s after start.settle, or as long as that
+SCREENED = ("stress", "static", DECADES)
+IN_FILM = "moves no stress in full film"
+OF_BUILD = "part of the FMU's stress table, so that another value needs an FMU of its own (compare-designs)"
+
+
+def screened(model: Model, say: Any = lambda done, total: None, further: Any = None) -> dict[str, Any]:
+    """The record of an FMU's screening, measured and kept if there is none; further: ranges of the user's own, {name:
+    (low, high)}, which are measured if the record has others.
+    """
+    record = known(model) or {"entries": {}}
+    further = {name: [float(end) for end in ends] for name, ends in (further or {}).items()}
+    kept = {n: [e["low"], e["high"]] for n, e in record["entries"].items() if e["source"] == YOURS}
+    if record["entries"] and all(kept.get(name) == ends for name, ends in further.items()):
+        return record
+    return keep(model, measured(model, say, kept | further))
+
+
+# The runs -------------------------------------------------------------------------------------------------------------
+
+
+def base_scene(model):
+    """The FMU's own working point, as long as a screening needs."""
+    settle = model.default(model.parameters["start.settle"])
+    simulation = {"t_end": settle + max(SPAN, settle), "outputs": list(CHANNELS)}
+    return load_scene(None, model, ("screening", {"simulation": simulation}))
+
+
+def changed_scenes(model, scene, further):
+    """{name: (low, high, source, scene at the low end, scene at the high end)} of all that a run can set."""
+    everything = {name: model.default(variable) for name, variable in model.parameters.items()}
+    sources = ranges_of(given_names(model), is_example(model), everything)
+    found = {name: (*ends, sources[name].source) for name, ends in assumed_ranges(model).items()}
+    found |= {name: (*ends, YOURS) for name, ends in further.items()}
+    scenes = {}
+    for name, (low, high, source) in found.items():
+        at = (replace(scene, parameters=scene.parameters | {name: end}) for end in (low, high))
+        scenes[name] = (low, high, source, *at)
+    given = given_names(model)
+    oil = {name: float(values(model, [scene], name).mean()) for name in ("oil.T", *PARTS_TEMPERATURES)}
+    for name, (below, above, source) in TEMPERATURES.items():
+        if name in given:
+            continue
+        low, high = min(oil[name], oil["oil.T"] + below), max(oil[name], oil["oil.T"] + above)
+        moved = [n for n in oil if n == name or (name == "oil.T" and n not in given)]
+        at = (
+            replace(
+                scene,
+                inputs=scene.inputs | {n: History(np.zeros(1), np.array([oil[n] + end - oil[name]])) for n in moved},
+            )
+            for end in (low, high)
+        )
+        scenes[name] = (low, high, source, *at)
+    return scenes
+
+
+def measured(model, say, further):
+    """The record of a screening."""
+    begun, scene = time.perf_counter(), base_scene(model)
+    scenes = changed_scenes(model, scene, further)
+    base = [sample(model, scene, seed) for seed in range(1, SEEDS + 1)]
+    entries, not_covered = {}, {}
+    for done, (name, (low, high, source, *at)) in enumerate(scenes.items()):
+        say(done, len(scenes))
+        try:
+            ends = [[sample(model, one, seed) for seed in range(1, SEEDS + 1)] for one in at]
+        except UserError as problem:
+            not_covered[name] = f"no run at an end of its range: {problem}"
+            continue
+        effect = {f: [change(f, base, end) for end in ends] for f in SCREENED if all(has(f, e) for e in (base, *ends))}
+        entries[name] = {"low": low, "high": high, "source": source, "effect": effect}
+    everything = {name: model.default(variable) for name, variable in model.parameters.items()}
+    needed = ranges_of(given_names(model), is_example(model), everything)
+    return {
+        "version": VERSION,
+        "fmu_sha256": model.digest,
+        "bearing": model.bearing,
+        "date": datetime.now(UTC).isoformat(timespec="seconds"),
+        "t_end": scene.t_end,
+        "seeds": SEEDS,
+        "seconds": time.perf_counter() - begun,
+        "base": {f: float(np.mean([run.values[f] for run in base])) for f in SCREENED if has(f, base)},
+        "entries": entries,
+        "not_covered": {name: why for name in needed if name not in entries and (why := reason(name))} | not_covered,
+    }
+
+
+def reason(name):
+    """Why a value is not screened."""
+    return OF_BUILD if is_of_build(name) else IN_FILM if name in OF_ASPERITIES else ""
+
+
+def has(figure, runs):
+    """Whether all runs have a figure: none has a damage where nothing is damaged."""
+    return all(figure in run.values for run in runs)
+
+
+def change(figure, base, end):
+    """Mean change of a figure on common seeds with its standard error, relative to the base's mean, of the damage as it is."""
+    x, y = (np.array([run.values[figure] for run in runs]) for runs in (base, end))
+    d = (y - x) / (1.0 if figure == DECADES else max(abs(float(x.mean())), 1e-300))
+    return [float(d.mean()), float(d.std(ddof=1)) / math.sqrt(len(d))]
