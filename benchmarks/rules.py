@@ -52,8 +52,9 @@ LETTERS = {  # of the dimensions in the page's first picture
 INTRO = f"""## Numbers to take from the drawing
 
 A value that the file leaves out is scaled from the paper's 6207. The table shows how the stress changes if the value is at either end of its
-usual range: first take those from the drawing that move the stress most. Stress is the 99.9 % quantile of the worst head of the {BEARING}, {{p999:.0f}} MPa by rule (mean
-{{mean:.0f}} MPa), with elastic halves and the standard error of {{seeds}} seeds of {T_END:g} s. `riveted-bearing sensitivity` measures the same in your bearing.
+usual range: first take those from the drawing that move the stress most. Stress is the 99.9 % quantile of the worst head of the
+{BEARING}, {{p999:.0f}} MPa by rule (mean {{mean:.0f}} MPa), with elastic halves and the standard error of {{seeds}} seeds of {T_END:g} s.
+`riveted-bearing sensitivity` measures the same in your bearing.
 
 D is the ball diameter, d_m the pitch diameter, B the bearing's width. Ranges are multiples of the rule's value, with sources in
 `riveted_bearing/data/rules.csv`. *: less if the cage were wider than {scaling.WIDEST_CAGE} B.
