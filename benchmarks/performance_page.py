@@ -238,23 +238,16 @@ def scenes(data):
 
 def scaling(data):
     draw_scaling(data)
-    balls = [
-        [z, number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['us_per_eval']:.2f}", f"{r['start_ms']:.1f}"]
-        for z, r in data["balls"].items()
-    ]
-    cases = "constant", "changing"
     steps = [
         [
             f"{float(step):g}",
             *[number(row["constant"][key], 3) for key in ("rtf", "inside")],
             number(row["changing"]["rtf"], 3),
-            *[f"{row[name]['evals'] / 100:,.0f}" for name in cases],
         ]
         for step, row in data["step"].items()
     ]
     quarters = [quarter for rows in data["horizon"].values() for quarter in rows]
     return {
-        "balls": balls,
         "steps": steps,
         "horizons": list(data["horizon"]),
         "rtf": [q["rtf"] for q in quarters],

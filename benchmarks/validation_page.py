@@ -21,30 +21,20 @@ PAGE, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "validation"
 OBSERVED = {
     "dy/dt of core and reference": ("twin", ("derivatives",), ()),
     "Jacobian, quantiles 50, 90, 99 %": ("twin", ("jacobian",), ()),
-    "start, two solvers": ("twin", ("start",), ()),
     "all outputs": ("twin", ("outputs",), ()),
     "trajectory at 1e-5…1e-8, explicit": ("twin", ("trajectory",), ("EXPLICIT",)),
     "trajectory at 1e-5…1e-8, Verlet": ("twin", ("trajectory",), ("VERLET",)),
     "dE/dt against net power": ("twin", ("power_is_rate_of_energy",), ()),
-    "energy balance, housing and frame moving [J]": ("twin", ("ledger",), ("residual",)),
     "dy/dt turned, mirrored, in other units": (
         "invariance",
         ("turn_by_a_pitch", "mirror_z", "mirror_x", "other_units"),
         (),
     ),
-    "the same of elastic halves": ("invariance", ("turn_of_elastic_halves", "mirror_of_elastic_halves"), ()),
     "1 ms turned, mirrored": ("invariance", ("trajectory_of_the_image",), ()),
-    "drift of 26.5 J without losses [J]": ("energy", ("lossless_energy_converges",), ("J at 1e-7",)),
     "energy balance of 10 ms": ("energy", ("energy_balance_of_a_run",), ("of what is dissipated",)),
     "moment about the axis [N·m]": ("conservation", ("angular_momentum_about_the_axis",), ("difference",)),
-    "drift of 0.4 N·m·s, Runge–Kutta, Verlet": (
-        "conservation",
-        ("angular_momentum_stays",),
-        ("Runge-Kutta", "Verlet at 1e-5"),
-    ),
 }
-STATISTICS = ("contact_duty", "cage_omega", "Q_c_mean", "Q_c_p999")
-STATISTICS += tuple(f"sigma_{place}_{name}" for place in ("head", "mid") for name in ("mean", "p999"))
+STATISTICS = ("cage_omega", "Q_c_mean", "Q_c_p999", "sigma_head_mean", "sigma_head_p999")
 HALVES = [  # fit [um], r/min, tilt [deg] that are shown
     *((-10, speed, 0.0) for speed in (4000, 12000, 24000)),
     *((fit, 18238, 0.0) for fit in (-40, 40)),
@@ -71,7 +61,7 @@ def page(data):
     clearance = [row for row in data["clearance"] if row["expected"] != usual]
     values = {
         "data": data,
-        "forms": against(data["contacts"] + data["kinematics"] + data["distribution"]),
+        "forms": against(data["contacts"][2:] + data["kinematics"] + data["distribution"]),
         "working_point": against(data["working_point"] + clearance),
         "race_control": race_control(data["race_control"]),
         "halves": halves(data["halves"]),
@@ -271,7 +261,7 @@ def heat(found):
     first = found["changed"][0]
 
     def shown(row):
-        return row is first or np.abs(np.subtract(row["ratio"], first["ratio"])).max() > 0.0601  # two digits
+        return row is first or np.abs(np.subtract(row["ratio"], first["ratio"])).max() > 0.15
 
     return {
         "factor": max((total / measured).max(), (measured / total).max()),
