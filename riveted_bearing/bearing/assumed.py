@@ -1,7 +1,7 @@
 """Values that nobody gave and that the rivets' stress moves with, and who gave the others.
 
 Ranges of the 6207's own values stand in fmus/variables.toml, those of values by rule in data/rules.csv, which
-benchmarks/rules.py writes with docs/rules.md.  The change of the stress over a range is another one in each bearing:
+benchmarks/rules.py writes with docs/own_bearing.md.  The change of the stress over a range is another one in each bearing:
 that of the 6207 is said of the 6207 alone, that of the 6309 decides which values by rule are named.
 """
 
