@@ -20,7 +20,7 @@ CONFIGURE = $(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build browser site dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build browser site pictures dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: $(VENV)/full  ## build the FMU, then run the paper's working point: stress, cage and run-time figures
 	@echo "make demo: compiles about 120 files (1 to 3 minutes on two cores, once), then simulates 0.4 s"
@@ -54,6 +54,10 @@ browser: $(VENV)/installed  ## the bearing in a web page, in build/browser/beari
 site: browser  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[docs]"
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+
+pictures: build browser  ## the pictures of the pages anew, in minutes; pages of the program by a Chromium of the system
+	$(PYTHON) -c "import playwright" 2>/dev/null || .ci/environment $(VENV) slow
+	$(PYTHON) docs/site/pictures.py
 
 fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macOS, cross-compiled here
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"

@@ -220,15 +220,10 @@ def scenes(data):
         f"{100 * row['missed_mean']:.0f} % at steps of {float(step) * 1e6:,.0f} µs"
         for step, row in data["sampled_peaks"].items()
     ]
-    groups = data["groups"]["median_us"]
-    single = [us for name, us in groups.items() if name not in ("all", "the evaluation that all share")]
     return {
         "stress": rows,
         "same_bits": all(row["same_bits"] for row in stress.values()),
         "missed": missed,
-        "least": min(single),
-        "most": max(single),
-        "all": groups["all"],
         "reading": data["groups"]["reading"],
     }
 
@@ -252,7 +247,6 @@ def scaling(data):
         "horizons": list(data["horizon"]),
         "rtf": [q["rtf"] for q in quarters],
         "memory": max(q["peak_memory_MB"] for q in quarters),
-        "parallel": [f"{count}: {row['rtf']:.3f}" for count, row in data["parallel"].items()],
     }
 
 

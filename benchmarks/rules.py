@@ -67,8 +67,7 @@ The cage is of bronze by default. Other materials change the stress, in %:
 | material | 99.9 % quantile | mean |
 |---|---|---|"""
 CLOSE = """
-Mass, inertia and damping of the ring (`ring.*`) move the stress by less than 2 %. Its seats are bore and outside diameter; the land's contact `cage.K_land` scales as
-E* of cage and ring.
+Mass, inertia and damping of the ring (`ring.*`) move the stress by less than 2 %. The land's contact `cage.K_land` scales as E* of cage and ring.
 """
 
 

@@ -36,9 +36,9 @@ OBSERVED = {
 }
 STATISTICS = ("cage_omega", "Q_c_mean", "Q_c_p999", "sigma_head_mean", "sigma_head_p999")
 HALVES = [  # fit [um], r/min, tilt [deg] that are shown
-    *((-10, speed, 0.0) for speed in (4000, 12000, 24000)),
+    *((-10, speed, 0.0) for speed in (4000, 24000)),
     *((fit, 18238, 0.0) for fit in (-40, 40)),
-    *((-10, 18238, tilt) for tilt in (-0.5, 0.2, 0.5)),
+    *((-10, 18238, tilt) for tilt in (0.2, 0.5)),
 ]
 LOADS = {
     (515.0, 2994.0): "515, 2,994",
