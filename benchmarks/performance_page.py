@@ -148,13 +148,11 @@ def python_costs(data):
 
 def work_precision(data):
     draw_work_precision(data)
-    first = next(iter(data["scenes"].values()))
     default = data["default"]
     return {
         "headline": headline(data),
         "method": default["family"].partition(", ")[2],
         "tolerance": default["tolerance"],
-        "starts": first["states"]["starts"],
         "doubt": max(scene["states"]["reference_doubt"] for scene in data["scenes"].values()),
         "names": [SHORT[name] for name in data["scenes"]],
         "costs": costs(data),
@@ -250,33 +248,13 @@ def scaling(data):
     }
 
 
-# -------------------------------------------------------------------------------------------------------------- goals
-
-
-def goals(found):
-    """The goals that hold for no single scene, from all records that exist."""
-    rows = []
-    if data := found["scenes"]:
-        for step_size, cases in data["inputs"].items():
-            evals = cases["changing"]["evals"] / cases["free"]["evals"]
-            rows.append([f"evaluations, inputs changing every {float(step_size):g} s", "≤ 2×", f"{evals:.2f}×"])
-    if data := found["rhs"]:
-        sets = next(iter(data["scenes"].values()))["sets"]
-        if "avx2" in sets:
-            gain = sets["scalar"]["rhs"] / sets["avx2"]["rhs"]
-            rows.append(["right-hand side, AVX2 against scalar", "≥ 2×", f"{gain:.2f}×"])
-    if data := found["scaling"]:
-        rows.append(["instantiation and initialisation", "≤ 50 ms", f"{data['start_ms']:.1f} ms"])
-    return rows
-
-
 CHAPTERS = blind, work_precision, rhs, step, scenes, scaling
 
 
 def page(folder=RESULTS):
     """The page as text, from the newest records in a folder; draws its pictures."""
     found = {chapter.__name__: newest_if_any(chapter.__name__, folder) for chapter in CHAPTERS}
-    values = {"goals": goals(found)}
+    values = {}
     for chapter in CHAPTERS:
         data = found[chapter.__name__]
         values[chapter.__name__] = data and chapter(data) | {"origin": origin(data)}

@@ -208,12 +208,6 @@ def picture_of_skid(data):
 
 def cage_forces(found):
     """ASME J. Lubr. Tech. 101(2)."""
-    titles = {"thrust 2224 N": "thrust", "thrust 2224 N, radial 1112 N": "with 1,112 N radial"}
-    rows = []
-    for row in found["rows"][2:]:  # the slow ones: in the text
-        pairs = zip(row["two_half"], row["elastic"], (2, 1, 1), strict=True)
-        cells = (f"{a:.{digits}f}/{b:.{digits}f}" for a, b, digits in pairs)
-        rows.append((f"{row['speed']:,}", titles[row["load"]], *cells))
     sensors = [name for name in found["sensed"][0] if name.endswith("Hz")]
     sensed = [
         {"ratio": row["ratio"], "F_x": row["F_x"], "forces": [row["force"], *(row[s] for s in sensors)]}
@@ -224,13 +218,11 @@ def cage_forces(found):
     forces = [force for row in sensed for force in row["forces"]]
     return {
         "slow": max(row[cage][2] for row in found["rows"][:2] for cage in ("two_half", "elastic")),
-        "rows": rows,
         "sensors": sensors,
         "least": min(forces),
         "most": max(forces),
         "columns": [f"thrust {F_x:,.0f} N" for F_x in thrusts],
         "sensed": [(f"{r:g}", *(cells[r, F_x] for F_x in thrusts)) for r in sorted({key[0] for key in cells})],
-        "softest": found["soft"][-1]["12000"][0],
     }
 
 

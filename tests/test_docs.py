@@ -178,7 +178,7 @@ def test_the_site_has_formulas_search_and_the_interface(site):
         "a formula at a line's start stays in its sentence"
     )
     index = site["search/search_index.json"].read_text(encoding="utf-8")
-    assert "joint.preload" in index and "Own bearing" in index
+    assert "joint.preload" in index and "Your own bearing" in index
     api = site["api.html"].read_text(encoding="utf-8")
     for text in ("Simulate the FMU at its own working point", "to_xarray", "Raises UserError"):
         assert text in api

@@ -38,8 +38,12 @@ def on_page_markdown(markdown, page, config, files):
 
 def formulas(text):
     """$LaTeX$ and $$LaTeX$$ as MathML."""
+    display = '<div style="overflow-x: auto">{}</div>'.format  # a telephone scrolls the formula, not the page
     text = re.sub(
-        r"\$\$(.+?)\$\$", lambda formula: convert(formula[1].replace("\n", " "), display="block"), text, flags=re.DOTALL
+        r"\$\$(.+?)\$\$",
+        lambda formula: display(convert(formula[1].replace("\n", " "), display="block")),
+        text,
+        flags=re.DOTALL,
     )
     # a bare <math> at a line's start would end the paragraph
     return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)
