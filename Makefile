@@ -51,7 +51,7 @@ browser: $(VENV)/installed  ## the bearing in a web page, in build/browser/beari
 	$(BIN)/cmake --build build/wasm32 --target browser
 	$(PYTHON) docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html
 
-site: browser  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
+site: browser  ## the pages of docs/ as a site in build/site: open index.html, no network needed; its search needs a server (python -m http.server)
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[docs]"
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
 

@@ -62,7 +62,7 @@ D is the ball diameter, d_m the pitch diameter, B the bearing's width. Ranges ar
 | | value | by rule | range | at its low end, % | high end, % |
 |---|---|---|---|---|---|"""
 MATERIALS_TABLE = """
-The cage is of bronze by default. Other materials change the stress, in %:
+The cage is of bronze by default. Other materials change the stress, with the preload at 86 °C, in %:
 
 | material | 99.9 % quantile | mean |
 |---|---|---|"""

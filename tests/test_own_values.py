@@ -408,7 +408,7 @@ def test_values_by_rule_are_named_without_the_changes_of_another_bearing():
     """What moves the 6309's stress by 5 % or more (docs/own_bearing.md) and what an aviation oil stands for, each with its
     range here; a change of the stress is said of the 6207 alone.
     """
-    rivet = ["rivet.shank_diameter", "rivet.fillet_radius", "rivet.head_height"]
+    rivet = ["rivet.shank_diameter", "rivet.fillet_radius", "rivet.head_height", "rivet.flange_thickness"]
     rows = list(assumed.assumed_rows(of_rules(["joint.preload"], **{"rivet.shank_diameter": 2.357e-3})))
     shown = {row.name: row.words for row in rows}
     own = {"joint.preload", "joint.fit", "cage.pocket_clearance", "oil.eta"}
