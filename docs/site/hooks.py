@@ -4,6 +4,7 @@ files that the site does not hold.
 
 import os
 import re
+import tomllib
 from pathlib import Path
 
 from latex2mathml.converter import convert
@@ -14,6 +15,13 @@ ROOT = Path(__file__).resolve().parents[2]
 OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}
 BEARING = ROOT / "build" / "browser" / "bearing.html"  # written by `make browser`
 CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
+
+
+def on_config(config):
+    """The link to the repository, from the one place of its address."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    config["repo_url"], config["repo_name"] = project["urls"]["Repository"], project["name"]
+    return config
 
 
 def on_files(files, config):
