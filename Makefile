@@ -133,7 +133,7 @@ bare:  ## `make demo` and `make test` on a bare Debian DEBIAN=12 or 13, as root
 	.ci/bare $(DEBIAN)
 
 clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
-	rm -rf build $(FMU) fmus/Shaft.fmu fmus/Transmission.ssp
+	rm -rf build $(FMU) fmus/Shaft.fmu fmus/Transmission.ssp fmus/Transmission-2.0.ssp
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
