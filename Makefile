@@ -15,16 +15,17 @@ C_TESTS = $(filter-out tests/test_importers.py,$(shell grep -lE 'def .*\bcore\b|
 # Leaks are Python's, deletes of another size than was allocated are the importer Ecos'.
 ASAN    = detect_leaks=0:new_delete_type_mismatch=0
 
-CONFIGURE = $(BIN)/cmake -S . -B build -G Ninja -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON) -DFMU=$(CURDIR)/$(FMU)
+# A name of CMakePresets.json follows.
+CONFIGURE = $(BIN)/cmake --preset
 
 export PATH := $(CURDIR)/$(BIN):$(PATH)  # cmake finds ninja
 export MPLBACKEND = Agg
 
-.PHONY: demo test test-slow bench build browser site dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
+.PHONY: demo test test-slow bench build browser site pictures dist fmu-all generate lock lint format sanitize sanitize-threads analyze fuzz bare clean help
 
 demo: $(VENV)/full  ## build the FMU, then run the paper's working point: stress, cage and run-time figures
 	@echo "make demo: compiles about 120 files (1 to 3 minutes on two cores, once), then simulates 0.4 s"
-	@test -f build/build.ninja || $(CONFIGURE) >build-configure.log || { cat build-configure.log; exit 1; }
+	@test -f build/build.ninja || $(CONFIGURE) default >build-configure.log || { cat build-configure.log; exit 1; }
 	@rm -f build-configure.log
 	$(BIN)/cmake --build build --target fmu
 	$(BIN)/riveted-bearing run demo
@@ -51,9 +52,13 @@ browser: $(VENV)/installed  ## the bearing in a web page, in build/browser/beari
 	$(BIN)/cmake --build build/wasm32 --target browser
 	$(PYTHON) docs/site/browser/page.py --core build/wasm32/RivetedBearing.wasm --out build/browser/bearing.html
 
-site: browser  ## the pages of docs/ as a site with search, in build/site: open index.html, no network needed
+site: browser  ## the pages of docs/ as a site in build/site: open index.html, no network needed; its search needs a server (python -m http.server)
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[docs]"
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --quiet
+
+pictures: build browser  ## the pictures of the pages anew, in minutes; pages of the program by a Chromium of the system
+	$(PYTHON) -c "import playwright" 2>/dev/null || .ci/environment $(VENV) slow
+	$(PYTHON) docs/site/pictures.py
 
 fmu-all: $(VENV)/installed  ## the FMU with binaries for Linux, Windows and macOS, cross-compiled here
 	$(BIN)/pip --disable-pip-version-check --quiet install --no-build-isolation --editable ".[cross]"
@@ -106,19 +111,19 @@ sanitize: $(VENV)/installed  ## the fast tests that call C on a copy compiled wi
 	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=$(ASAN) LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2 -k "not Python" $(C_TESTS)
 
 sanitize-threads: $(VENV)/installed  ## random calls in eight threads with the sanitizer of data races
-	$(BIN)/cmake -S . -B build/threads -G Ninja -DSANITIZE=thread -DFMU=$(CURDIR)/build/threads/threads.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(CONFIGURE) threads
 	$(BIN)/cmake --build build/threads --target fuzz_api
 	setarch --addr-no-randomize build/threads/fuzz_api 10000 1 8
 
 analyze: build  ## static analysis without findings: the compiler's analyzer and clang-tidy
 	$(BIN)/pip --disable-pip-version-check --quiet install clang-tidy
-	$(BIN)/cmake -S . -B build/analyze -G Ninja -DANALYZE=ON -DFMU=$(CURDIR)/build/analyze/analyzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(CONFIGURE) analyze
 	$(BIN)/cmake --build build/analyze --target RivetedBearing
 	$(BIN)/clang-tidy -p build --quiet $(filter %.c,$(shell find fmu_src -name '*.c'))
 
 FUZZ_SECONDS = 120
 fuzz: $(VENV)/installed  ## coverage-guided fuzzing of the FMI functions with sanitizers (clang) for FUZZ_SECONDS, from tests/corpus on
-	$(BIN)/cmake -S . -B build/fuzz -G Ninja -DCMAKE_C_COMPILER=clang -DSANITIZE=fuzzer-no-link,address,undefined,float-cast-overflow -DFMU=$(CURDIR)/build/fuzz/fuzzed.fmu -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
+	$(CONFIGURE) fuzz
 	$(BIN)/cmake --build build/fuzz --target fuzz_api
 	$(PYTHON) tests/fuzz_corpus.py unpack tests/corpus/fuzz_api.txt build/corpus
 	build/fuzz/fuzz_api build/corpus -max_len=2048 -len_control=0 -timeout=20 -max_total_time=$(FUZZ_SECONDS)
@@ -128,7 +133,7 @@ bare:  ## `make demo` and `make test` on a bare Debian DEBIAN=12 or 13, as root
 	.ci/bare $(DEBIAN)
 
 clean:  ## remove what was built; the Python environment and the cached SUNDIALS archive stay
-	rm -rf build $(FMU) fmus/Shaft.fmu fmus/Transmission.ssp
+	rm -rf build $(FMU) fmus/Shaft.fmu fmus/Transmission.ssp fmus/Transmission-2.0.ssp
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):[^#]*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
@@ -143,5 +148,5 @@ $(VENV)/full: pyproject.toml .ci/environment
 	@touch $@
 
 build/build.ninja: $(VENV)/installed
-	$(CONFIGURE)
+	$(CONFIGURE) default
 	touch $@

@@ -148,13 +148,11 @@ def python_costs(data):
 
 def work_precision(data):
     draw_work_precision(data)
-    first = next(iter(data["scenes"].values()))
     default = data["default"]
     return {
         "headline": headline(data),
         "method": default["family"].partition(", ")[2],
         "tolerance": default["tolerance"],
-        "starts": first["states"]["starts"],
         "doubt": max(scene["states"]["reference_doubt"] for scene in data["scenes"].values()),
         "names": [SHORT[name] for name in data["scenes"]],
         "costs": costs(data),
@@ -163,15 +161,6 @@ def work_precision(data):
 
 
 # ---------------------------------------------------------------------------------------------------- right-hand side
-
-
-def element_rows(scene, sets):
-    """Rows of the elements, those below 3 % of the scalar evaluation summed up."""
-    times = {isa: scene["sets"][isa]["elements"] for isa in sets}
-    large = [name for name, ns in times["scalar"].items() if ns >= 0.03 * scene["sets"]["scalar"]["rhs"]]
-    rows = [[f"– {name}", *[f"{times[isa][name]:,.0f}" for isa in sets]] for name in large]
-    rest = [sum(ns for name, ns in times[isa].items() if name not in large) for isa in sets]
-    return [*rows, ["– others", *[f"{ns:,.0f}" for ns in rest]]] if any(rest) else rows
 
 
 def rhs(data):
@@ -185,7 +174,6 @@ def rhs(data):
         if len(rows) > 1:
             continue
         rows.append(["against scalar", *[f"{scene['sets']['scalar']['rhs'] / ns:.2f}×" for ns in times]])
-        rows += element_rows(scene, sets)
         if all("floor" in scene["sets"][isa] for isa in sets):
             floors = [scene["sets"][isa]["floor"] for isa in sets]
             rows.append(["floor", *[f"{max(f[part] for part in FLOORS):,.0f}" for f in floors]])
@@ -195,22 +183,6 @@ def rhs(data):
 FLOORS = "arithmetic", "load", "divide_root"
 
 # --------------------------------------------------------------------------------------------------------------- step
-
-
-def share(scene, part):
-    """Part of a step's instructions that a source file takes, 0 if it is not called."""
-    counts = scene["parts"].get(part, {"counts": {}})["counts"]
-    return counts.get("instructions", 0) / scene["counts"]["instructions"]
-
-
-def steps_by_part(scenes):
-    """Rows of the shares of a step's instructions by part, those below 5 % of every scene summed up."""
-    parts = dict.fromkeys(part for scene in scenes for part in scene["parts"])
-    large = [part for part in parts if max(share(scene, part) for scene in scenes) >= 0.05]
-    large.sort(key=lambda part: -share(scenes[0], part))
-    rows = [[part, *[f"{100 * share(scene, part):.0f}" for scene in scenes]] for part in large]
-    rest = [sum(share(scene, part) for part in parts if part not in large) for scene in scenes]
-    return [*rows, ["others", *[f"{100 * part:.0f}" for part in rest]]]
 
 
 def whole_steps(scenes):
@@ -230,8 +202,6 @@ def step(data):
     names = [SHORT[name] for name in data["cages"]["elastic"]]
     return {
         "isa": data["isa"],
-        "names": names,
-        "parts": steps_by_part(elastic),
         "columns": [f"{name}: {cage}" for name in names for cage in ("elastic", "rigid")],
         "whole": whole_steps(pairs),
     }
@@ -245,92 +215,37 @@ def scenes(data):
     base = stress["off"]["rtf"]
     rows = [[name, f"{row['rtf']:.3f}", f"{100 * (row['rtf'] / base - 1):+.1f}"] for name, row in stress.items()]
     missed = [
-        [f"{float(step) * 1e6:,.0f}", f"{100 * row['missed_mean']:.1f}", f"{100 * row['missed_most']:.0f}"]
+        f"{100 * row['missed_mean']:.0f} % at steps of {float(step) * 1e6:,.0f} µs"
         for step, row in data["sampled_peaks"].items()
-    ]
-    groups = data["groups"]["median_us"]
-    single = [us for name, us in groups.items() if name not in ("all", "the evaluation that all share")]
-    models = [
-        [
-            name,
-            f"{row['rtf']:.2f}/{row['rtf_full']:.2f}",
-            *[percent(row["figures"][key]) for key in MODEL_FIGURES],
-        ]
-        for name, row in data["models"].items()
     ]
     return {
         "stress": rows,
         "same_bits": all(row["same_bits"] for row in stress.values()),
         "missed": missed,
-        "least": min(single),
-        "most": max(single),
-        "all": groups["all"],
         "reading": data["groups"]["reading"],
-        "seeds": data["seeds"],
-        "span": data["span"],
-        "models": models,
     }
-
-
-MODEL_FIGURES = "Q_c_mean", "Q_c_p999", "sigma_head_rms", "sigma_head_p999"
 
 
 # ------------------------------------------------------------------------------------------------------------ scaling
 
 
-def fmpy_us(size, row):
-    """fmpy's own time per communication step [µs]."""
-    return 1e6 * (row["constant"]["rtf"] - row["constant"]["inside"]) * float(size)
-
-
 def scaling(data):
     draw_scaling(data)
-    balls = [
-        [z, number(r["rtf"]), f"{r['evals'] / 100:,.0f}", f"{r['us_per_eval']:.2f}", f"{r['start_ms']:.1f}"]
-        for z, r in data["balls"].items()
-    ]
-    cases = "constant", "changing"
     steps = [
         [
             f"{float(step):g}",
             *[number(row["constant"][key], 3) for key in ("rtf", "inside")],
             number(row["changing"]["rtf"], 3),
-            *[f"{row[name]['evals'] / 100:,.0f}" for name in cases],
-            f"{fmpy_us(step, row):.1f}",
         ]
         for step, row in data["step"].items()
     ]
-    outputs = [[count, number(row["rtf"], 3), number(row["inside"], 3)] for count, row in data["outputs"].items()]
     quarters = [quarter for rows in data["horizon"].values() for quarter in rows]
     return {
-        "balls": balls,
         "steps": steps,
-        "outputs": outputs,
         "horizons": list(data["horizon"]),
         "rtf": [q["rtf"] for q in quarters],
         "memory": max(q["peak_memory_MB"] for q in quarters),
-        "parallel": [f"{count}: {row['rtf']:.3f}" for count, row in data["parallel"].items()],
     }
-
-
-# -------------------------------------------------------------------------------------------------------------- goals
-
-
-def goals(found):
-    """The goals that hold for no single scene, from all records that exist."""
-    rows = []
-    if data := found["scenes"]:
-        for step_size, cases in data["inputs"].items():
-            evals = cases["changing"]["evals"] / cases["free"]["evals"]
-            rows.append([f"evaluations, inputs changing every {float(step_size):g} s", "≤ 2×", f"{evals:.2f}×"])
-    if data := found["rhs"]:
-        sets = next(iter(data["scenes"].values()))["sets"]
-        if "avx2" in sets:
-            gain = sets["scalar"]["rhs"] / sets["avx2"]["rhs"]
-            rows.append(["right-hand side, AVX2 against scalar", "≥ 2×", f"{gain:.2f}×"])
-    if data := found["scaling"]:
-        rows.append(["instantiation and initialisation", "≤ 50 ms", f"{data['start_ms']:.1f} ms"])
-    return rows
 
 
 CHAPTERS = blind, work_precision, rhs, step, scenes, scaling
@@ -339,7 +254,7 @@ CHAPTERS = blind, work_precision, rhs, step, scenes, scaling
 def page(folder=RESULTS):
     """The page as text, from the newest records in a folder; draws its pictures."""
     found = {chapter.__name__: newest_if_any(chapter.__name__, folder) for chapter in CHAPTERS}
-    values = {"goals": goals(found)}
+    values = {}
     for chapter in CHAPTERS:
         data = found[chapter.__name__]
         values[chapter.__name__] = data and chapter(data) | {"origin": origin(data)}

@@ -5,7 +5,7 @@ range, all others by rule, in the 6309 at its loads and speed by rule, with the 
 rivet table need a build each.
 
 python benchmarks/rules.py [--short]   half an hour on two cores; --short: two seeds, no builds
-python benchmarks/rules.py --page      writes docs/rules.md and riveted_bearing/data/rules.csv from the newest record
+python benchmarks/rules.py --page      writes a part of docs/own_bearing.md and riveted_bearing/data/rules.csv from the newest record
 """
 
 import argparse
@@ -28,31 +28,46 @@ from riveted_bearing.bearing.rules import RIVET
 from riveted_bearing.building.rivet import geometry_of
 
 BEARING, T_END, SEEDS = OF_RULES, 0.25, 8
-PAGE = ROOT / "docs" / "rules.md"
-INTRO = f"""<!-- Written by benchmarks/rules.py: do not edit. -->
-# Rules for missing values
+PAGE = ROOT / "docs" / "own_bearing.md"
+MARKS = "<!-- Written by benchmarks/rules.py, do not edit: -->\n", "<!-- end of what benchmarks/rules.py writes -->\n"
+LETTERS = {  # of the dimensions in the page's first picture
+    "cage.D_o": "A",
+    "cage.D_i": "C",
+    "cage.width": "E",
+    "cage.land_width": "F",
+    "cage.land_x": "G",
+    "cage.pocket_clearance": "H",
+    "cage.guide_clearance": "J",
+    "rivet.shank_diameter": "K",
+    "rivet.flange_thickness": "L",
+    "rivet.head_diameter": "M",
+    "rivet.head_height": "N",
+    "rivet.fillet_radius": "P",
+    "rivet.relief_radius": "Q",
+    "rivet.relief_depth": "R",
+    "rivet.edge_break": "S",
+    "rivet.seat_diameter": "T",
+    "joint.fit": "U",
+}
+INTRO = f"""## Numbers to take from the drawing
 
-Values that a bearing file leaves out are scaled from the 6207 of the paper (`riveted_bearing/bearing/scaling.py`).
-The table has the change of the rivets' stress if one value is at either end of its usual range.
+A value that the file leaves out is scaled from the paper's 6207. The table shows how the stress changes if the value is at either end of its
+usual range: first take those from the drawing that move the stress most. Stress is the 99.9 % quantile of the worst head of the
+{BEARING}, {{p999:.0f}} MPa by rule (mean {{mean:.0f}} MPa), with elastic halves and the standard error of {{seeds}} seeds of {T_END:g} s.
+`riveted-bearing sensitivity` measures the same in your bearing.
 
-Bearing: the {BEARING} by its designation, elastic cage halves, {{seeds}} seeds of {T_END:g} s.
-Stress: 99.9 % quantile of the worst head, {{p999:.0f}} MPa by rule (mean {{mean:.0f}} MPa), with the standard error.
-Diameters: D ball, d_m pitch, d shank, d_h head; B bearing width.
-*: less if the cage were wider than {scaling.WIDEST_CAGE} B. The range is in multiples of the rule's value.
+D is the ball diameter, d_m the pitch diameter, B the bearing's width. Ranges are multiples of the rule's value, with sources in
+`riveted_bearing/data/rules.csv`. *: less if the cage were wider than {scaling.WIDEST_CAGE} B.
 
-| value | by rule | range | at its low end, % | high end, % | source of the range |
+| | value | by rule | range | at its low end, % | high end, % |
 |---|---|---|---|---|---|"""
 MATERIALS_TABLE = """
-The cage's default material is bronze. Other materials change the stress, in %:
+The cage is of bronze by default. Other materials change the stress, with the preload at 86 °C, in %:
 
 | material | 99.9 % quantile | mean |
 |---|---|---|"""
 CLOSE = """
-
-Rules without a range are those of balls and loads ([own_bearing.md](own_bearing.md)), mass and inertia of the half,
-number of modes, temperatures of the parts and the S–N curve. The ring's seats are bore and outside diameter, its support
-`ring.k_tilt` scales as `ring.m`, the land's contact `cage.K_land` as E* of cage and ring. `start.settle` is 15 revolutions.
-Damage grows with the 15th power of the stress.
+Mass, inertia and damping of the ring (`ring.*`) move the stress by less than 2 %. The land's contact `cage.K_land` scales as E* of cage and ring.
 """
 
 
@@ -74,13 +89,13 @@ class Rule:
         if self.of == "d_m + D":
             return f"d_m {'+' if start > d_m else '−'} {abs(start - d_m) / D:.3g} D"
         if self.of == "d^2":
-            return f"{1e-6 * start / d**2:.3g} N/mm² d²"
+            return f"{1e-6 * start / d**2:.3g} N/mm² K²"
         return {
             "class CN": "middle of class CN (ISO 5753-1)",
             "D": f"{start / D:.3g} D",
             "axial": f"{start / D:.3g} D*",
-            "d": f"{start / d:.3g} d",
-            "head": f"{start / RIVET['head_diameter']:.3g} d_h, less at narrow bridges",
+            "d": f"{start / d:.3g} K",
+            "head": f"{start / RIVET['head_diameter']:.3g} M, less at narrow bridges",
             "ring": "6207's × (bore/35 mm)² B/17 mm",
             "tilting ring": "6207's × (bore/35 mm)⁴ B/17 mm",
             "damping ratio": "6207's × (bore/35 mm)³ B/17 mm",
@@ -210,17 +225,23 @@ def change_text(row, end):
 
 
 def page(record):
-    """docs/rules.md of a record."""
+    """What docs/own_bearing.md has of a record."""
     lines = [INTRO.format(seeds=record["seeds"], p999=record["p999"] / 1e6, mean=record["mean"] / 1e6)]
-    for rule in RULES:
-        if rule.name in record["rules"]:
+    for rule in sorted(RULES, key=lambda rule: LETTERS.get(rule.name, "Z")):
+        if rule.name in record["rules"] and not rule.name.startswith("ring."):
             row = record["rules"][rule.name]
             ends = f"{rule.low:g}–{rule.high:g}", change_text(row, "low"), change_text(row, "high")
-            lines.append(f"| `{rule.name}` | {rule.formula} | {' | '.join(ends)} | {rule.source} |")
+            lines.append(f"| {LETTERS.get(rule.name, '')} | `{rule.name}` | {rule.formula} | {' | '.join(ends)} |")
     lines.append(MATERIALS_TABLE)
     for name, row in record["materials"].items():
         lines.append(f"| `{name}` | {row['p999']:+.1f}±{row['error']:.1f} | {row['mean']:+.1f} |")
-    return "\n".join(lines) + CLOSE
+    return "\n".join(lines) + "\n" + CLOSE
+
+
+def written(text, part):
+    """A page with the part between its marks replaced."""
+    (head, rest), mark = text.split(MARKS[0]), MARKS[1]
+    return head + MARKS[0] + part + mark + rest.split(mark)[1]
 
 
 def effects(record):
@@ -257,7 +278,7 @@ def main():
             found |= {"rules": old["rules"] | found["rules"], "materials": old["materials"]}
         write("rules", found, options.short)
     record = newest_record("rules")
-    PAGE.write_text(page(record), encoding="utf-8")
+    PAGE.write_text(written(PAGE.read_text(encoding="utf-8"), page(record)), encoding="utf-8")
     Path(str(RULES_TABLE)).write_text(effects(record), encoding="utf-8")
 
 

@@ -30,15 +30,8 @@ def family_rows(records):
             len(own),
             f"{energy['balance']:.1e}" if energy else "—",
             f"{100 * rejected:.1f}",
-            f"{slow['ratio']:.1f} ({slow['name']})" if slow else "—",
+            f"{slow['ratio']:.1f}" if slow else "—",
         )
-
-
-def event_rows(records):
-    kinds = Counter()
-    for r in records:
-        kinds.update({kind: 1 for kind, onsets in r.get("events", {}).items() if onsets})
-    return [(kind.replace("_", " "), count) for kind, count in kinds.most_common()]
 
 
 def refusal_rows(records):
@@ -70,7 +63,7 @@ def write_page(path, problems):
         values["elastic"] = {"slow": largest(found, "ratio"), "energy": largest(found, "balance")}
     open_ = [r for r in records if r.get("balance", 0.0) > 0.01 and r["family"] != "tolerance"]
     values |= {"open_": open_, "worst": max(open_, key=lambda r: r["residual"], default=None)}
-    values |= {"families": family_rows(records), "events": event_rows(records), "refusals": refusal_rows(records)}
+    values |= {"families": family_rows(records), "refusals": refusal_rows(records)}
     if long:
         values |= long_values(long)
     path.write_text(page_text("stability.md", values), encoding="utf-8")
@@ -79,7 +72,7 @@ def write_page(path, problems):
 def long_values(data):
     """Tables of the long runs."""
     rows = data["long_run"]["rows"]
-    last, shown = rows[-1], (rows[0], rows[len(rows) // 2], rows[-1])
+    last = rows[-1]
     drift = np.polyfit([r["t"] for r in rows], [r["bearing.energy_residual"] for r in rows], 1)[0]
     loss = np.mean([r["bearing.power_loss"] for r in rows])
     quantities = (
@@ -91,18 +84,8 @@ def long_values(data):
         ("largest friction state", f"{1e6 * max(r['friction'] for r in rows):.2f} µm"),
         ("error of `stat.time`", f"{abs(last['stat.time'] - last['t'] + 0.05):.1e} s"),
     )
-    columns = [
-        (
-            f"{r['t']:g}",
-            f"{r['bearing.energy_residual']:.2e}",
-            f"{r['stat.Q_c_rms']:.4f}",
-            f"{r['stat.cage_omega']:.4f}",
-            f"{1e6 * r['cage.dislocation']:.2f}",
-        )
-        for r in shown
-    ]
     differences = {name: f"{value:.1e}" for name, value in data["many_turns"]["differences"].items()}
-    return {"last": last, "quantities": quantities, "shown": columns, "differences": differences}
+    return {"last": last, "quantities": quantities, "differences": differences}
 
 
 def phase(rows):

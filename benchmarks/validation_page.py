@@ -21,34 +21,24 @@ PAGE, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "validation"
 OBSERVED = {
     "dy/dt of core and reference": ("twin", ("derivatives",), ()),
     "Jacobian, quantiles 50, 90, 99 %": ("twin", ("jacobian",), ()),
-    "start, two solvers": ("twin", ("start",), ()),
     "all outputs": ("twin", ("outputs",), ()),
     "trajectory at 1e-5…1e-8, explicit": ("twin", ("trajectory",), ("EXPLICIT",)),
     "trajectory at 1e-5…1e-8, Verlet": ("twin", ("trajectory",), ("VERLET",)),
     "dE/dt against net power": ("twin", ("power_is_rate_of_energy",), ()),
-    "energy balance, housing and frame moving [J]": ("twin", ("ledger",), ("residual",)),
     "dy/dt turned, mirrored, in other units": (
         "invariance",
         ("turn_by_a_pitch", "mirror_z", "mirror_x", "other_units"),
         (),
     ),
-    "the same of elastic halves": ("invariance", ("turn_of_elastic_halves", "mirror_of_elastic_halves"), ()),
     "1 ms turned, mirrored": ("invariance", ("trajectory_of_the_image",), ()),
-    "drift of 26.5 J without losses [J]": ("energy", ("lossless_energy_converges",), ("J at 1e-7",)),
     "energy balance of 10 ms": ("energy", ("energy_balance_of_a_run",), ("of what is dissipated",)),
     "moment about the axis [N·m]": ("conservation", ("angular_momentum_about_the_axis",), ("difference",)),
-    "drift of 0.4 N·m·s, Runge–Kutta, Verlet": (
-        "conservation",
-        ("angular_momentum_stays",),
-        ("Runge-Kutta", "Verlet at 1e-5"),
-    ),
 }
-STATISTICS = ("contact_duty", "cage_omega", "Q_c_mean", "Q_c_p999")
-STATISTICS += tuple(f"sigma_{place}_{name}" for place in ("head", "mid") for name in ("mean", "p999"))
+STATISTICS = ("cage_omega", "Q_c_mean", "Q_c_p999", "sigma_head_mean", "sigma_head_p999")
 HALVES = [  # fit [um], r/min, tilt [deg] that are shown
-    *((-10, speed, 0.0) for speed in (4000, 12000, 24000)),
+    *((-10, speed, 0.0) for speed in (4000, 24000)),
     *((fit, 18238, 0.0) for fit in (-40, 40)),
-    *((-10, 18238, tilt) for tilt in (-0.5, 0.2, 0.5)),
+    *((-10, 18238, tilt) for tilt in (0.2, 0.5)),
 ]
 LOADS = {
     (515.0, 2994.0): "515, 2,994",
@@ -71,7 +61,7 @@ def page(data):
     clearance = [row for row in data["clearance"] if row["expected"] != usual]
     values = {
         "data": data,
-        "forms": against(data["contacts"] + data["kinematics"] + data["distribution"]),
+        "forms": against(data["contacts"][2:] + data["kinematics"] + data["distribution"]),
         "working_point": against(data["working_point"] + clearance),
         "race_control": race_control(data["race_control"]),
         "halves": halves(data["halves"]),
@@ -191,25 +181,16 @@ def statistics(found):
 
 
 def ledger(found):
-    """The energy of the reference's run: the terms, and how many are too small to be shown."""
-    terms = [
-        (f"{kind}: {name}", value) for kind in ("supplied", "stored", "lost") for name, value in found[kind].items()
-    ]
-    rows = [(name, f"{value:.4f}") for name, value in terms if abs(value) > 1e-2]
-    rows.append(("**supplied − stored − lost**", f"{found['residual']:.4f}"))
-    return {"zero": sum(abs(value) < 1e-2 for _, value in terms), "rows": rows}
+    """The energy of the reference's run, by kind."""
+    return {kind: sum(found[kind].values()) for kind in ("supplied", "stored", "lost")}
 
 
 def skid(found):
     """NASA TN D-7870."""
     slips = {row["F_x"]: row["slips"] for row in found["rows"]}
-    rows = [
-        (f"{F_x:,.0f} N", *(f"{slip:+.2f}" for slip in row), "yes" if np.all(np.diff(row) > 0.0) else "no")
-        for F_x, row in slips.items()
-    ]
+    grows = [f"{F_x:,.0f} N" for F_x, row in slips.items() if np.all(np.diff(row) > 0.0)]
     every = [slip for row in slips.values() for slip in row]
-    columns = [f"{speed:,} r/min" for speed in found["speeds"]]
-    return {"least": min(every), "most": max(every), "columns": columns, "rows": rows}
+    return {"least": min(every), "most": max(every), "grows": grows}
 
 
 def picture_of_skid(data):
@@ -227,12 +208,6 @@ def picture_of_skid(data):
 
 def cage_forces(found):
     """ASME J. Lubr. Tech. 101(2)."""
-    titles = {"thrust 2224 N": "thrust", "thrust 2224 N, radial 1112 N": "with 1,112 N radial"}
-    rows = []
-    for row in found["rows"][2:]:  # the slow ones: in the text
-        pairs = zip(row["two_half"], row["elastic"], (2, 1, 1), strict=True)
-        cells = (f"{a:.{digits}f}/{b:.{digits}f}" for a, b, digits in pairs)
-        rows.append((f"{row['speed']:,}", titles[row["load"]], *cells))
     sensors = [name for name in found["sensed"][0] if name.endswith("Hz")]
     sensed = [
         {"ratio": row["ratio"], "F_x": row["F_x"], "forces": [row["force"], *(row[s] for s in sensors)]}
@@ -243,13 +218,11 @@ def cage_forces(found):
     forces = [force for row in sensed for force in row["forces"]]
     return {
         "slow": max(row[cage][2] for row in found["rows"][:2] for cage in ("two_half", "elastic")),
-        "rows": rows,
         "sensors": sensors,
         "least": min(forces),
         "most": max(forces),
         "columns": [f"thrust {F_x:,.0f} N" for F_x in thrusts],
         "sensed": [(f"{r:g}", *(cells[r, F_x] for F_x in thrusts)) for r in sorted({key[0] for key in cells})],
-        "softest": found["soft"][-1]["12000"][0],
     }
 
 
@@ -280,7 +253,7 @@ def heat(found):
     first = found["changed"][0]
 
     def shown(row):
-        return row is first or np.abs(np.subtract(row["ratio"], first["ratio"])).max() > 0.0601  # two digits
+        return row is first or np.abs(np.subtract(row["ratio"], first["ratio"])).max() > 0.15
 
     return {
         "factor": max((total / measured).max(), (measured / total).max()),

@@ -48,10 +48,17 @@ add_custom_command(OUTPUT ${fmu_dir}/Shaft.fmu
         --source ${shaft}/build_info.c --include ${fmu_src} --include ${shaft} --page ${shaft}/index.html --pictures ${shaft}/icons --out ${fmu_dir}/Shaft.fmu
     DEPENDS ${shaft_files} ${generated} ${shaft}/build_info.c ${shaft}/index.html ${shaft}/icons/icon.png ${tools}/package.py ${tools}/materials.py
         ${tools}/sources.py VERBATIM)
-set(system ${fmu_dir}/Transmission.ssp)
-add_custom_command(OUTPUT ${system}
-    COMMAND ${run}/system.py --description ${transmission}/transmission.ssd --out ${system}
-        --resource ${transmission}/shaft.ssv --resource ${transmission}/bearing.ssv --resource ${fmu_dir}/Shaft.fmu --resource ${FMU}
-    DEPENDS ${FMU} ${fmu_dir}/Shaft.fmu ${transmission}/transmission.ssd ${transmission}/shaft.ssv ${transmission}/bearing.ssv ${tools}/system.py ${tools}/package.py VERBATIM)
-add_custom_target(transmission ALL DEPENDS ${system})
+set(system_parts ${transmission}/shaft.ssv ${transmission}/bearing.ssv ${fmu_dir}/Shaft.fmu ${FMU})
+list(TRANSFORM system_parts PREPEND "--resource=" OUTPUT_VARIABLE resources)
+foreach(version 1.0 2.0)
+    set(system ${fmu_dir}/Transmission.ssp)
+    if(version STREQUAL "2.0")
+        set(system ${fmu_dir}/Transmission-2.0.ssp)
+    endif()
+    add_custom_command(OUTPUT ${system}
+        COMMAND ${run}/system.py --version ${version} --description ${transmission}/transmission.ssd --out ${system} ${resources}
+        DEPENDS ${system_parts} ${transmission}/transmission.ssd ${tools}/system.py ${tools}/package.py VERBATIM)
+    list(APPEND systems ${system})
+endforeach()
+add_custom_target(transmission ALL DEPENDS ${systems})
 add_dependencies(transmission fmu)

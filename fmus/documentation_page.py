@@ -47,14 +47,15 @@ def sections(markdown, *titles):
 
 
 def without_links(markdown):
-    return re.sub(r"!?\[([^]]*)\]\((?!http)[^)]*\)", r"\1", markdown)
+    markdown = re.sub(r"!\[[^]]*\]\([^)]*\)\s*", "", markdown)
+    return re.sub(r"\[([^]]*)\]\((?!http)[^)]*\)", r"\1", markdown)
 
 
 def bearing_texts():
     """What the project's own texts say about the bearing."""
     physics = (PROJECT / "docs" / "physics.md").read_text()
     return {
-        "conventions": html(sections(physics, "Inputs and outputs", "Frames and signs")),
+        "conventions": html(sections(physics, "Frames and signs")),
         "physics": html(sections(physics, "The elements", "Integration", "Symbols")),
         "rivet": html(without_links(re.sub(r"\A# .*\n", "", (PROJECT / "docs" / "rivet.md").read_text()))),
     }

@@ -1,12 +1,15 @@
 """The pages: links lead somewhere, the cookbook's commands do what they say, the site is whole and needs no network."""
 
 import contextlib
+import fnmatch
+import glob
 import html.parser
 import os
 import re
 import shlex
 import subprocess
 import sys
+from dataclasses import fields
 from pathlib import Path
 from urllib.parse import unquote
 
@@ -15,9 +18,12 @@ import typer
 from commands import run_in_shell
 from typer.main import get_command
 
+from bearing_model.generated import variables
+from rivet_model.geometry import Geometry
 from riveted_bearing import cli
 
 ROOT = Path(__file__).resolve().parents[1]
+DOCS = ROOT / "docs"
 PAGES = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").rglob("*.md")]
 COOKBOOK = (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```", COOKBOOK, re.S | re.M)
@@ -62,6 +68,63 @@ def test_commands_parse(line):
     program = get_command(cli.program)
     with typer.Context(program) as context:
         program.get_command(context, name).make_context(name, arguments, parent=context)
+
+
+def without_numbers(name):
+    """A variable's name without the number, or the letter for it, of its rivet, ball or wave."""
+    return re.sub(r"\[[^]]*\]", "[]", name)
+
+
+KNOWN = {without_numbers(name) for name in variables.INPUTS | variables.PARAMETERS | variables.OUTPUTS}
+GROUPS = {re.split(r"[.[]", name)[0] for name in KNOWN}
+KNOWN |= {f"rivet.{field.name}" for field in fields(Geometry)}  # keys of a bearing's file
+KNOWN |= {"bearing.F_y", "bearing.F_z", "bearing.M_x", "solver.cpu_time"}  # inputs of examples/transmission; a local
+FOLDERS = (
+    "fmu_src",
+    "bearing_model",
+    "rivet_model",
+    "riveted_bearing",
+    "benchmarks",
+    "tests",
+    "examples",
+    "fmus",
+    "docs",
+    "cmake",
+)
+PLACEHOLDERS = {
+    "tests/test_x.py",
+    "fmus/Transmission-2.0.ssp",
+    "fmus/Transmission.ssp",
+    "fmus/Shaft.fmu",
+    "fmus/RivetedBearing.fmu",
+}
+
+
+def named(page):
+    """What stands in backticks on a page, as words."""
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.S | re.M)
+    return {word for code in re.findall(r"`([^`\n]+)`", text) for word in re.split(r"[\s,=]+", code)}
+
+
+@pytest.mark.parametrize(
+    "page", sorted({*ROOT.glob("*.md"), *DOCS.glob("*.md")} - {DOCS / "files.md"}), ids=lambda path: path.name
+)
+def test_names_on_a_page_exist(page):
+    """Variables of the FMU, also with a star, and files of the project; files.md has keys of files."""
+    unknown = set()
+    for word in named(page):
+        if re.fullmatch(r"[a-z]+(\[\w\*?\])?\.[A-Za-z]\w*(\[\w+\])?\*?", word) and re.split(r"[.[]", word)[0] in GROUPS:
+            is_file = word.endswith((".c", ".h", ".toml", ".ssv", ".fmu"))
+            unknown |= (
+                set()
+                if is_file or fnmatch.filter(KNOWN, glob.escape(without_numbers(word)).replace("[*]", "*"))
+                else {word}
+            )
+        elif word.split("/")[0] in FOLDERS and "/" in word and not set("*…{<") & set(word) and word not in PLACEHOLDERS:
+            unknown |= (
+                set() if any((ROOT / f"{word}{ending}").exists() for ending in ("", ".c", ".h", ".py")) else {word}
+            )
+    assert not unknown, f"{page.name}: {sorted(unknown)}"
 
 
 # ------------------------------------------------------------------------------------------------------------- cookbook
@@ -178,7 +241,7 @@ def test_the_site_has_formulas_search_and_the_interface(site):
         "a formula at a line's start stays in its sentence"
     )
     index = site["search/search_index.json"].read_text(encoding="utf-8")
-    assert "joint.preload" in index and "Own bearing" in index
+    assert "joint.preload" in index and "Your own bearing" in index
     api = site["api.html"].read_text(encoding="utf-8")
     for text in ("Simulate the FMU at its own working point", "to_xarray", "Raises UserError"):
         assert text in api

@@ -160,8 +160,8 @@ def test_the_cookbook_comes_with_the_program():
     assert run_it().stdout == (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
     listed = run_it("list").stdout.splitlines()
     assert {line.split()[0] for line in listed} == {path.stem for path in (ROOT / "docs").glob("*.md")}
-    refused = run_it("recipe")
-    assert refused.exit_code == 2 and 'did you mean "recipes"' in refused.output
+    refused = run_it("coupler")
+    assert refused.exit_code == 2 and 'did you mean "coupling"' in refused.output
     assert "fmu_src fmus docs DESTINATION" in (ROOT / "cmake" / "fmu.cmake").read_text()
 
 

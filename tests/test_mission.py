@@ -253,7 +253,19 @@ def test_a_mission_of_one_point_lives_as_this_point(model):
     assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
     assert (
         set(found)
-        == {"fmu", "fmu_sha256", "basis", "life_h", "low_h", "high_h", "confidence", "raceways", "points", "rivets"}
+        == {
+            "fmu",
+            "fmu_sha256",
+            "basis",
+            "life_h",
+            "low_h",
+            "high_h",
+            "confidence",
+            "raceways",
+            "points",
+            "rivets",
+            "error_budget",
+        }
         and found["confidence"] == 0.9
     )
     assert found["low_h"] < found["life_h"] < found["high_h"]

@@ -296,7 +296,10 @@ def test_reference_results_are_this_binarys(folder):
     (path,) = (folder / "extra" / "org.fmi-standard.fmi-ls-ref").glob("*.csv")
     manifest = etree.parse(path.with_name("fmi-ls-manifest.xml"))
     related = {each.get("role"): each.get("source") for each in manifest.iter("Related")}
-    assert related == {"experiment/smoke-test": "smoke_test.xml", "result": path.name}
+    assert related == {"experiment/smoke-test": "smoke_test.xml", "result": path.name, "meta-data": "validity.srmd"}
+    validity = etree.parse(path.with_name("validity.srmd")).getroot()
+    assert {each.get("keyword") for each in validity.iter("{*}ClassificationEntry")} >= {"range", "horizon", "left out"}
+    assert (path.parent / validity.get("data")).resolve() == (folder / "modelDescription.xml").resolve()
     (experiment,) = etree.parse(path.with_name("smoke_test.xml")).iter("Experiment")
     assert experiment.find("References").get("source") == path.name and float(experiment.get("tolerance")) == 1e-3
     settings = {name: float(value) for name, value in experiment.find("TransientSimulation").attrib.items()}

@@ -227,12 +227,12 @@ def test_the_whole_page_can_be_written(all_runs, tmp_path, monkeypatch):
     assert "`joint.mu=0.3`" in own and " With your parameters the counts are " in own and "## Conflicts" not in own
 
 
-def test_the_page_in_docs_is_of_the_whole_study():
-    """Its introduction is the one that a whole study writes into docs: its words, the link, and no line about a part."""
-    page = Path(__file__).parents[1] / "docs" / "paper.md"
+def test_the_page_beside_it_is_of_the_whole_study():
+    """Its introduction is the one that a whole study writes: its words, and no line about a part."""
+    page = Path(__file__).parents[1] / "benchmarks" / "paper" / "paper.md"
     runs = {name: Runs({"seed": np.arange(8)}) for name in study.shipped_studies()}
     judged = {"paper": {"mean": {"all": [None] * claims.number_of_claims()}}}
-    values = paper.introduction({"paper": runs}, judged, study.PICTURES, page.parent, "study.py --report docs")
+    values = paper.introduction({"paper": runs}, judged, study.PICTURES, "study.py --report benchmarks/paper")
     assert page.read_text(encoding="utf-8").startswith(page_text("paper_introduction.md", values))
 
 
@@ -445,7 +445,6 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
         and "Of 3 of the paper's 34 claims its own" in text
         and "**Part of the study: 3 of the paper's 34 claims, 2 seeds.**" in text
         and "Machines 2023, 11, 700: Fig. 16 with" in text
-        and "](parameters.md)" not in text
         and "reproduce 3, partly 0, not 0" in text
     )
     assert "(`physical`) the counts are 0, 0 and 3." in text

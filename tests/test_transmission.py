@@ -17,6 +17,7 @@ import pytest
 from fmpy.ssp.ssd import get_connections, read_ssd, read_ssv
 from fmpy.validation import validate_fmu
 from library import ROOT
+from lxml import etree
 from slave import OK, Slave
 
 spec = importlib.util.spec_from_file_location("transmission", ROOT / "examples" / "transmission" / "run.py")
@@ -210,12 +211,25 @@ def packed(path, values, units=""):
                 data = data.decode()
                 inside = data.split("<ssv:Parameters>")[1].split("</ssv:Parameters>")[0]
                 data = data.replace(inside, entries)
-                data = data.replace(
-                    "</ssv:Parameters>",
-                    f"</ssv:Parameters><ssv:Units>{units}</ssv:Units>" if units else "</ssv:Parameters>",
-                )
+                data = data.replace("</ssv:Units>", f"{units}</ssv:Units>")
             new.writestr(name, data)
     return path
+
+
+def test_the_system_for_ssp_2_is_the_same_but_for_its_version():
+    """Every unit that a file names has its definition there, as SSP asks for."""
+    with zipfile.ZipFile(SYSTEM) as one, zipfile.ZipFile(SYSTEM.with_name("Transmission-2.0.ssp")) as two:
+        assert one.namelist() == two.namelist()
+        for name in one.namelist():
+            if not name.endswith((".ssd", ".ssv")):
+                assert one.read(name) == two.read(name)
+                continue
+            root, new = etree.fromstring(one.read(name)), etree.fromstring(two.read(name))
+            assert (root.get("version"), new.get("version")) == ("1.0", "2.0")
+            new.set("version", "1.0")
+            assert etree.tostring(root) == etree.tostring(new)
+            named = {each.get("unit") for each in root.iter("{*}Real")}
+            assert named == {each.get("name") for each in root.iter("{*}Unit")}
 
 
 def test_units_of_parameter_sets_are_converted_by_their_definitions(tmp_path):

@@ -3,6 +3,7 @@ rise.
 """
 
 import re
+import subprocess
 import sys
 import tomllib
 
@@ -23,6 +24,14 @@ def test_one_version():
     number, date = re.search(r"^## (\S+) \((.*)\)$", (ROOT / "CHANGELOG.md").read_text(), re.M).groups()
     assert citation["version"] == number == tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["version"]
     assert str(citation.get("date-released", "not released")) == date
+
+
+def test_one_address():
+    """Other files that name the project's address would be forgotten when it changes."""
+    address = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]["urls"]["Repository"]
+    assert yaml.safe_load((ROOT / "CITATION.cff").read_text())["repository-code"] == address
+    said = subprocess.run(["git", "grep", "-l", address], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert set(said.stdout.split()) <= {"pyproject.toml", "CITATION.cff"}
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""docs/paper.md: the page about the paper's study, which study.py makes from the runs.  The text stands in
+"""paper.md: the page about the paper's study, which study.py makes from the runs.  The text stands in
 ../pages/paper.md; the functions here return the numbers in it.
 """
 
@@ -34,7 +34,7 @@ SEEDS = 8  # of each point, from which on half of them have a verdict
 MARKS = {"reproduced": "●", "partly": "◐", "not": "○"}
 
 
-def write_paper(columns, folder, settings=(), command="study.py --report docs"):
+def write_paper(columns, folder, settings=(), command="study.py --report benchmarks/paper"):
     """Write paper.md and its pictures into a folder from the columns {column: {sweep: Runs}}; settings: of the column
     `yours`, for the page; command: of this folder, which the page names as its author.  Returns the file's path.
     """
@@ -44,7 +44,7 @@ def write_paper(columns, folder, settings=(), command="study.py --report docs"):
     data = columns.get("paper", {})
     found = {column: numbers(runs) for column, runs in columns.items() if runs}
     of_conflicts = {"rings_speed", "rings_clearance", "speed", "clearance", "tilt"}
-    values = introduction(columns, judged, pictures, folder, command) | {
+    values = introduction(columns, judged, pictures, command) | {
         "settings": settings,
         "columns": list(judged),
         "verdicts": verdicts(judged),
@@ -67,13 +67,12 @@ def write_paper(columns, folder, settings=(), command="study.py --report docs"):
     return path
 
 
-def introduction(columns, judged, pictures, folder, command):
+def introduction(columns, judged, pictures, command):
     """Values of the page's first part, which says on top how much of the study was run if it was not all of it."""
     return {
         "command": command,
         "part": part(columns, judged),
         "figures": figures_text(pictures),
-        "beside": (folder / "parameters.md").is_file(),
     }
 
 

@@ -1,6 +1,6 @@
-"""The paper's figures again and its claims one by one: runs, pictures and docs/paper.md, which takes hours.
+"""The paper's figures again and its claims one by one: runs, pictures and paper.md, which takes hours.
 
-python benchmarks/paper/study.py --report docs
+python benchmarks/paper/study.py --report benchmarks/paper
 """
 
 from pathlib import Path

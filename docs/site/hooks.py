@@ -4,6 +4,7 @@ files that the site does not hold.
 
 import os
 import re
+import tomllib
 from pathlib import Path
 
 from latex2mathml.converter import convert
@@ -14,6 +15,13 @@ ROOT = Path(__file__).resolve().parents[2]
 OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}
 BEARING = ROOT / "build" / "browser" / "bearing.html"  # written by `make browser`
 CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
+
+
+def on_config(config):
+    """The link to the repository, from the one place of its address."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    config["repo_url"], config["repo_name"] = project["urls"]["Repository"], project["name"]
+    return config
 
 
 def on_files(files, config):
@@ -38,8 +46,12 @@ def on_page_markdown(markdown, page, config, files):
 
 def formulas(text):
     """$LaTeX$ and $$LaTeX$$ as MathML."""
+    display = '<div style="overflow-x: auto">{}</div>'.format  # a telephone scrolls the formula, not the page
     text = re.sub(
-        r"\$\$(.+?)\$\$", lambda formula: convert(formula[1].replace("\n", " "), display="block"), text, flags=re.DOTALL
+        r"\$\$(.+?)\$\$",
+        lambda formula: display(convert(formula[1].replace("\n", " "), display="block")),
+        text,
+        flags=re.DOTALL,
     )
     # a bare <math> at a line's start would end the paragraph
     return re.sub(r"\$([^$\n]+)\$", lambda formula: f"<span>{convert(formula[1])}</span>", text)

@@ -11,6 +11,8 @@
 #include "physics/traction.h"
 #include "rivet/rivet_rom.h"
 
+#include <stdlib.h>
+
 // Density of air [kg/m3] at 293 K and 10^5 Pa.
 static const double AIR_DENSITY = 1.19;
 

@@ -1,7 +1,7 @@
 """Values that nobody gave and that the rivets' stress moves with, and who gave the others.
 
 Ranges of the 6207's own values stand in fmus/variables.toml, those of values by rule in data/rules.csv, which
-benchmarks/rules.py writes with docs/rules.md.  How far a range moves stress and damage is another amount in each bearing:
+benchmarks/rules.py writes with docs/own_bearing.md.  How far a range moves stress and damage is another amount in each bearing:
 running/screening.py measures it in the FMU at hand, and without it no amount is told.
 """
 

@@ -16,7 +16,7 @@ FIRST = "cookbook"
 @command
 def cookbook(
     page: Annotated[
-        str, typer.Argument(help="recipes, guide, running, own_bearing, life, showing, coupling, ...; list: all pages")
+        str, typer.Argument(help="guide, own_bearing, cages, life, running, coupling, failure, ...; list: all pages")
     ] = FIRST,
 ):
     """Print a page of the documentation, by default the cookbook: tasks with the commands that do them."""

@@ -15,7 +15,9 @@ from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design
 def sweep(
     study: Annotated[
         Path,
-        typer.Argument(help="sweep file (TOML): scene, what varies, repeats; see docs/sweeps.md", metavar="STUDY.toml"),
+        typer.Argument(
+            help="sweep file (TOML): scene, what varies, repeats; see docs/running.md", metavar="STUDY.toml"
+        ),
     ],
     fmu: FMU = None,
     out: Annotated[Path | None, typer.Option(help="folder of the Parquet dataset; default: results/STUDY")] = None,
