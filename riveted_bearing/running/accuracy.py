@@ -22,7 +22,6 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy import stats
 
 from ..base.errors import UserError
 from .runner import simulate
@@ -184,6 +183,8 @@ def spread_of(values: Any, blocks: Any) -> tuple[float, float, float]:
     Seeds and blocks tell the same where both are chance: then both count.  Seeds that scatter more have come to several
     motions; seeds that scatter less fall on one motion, whose change from block to block no seed shows.
     """
+    from scipy import stats  # the extra full has it, an installation to simulate not
+
     n, own = len(values), float(np.var(values, ddof=1)) if len(values) > 1 else 0.0
     within = float(np.mean(blocks)) if len(blocks) else 0.0
     if not len(blocks) or within <= 0.0:
@@ -204,6 +205,8 @@ def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confiden
     """The Found of a figure from values of plain runs [n], of finer ones on the first seeds [m], and the plain runs' block
     variances.
     """
+    from scipy import stats
+
     x, y = np.asarray(plain, float), np.asarray(fine, float)
     n, m, mean = len(x), len(y), float(np.mean(plain))
     size = 1.0 if figure == DECADES else abs(mean)

@@ -16,9 +16,8 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass, replace
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
-
-from scipy.stats import norm
 
 from ..base.errors import UserError
 from ..base.units import certain, figure, with_error
@@ -35,7 +34,7 @@ RULE = (
     "independent parts: shifts add with their signs, half-widths of each side as the root of the sum of their squares; "
     "half-widths are those of 90 % intervals, ranges of assumed values count as such"
 )
-Z90 = float(norm.ppf(0.5 + 0.5 * CONFIDENCE))
+Z90 = NormalDist().inv_cdf(0.5 + 0.5 * CONFIDENCE)
 HELD_OUT = re.compile(r"RMS ([\d.]+) %, largest ([\d.]+) % of the largest stress(?:, ([\d.]+) MPa)?")
 OF_HALF = {1: (-0.001, 0.056), 2: (-0.042, 0.035)}  # truth over head stress less 1, by rivet.table_kind: docs/rivet.md
 RIGID_HALVES = (-0.30, -0.07)  # the same of scene.cage = two_half: docs/validation.md, "Rigid and elastic halves"

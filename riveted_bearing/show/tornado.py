@@ -32,7 +32,9 @@ def tornado(fig: Any, budget: Budget, sign: float = 1.0, label: str = "") -> Non
     ax.set_yticks(range(len(bars)), [name for name, *_ in bars])
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
-    ax.set(xlabel=label or f"truth less number [{unit}]")
+    ax.set_xlabel(
+        label or f"truth less number [{unit}]", loc="right"
+    )  # beside short names the axes are narrower than the label
 
 
 def wrong(result: Result) -> dict[str, Any]:
