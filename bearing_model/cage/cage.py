@@ -245,7 +245,7 @@ def cage_longest_step(model, memory):
         return part * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
-    most = (6.0 * part - 1.0) * d  # one substep at the least part, five in the longest step
+    most = d + (model.modes.longest_step - d) * (part - LEAST_PART) / (1.0 - LEAST_PART)
     films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate)
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 

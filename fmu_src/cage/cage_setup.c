@@ -72,7 +72,7 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
 // that it has five substeps at most.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
-// of the order of the tolerance's scale.  So below SLOW steps and tolerance are smaller in proportion to its speed.  Films of the rate A that
+// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step from five substeps to one.  Films of the rate A that
 // the substeps leave out allow 1/A, or two substeps, which are always stable; films in pockets too, or one substep where lands guide the
 // cage, whose loss would err by 5 to 11 %.
 static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the longest step
@@ -92,7 +92,8 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
         const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
     }
-    const double most = (6.0 * part - 1.0) * d;  // one substep at the least part, five in the longest step
+    const double most =
+        d + (elastic_longest_step(model->modes) - d) * (part - LEAST_PART) / (1.0 - LEAST_PART);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
     return fmin(most, fmin(lands, pockets));

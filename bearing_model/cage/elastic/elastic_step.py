@@ -1,6 +1,6 @@
 """A step of elastic halves: the readable twin of elastic_step.c.  elastic_begin, before the evaluation at the end:
 
-    halves in the middle; substeps of modes, joints, stiff films and loads on walls (cage_substeps.py) under the slow
+    halves in the middle; substeps of modes, joints, films and loads on walls (cage_substeps.py) under the slow
     accelerations a_s of the start; predicted velocities v^, and gamma times the forces of the films on bent rims
 
 elastic_end, after it:

@@ -22,7 +22,7 @@
 // v + Omega x c, and the moment about the centres of mass is M - c x F.  The slow accelerations are the whole ones less the fast ones;
 // so they contain all terms that the relative motions leave out, gyroscopic terms for example.
 //
-// Stiff films follow in the substeps, those on bent rims (rim_films.c) and those in pockets (pocket_films.c).
+// Films follow in the substeps, those on bent rims (rim_films.c) and stiff ones in pockets (pocket_films.c).
 //
 // The loads of balls on walls follow in the substeps and move walls, halves and balls, those of balls that arrive within the step too
 // (wall_loads.c); the end corrects them.

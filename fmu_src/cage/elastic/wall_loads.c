@@ -15,7 +15,7 @@
 // adds k^2/(m_b omega^2) of stiffness to a vibration of the frequency omega, which is constant over a step, and a stiffness
 // epsilon omega^2 held over h and corrected at the end feeds the amplitude, turning by theta = omega h, in each step by
 //
-//     epsilon/2 (1 - cos theta - theta/2 sin theta)       largest at 3/2 pi: 1.7 epsilon
+//     epsilon/2 (1 - cos theta - theta/2 sin theta)       largest near 3/2 pi: 1.7 epsilon
 //
 // Balls that answered late made the 99.9 % pocket force of a quiet bearing 25 % too large in steps of eight substeps.
 // x_0 < 0 before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
