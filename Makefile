@@ -105,7 +105,7 @@ format: $(VENV)/installed  ## format and fix what can be fixed
 	$(BIN)/clang-format -i $(C_FILES)
 
 sanitize: $(VENV)/installed  ## the fast tests that call C on a copy compiled with the sanitizers of addresses, undefined behaviour and casts of numbers
-	mkdir -p $(COPY) && git ls-files -co --exclude-standard | tar -c -T - | tar -x -C $(COPY)
+	mkdir -p $(COPY) && find $(COPY) -mindepth 1 -maxdepth 1 ! -name build -exec rm -r {} + && git ls-files -co --exclude-standard | tar -c -T - | tar -x -C $(COPY)
 	$(BIN)/cmake -S $(COPY) -B $(COPY)/build -G Ninja -DSANITIZE=address,undefined,float-cast-overflow -DFMU=$(COPY)/$(FMU) -DPython_EXECUTABLE=$(CURDIR)/$(PYTHON)
 	$(BIN)/cmake --build $(COPY)/build
 	cd $(COPY) && PYTHONPATH=$(COPY) PYTHONMALLOC=malloc ASAN_OPTIONS=$(ASAN) LD_PRELOAD="$$(cc -print-file-name=libasan.so) libstdc++.so.6" $(CURDIR)/$(PYTEST) -n 2 -k "not Python" $(C_TESTS)
