@@ -12,7 +12,7 @@ from commands import command
 
 from riveted_bearing import UserError
 from riveted_bearing.bearing.assumed import assumed_ranges
-from riveted_bearing.cli.optimize import present_values, print_optimum
+from riveted_bearing.cli.optimize import print_optimum
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
@@ -199,7 +199,7 @@ def test_the_program_says_why_a_point_is_recommended(model, capsys):
     document = {"between": two, "objectives": ["-damage"], "limits": {"stress": "1 MPa"}, "trials": 10, "candidates": 2}
     found = search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [a, 0.0 * a]))
     names = found.study.box.names
-    print_optimum(found, present_values(names, load_scene(None, model), model))
+    print_optimum(found, [load_scene(None, model).value(name, model) for name in names])
     text = capsys.readouterr().out
     assert "recommended: the point simulated again with the largest damage, of those that keep stress <= 1 MPa" in text
     row = next(line for line in text.splitlines() if line.startswith("present design"))

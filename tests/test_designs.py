@@ -16,7 +16,7 @@ from riveted_bearing.base.units import hours_text
 from riveted_bearing.cli.compare_designs import print_comparison
 from riveted_bearing.duty import designs, designs_page
 from riveted_bearing.duty.confidence import estimate, ratio_interval
-from riveted_bearing.duty.miner import simple_duty
+from riveted_bearing.duty.miner import Duty
 from riveted_bearing.running.fmu import Model
 
 MISSION = """
@@ -54,7 +54,7 @@ def drawn(rng, n, common, ratio=2.5, spread=0.6):
 
 
 def interval(samples, confidence=0.9):
-    duty = simple_duty([0.6, 0.4])
+    duty = Duty(np.array([0.6, 0.4]), np.eye(2)[None], np.zeros(1))
     found = [estimate(duty, one, confidence) for one in samples]
     return ratio_interval(samples, found, confidence)
 

@@ -26,7 +26,7 @@ from riveted_bearing.cli.summary import folder_of
 from riveted_bearing.duty.assess import Runs, assess, check_folder, is_current, record, write_record
 from riveted_bearing.duty.confidence import estimate, until_sure
 from riveted_bearing.duty.history import binned
-from riveted_bearing.duty.miner import Duty, lives, simple_duty
+from riveted_bearing.duty.miner import Duty, lives
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.mission_file import Life
 from riveted_bearing.duty.notes import matrix_warnings, notes, oil_in_pockets
@@ -54,6 +54,11 @@ def surrogate(rates, spread, rng):
     """
     drawn = [rate * np.exp(spread * rng.normal(size=(64, *rate.shape)) - 0.5 * spread**2) for rate in np.asarray(rates)]
     return lambda counts: [runs[:n] for runs, n in zip(drawn, counts, strict=True)]
+
+
+def simple_duty(weights):
+    """The Duty whose parts are simulated one by one and do not change over the hours."""
+    return Duty(np.asarray(weights, float), np.eye(len(weights))[None], np.zeros(1))
 
 
 def mission_of(model, points, **document):

@@ -2,6 +2,8 @@
 
 import re
 import reprlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
@@ -41,6 +43,15 @@ def is_file(path: str | Path) -> bool:
 def refusal(where: Any, key: Any, value: Any, reason: Any) -> UserError:
     """The error for a value that cannot be used."""
     return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")
+
+
+@contextmanager
+def refusing(where: Any, key: Any, value: Any) -> Iterator[None]:
+    """What is wrong inside, as the error for a value."""
+    try:
+        yield
+    except UserError as problem:
+        raise refusal(where, key, value, problem) from None
 
 
 def extra(name: str) -> str:

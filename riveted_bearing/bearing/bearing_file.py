@@ -27,7 +27,7 @@ from typing import Any
 from bearing_model.generated import variables
 from bearing_model.load_ratings import dynamic_rating, static_rating
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
 from ..base.toml_files import read_toml, section_of
@@ -301,9 +301,7 @@ def with_seats(path, tree, data, entry):
         size = data.get(which, getattr(entry, which, None))
         if size is None:
             raise refusal(path, f"parameters.{name}", value, f"it needs catalogue.{which}")
-        try:
+        with refusing(path, f"parameters.{name}", value):
             own = {key: seats.interference(name, value, size)}
-        except UserError as problem:
-            raise refusal(path, f"parameters.{name}", value, problem) from None
         found = {n: v for n, v in found.items() if n != name} | {group: found.get(group, {}) | own}
     return found

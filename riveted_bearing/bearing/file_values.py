@@ -5,7 +5,7 @@ from typing import Any
 
 from bearing_model.generated import variables
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.units import scales_of, suffix, symbol_of, to_si
 
 BOUNDARY = ("bore", "outside_diameter", "width")
@@ -88,10 +88,8 @@ def start_values(path, section, tree, known):
         if items and value not in items:
             raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
         written = value
-        try:
+        with refusing(path, f"{section}.{name}", value):
             value = to_si(value, unit_scales(variable.unit)) if isinstance(value, str) and not items else value
-        except UserError as problem:
-            raise refusal(path, f"{section}.{name}", value, problem) from None
         low, high = (
             (-math.inf if variable.min is None else variable.min),
             (math.inf if variable.max is None else variable.max),

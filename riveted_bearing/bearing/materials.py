@@ -18,7 +18,7 @@ from importlib.resources import files
 
 from bearing_model.generated import variables
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.toml_files import positive
 from ..base.units import scales_of, suffix, symbol_of
 
@@ -236,7 +236,7 @@ def base_of(path, part, chosen):
 def property_of(path, where, key, value):
     """SI value of a property, checked."""
     unit = UNITS[key]
-    try:
+    with refusing(path, where, value):
         number = positive(value, scales_of(unit, variables.UNITS[unit]))
         if key == "nu" and number >= 0.5:
             raise UserError("below 0.5 is allowed")
@@ -246,8 +246,6 @@ def property_of(path, where, key, value):
             factor, offset = scales_of(unit, variables.UNITS[unit])[symbol]
             low, high = (f"{factor * end + offset:.4g}" for end in (variable.min or 0.0, variable.max or math.inf))
             raise UserError(f"{low} ... {high}{suffix(symbol)} is allowed")
-    except UserError as problem:
-        raise refusal(path, where, value, problem) from None
     return number
 
 

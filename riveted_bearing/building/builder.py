@@ -13,14 +13,12 @@ Intermediate files stay in BUILD, so that the next build of the same bearing com
 in the same folder waits for the first.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import shutil
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
@@ -30,6 +28,7 @@ from ..base.errors import UserError, unknown
 from ..base.files import cache_folder, make_folder, write_atomically
 from ..base.toml_files import to_toml
 from ..bearing.bearing_file import CAGE_MEANT, bearing_case
+from ..bearing.case import Case
 from ..bearing.materials import PARTS
 from ..bearing.ribbon import is_ribbon
 from ..bearing.rules import RIVET
@@ -39,9 +38,6 @@ from ..running.summary import TABLE_TITLE
 from .compiler import alone_in, cmake, compile_target, compiler_platforms, execute, has_compiler, zig_version
 from .core import Core, beside
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
-
-if TYPE_CHECKING:
-    from ..bearing.case import Case
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"

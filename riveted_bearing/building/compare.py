@@ -9,11 +9,9 @@ parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the r
 seeds.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -21,12 +19,10 @@ from bearing_model.generated import variables
 from bearing_model.solver import integrator
 
 from ..base.errors import UserError
+from ..running.fmu import Model
 from ..running.runner import simulate
+from ..running.scene import Scene
 from .reference import is_installed
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from ..running.scene import Scene
 
 POINTS = 20  # instants of the short horizon
 FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's

@@ -23,7 +23,7 @@ from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
-from ..base.errors import UserError, refusal
+from ..base.errors import UserError, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
 from ..base.toml_files import positive, read_toml
 from ..bearing.bearing_file import bearing_case
@@ -137,10 +137,8 @@ def cage_sizes(path, section):
     for name, value in section.items():
         if name not in CAGE_SIZES:
             continue
-        try:
+        with refusing(path, name, value):
             yield name, whole(value) if name == "Z" else positive(value, unit_scales("m"))
-        except UserError as problem:
-            raise refusal(path, name, value, problem) from None
 
 
 def whole(value):

@@ -6,10 +6,10 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import TimeElapsedColumn
 
 from .printing import note, print_paths
-from .terminal import command, console, messages
+from .terminal import command, console, messages, progress_bar
 from .terminal import screen as screening_of
 
 TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second
@@ -65,8 +65,7 @@ def build(
 
     for text in doubts(case_with(bearing, rivet, cage)):
         note(text)
-    columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
-    with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
+    with progress_bar(TimeElapsedColumn()) as bar:
         task = bar.add_task("starting", total=None)
 
         told = []

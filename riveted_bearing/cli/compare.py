@@ -5,11 +5,10 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from ..base.files import make_folder
 from .printing import print_paths, table
-from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
+from .terminal import FMU, SETTINGS, changes, command, console, number_or_text, print_basis, progress_bar
 
 
 @command
@@ -52,13 +51,7 @@ def compare(
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], None, None, None)))
     horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
     make_folder(out)
-    with Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=30),
-        console=messages,
-        disable=not messages.is_terminal,
-    ) as bar:
+    with progress_bar() as bar:
         task = bar.add_task("FMU, short horizon", total=1.0)
         found = compare_scene(
             model,

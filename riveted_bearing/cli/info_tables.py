@@ -13,6 +13,7 @@ from rivet_model.geometry import Geometry
 from ..base.errors import UserError
 from ..bearing.ribbon import is_ribbon
 from ..running.summary import DEG, RPM
+from .printing import table
 
 BOUNDARY = ("bore", "outside_diameter", "width")
 ZERO = 273.15  # K of 0 degC
@@ -30,14 +31,14 @@ RIBBON = (
 
 def given_values(case, scene, model):
     """What the user set, as name and the value that would stand there otherwise, where the two differ."""
-    table = variables.PARAMETERS | variables.INPUTS
+    known = variables.PARAMETERS | variables.INPUTS
     if scene is not None:
         names = {**scene.parameters, **scene.inputs}
         others = {name: model.default((model.parameters | model.inputs)[name]) for name in names}
         others["scene.statistics"] = "on"  # as scene.load_scene has it without the user
     else:
         others = {
-            name: table[name].start for name, source in case.origin.items() if source == "yours" and name in table
+            name: known[name].start for name, source in case.origin.items() if source == "yours" and name in known
         }
     return {name: value for name, value in others.items() if case.values.get(name) != value}
 
@@ -51,7 +52,7 @@ def without_effect(case, others):
 def cells(case):
     """All figures of the tables as texts, None where there is no equilibrium."""
     try:
-        return [(title, *(list(column.cells) for column in table.columns)) for title, table in info_tables(case)]
+        return [(title, *(list(column.cells) for column in shown.columns)) for title, shown in info_tables(case)]
     except UserError:
         return None
 
@@ -198,18 +199,12 @@ def origins(case, *names):
 
 def sources(missing):
     """Names of what was not given, by what stands for it."""
-    table = Table("", "", box=None, pad_edge=False, show_header=False)
-    for source, names in missing.items():
-        table.add_row(source, names)
-    table.add_row("default", "all other parameters: docs/parameters.md has each with its source")
-    return table
+    others = "default", "all other parameters: docs/parameters.md has each with its source"
+    return table(("", ""), [*missing.items(), others], left=2, show_header=False)
 
 
 def frequencies(case, state):
     """Cage, ball pass and ball spin frequencies, for pure radial contact and in the equilibrium."""
-    table = Table(
-        "", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False
-    )
     load, bearing = case.load, case.bearing
     nominal = fault_frequencies(load.omega, bearing.D, bearing.d_m, case.Z, omega_e=load.omega_e)
     loaded = state.frequencies
@@ -219,9 +214,8 @@ def frequencies(case, state):
         ("balls over the inner race (BPFI)", "BPFI"),
         ("spin of a ball (BSF)", "BSF"),
     )
-    for label, name in rows:
-        table.add_row(label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz")
-    return table
+    cells = ((label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz") for label, name in rows)
+    return table(("", "alpha = 0", "as loaded", ""), cells)
 
 
 def speeds_text(load):
@@ -287,22 +281,12 @@ def life(L_10r, load):
 def balls(state):
     """One line per ball."""
     names = ("azimuth", "Q_i", "Q_e", "alpha_i", "alpha_e", "p_i", "p_e", "spin/roll i")
-    table = Table("ball", *(Column(name, justify="right") for name in names), box=None, pad_edge=False)
-    table.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
-    rows = zip(
-        state.psi,
-        state.Q_i,
-        state.Q_e,
-        state.alpha_i,
-        state.alpha_e,
-        state.p_i,
-        state.p_e,
-        state.spin_i,
-        state.omega_R,
-        strict=True,
-    )
+    shown = table(("ball", *names))
+    shown.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
+    members = ("psi", "Q_i", "Q_e", "alpha_i", "alpha_e", "p_i", "p_e", "spin_i", "omega_R")
+    rows = zip(*(getattr(state, name) for name in members), strict=True)
     for j, (psi, Q_i, Q_e, alpha_i, alpha_e, p_i, p_e, spin, roll) in enumerate(rows, 1):
-        table.add_row(
+        shown.add_row(
             str(j),
             f"{DEG * psi:.0f}",
             f"{Q_i:.0f}",
@@ -313,7 +297,7 @@ def balls(state):
             f"{1e-6 * p_e:.0f}",
             f"{abs(spin / roll):.3f}" if Q_i > 0.0 and roll else "-",
         )
-    return table
+    return shown
 
 
 def fixed(value, digits):
@@ -323,9 +307,7 @@ def fixed(value, digits):
 
 def pairs(rows):
     """A table of names, values and units."""
-    table = Table(
-        "", Column("", justify="right"), "", Column("", style="dim"), box=None, pad_edge=False, show_header=False
-    )
+    shown = Table("", Column(justify="right"), "", Column(style="dim"), box=None, pad_edge=False, show_header=False)
     for row in rows:
-        table.add_row(*row)
-    return table
+        shown.add_row(*row)
+    return shown

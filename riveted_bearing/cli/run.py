@@ -22,6 +22,7 @@ from .terminal import (
     command,
     console,
     messages,
+    option_value,
     print_basis,
     screen,
     simulation_progress,
@@ -76,7 +77,7 @@ def run(
     if check:
         screen(model)
     if plan.accuracy is not None or check:
-        result = known_run(model, plan, check, time_of(within))
+        result = known_run(model, plan, check, within)
     with held_interrupts():  # from the first step until its results are written
         if plan.accuracy is None and not check:
             with simulation_progress(plan) as progress:
@@ -105,30 +106,17 @@ def run(
         raise typer.Exit(STOPPED)
 
 
-def time_of(within):
-    """Seconds of the option --within."""
-    from ..base.units import SECONDS, to_si
-    from .terminal import number_or_text
-
-    try:
-        return to_si(number_or_text(within), SECONDS)
-    except UserError as problem:
-        raise UserError(f"--within {within}: {problem}") from None
-
-
 def known_run(model, plan, check, within):
-    """The Result of a scene with how far its figures are known, by several runs."""
+    """The Result of a scene with how far its figures are known, by several runs of at most `within`, a text."""
+    from ..base.units import SECONDS, to_si
     from ..running.budget import known_result
 
-    count = 0
-
     def say(runs):
-        nonlocal count
-        count = runs
         if messages.is_terminal:
             messages.print(f"[dim]run {runs} done[/]")
 
-    return known_result(model, plan, check, within, say)
+    seconds = option_value("--within", within, lambda value: to_si(value, SECONDS))
+    return known_result(model, plan, check, seconds, say)
 
 
 def print_known(result):

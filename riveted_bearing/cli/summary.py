@@ -19,7 +19,7 @@ from .terminal import (
     command,
     console,
     design_runs,
-    number_or_text,
+    option_value,
     print_warnings,
     screen,
 )
@@ -80,18 +80,11 @@ def summary(
 
 def target_hours(target):
     """Hours of the option --target."""
-    from ..base.units import to_si
+    from ..base.schema import Number
     from ..duty.mission_file import HOURS
 
-    if target is None:
-        return None
-    try:
-        hours = to_si(number_or_text(target), HOURS)
-    except UserError as problem:
-        raise UserError(f"--target {target}: {problem}") from None
-    if hours <= 0.0:
-        raise UserError(f"--target {target}: more than 0 h is needed")
-    return hours
+    wanted = Number(HOURS, above=0.0, words="more than 0 h is needed")
+    return None if target is None else option_value("--target", target, wanted.read)
 
 
 def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):

@@ -69,10 +69,15 @@ def chosen_cleanliness(value):
     """The cleanliness of the option --cleanliness, None if it was not given."""
     from ..duty.raceways import cleanliness_of
 
+    return None if value is None else option_value("--cleanliness", value, cleanliness_of)
+
+
+def option_value(option, text, read):
+    """What an option's text means by read(its number or text); UserError naming both."""
     try:
-        return None if value is None else cleanliness_of(value)
+        return read(number_or_text(text))
     except UserError as problem:
-        raise UserError(f"--cleanliness {value}: {problem}") from None
+        raise UserError(f"{option} {text}: {problem}") from None
 
 
 def print_version(wanted: bool):
@@ -243,70 +248,34 @@ class RealTimeFactor(ProgressColumn):
         return Text(f"{elapsed / task.completed:.2f} x real time" if task.completed else "")
 
 
-class Remaining(ProgressColumn):
-    """Wall time still needed at the speed so far."""
-
-    def render(self, task):
-        if not task.completed:
-            return Text("")
-        return Text(f"{(task.elapsed or 0.0) * (task.total / task.completed - 1.0):.0f} s left")
+def progress_bar(*columns, **options):
+    """A progress bar with these columns behind name and bar, on a terminal; nothing in a pipe."""
+    columns = TextColumn("{task.description}"), BarColumn(bar_width=30), *columns
+    return Progress(*columns, console=messages, disable=not messages.is_terminal, **options)
 
 
-class simulation_progress:
-    """Progress bar of a scene on a terminal, nothing in a pipe; a context manager that gives the function to call with
-    the simulated time [s].
+@contextlib.contextmanager
+def simulation_progress(scene):
+    """Progress bar of a scene: gives the function to call with the simulated time [s]."""
+    columns = TextColumn("{task.completed:.3f} of {task.total:g} s"), RealTimeFactor(), TimeRemainingColumn()
+    with progress_bar(*columns, transient=True) as bar:
+        task = bar.add_task(scene.name, total=scene.t_end)
+        yield lambda t: bar.update(task, completed=t)
+
+
+@contextlib.contextmanager
+def sweep_progress():
+    """Progress bars of sweeps: gives the function to call with a sweep's name and its numbers of runs done, failed and in
+    all.
     """
-
-    def __init__(self, scene):
-        self.bar = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=30),
-            TextColumn("{task.completed:.3f} of {task.total:g} s"),
-            RealTimeFactor(),
-            Remaining(),
-            console=messages,
-            disable=not messages.is_terminal,
-            transient=True,
-        )
-        self.task = self.bar.add_task(scene.name, total=scene.t_end)
-
-    def __enter__(self):
-        self.bar.start()
-        return lambda t: self.bar.update(self.task, completed=t)
-
-    def __exit__(self, *_):
-        self.bar.stop()
-
-
-class sweep_progress:
-    """Progress bars of sweeps on a terminal, nothing in a pipe; a context manager that gives the function to call with
-    a sweep's name and its numbers of runs done, failed and in all.
-    """
-
-    def __init__(self):
-        columns = (
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=30),
-            MofNCompleteColumn(),
-            TextColumn("{task.fields[failed]}"),
-            TimeRemainingColumn(),
-        )
-        self.bar = Progress(
-            *columns, console=messages, disable=not messages.is_terminal, transient=True, speed_estimate_period=300.0
-        )
-
-    def __enter__(self):
-        self.bar.start()
+    columns = MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn()
+    with progress_bar(*columns, transient=True, speed_estimate_period=300.0) as bar:
         tasks = {}
 
         def progress(name, done, failed, total):
             if name not in tasks:  # runs that an earlier call has done do not count for the speed
-                tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
-            self.bar.update(
-                tasks[name], total=total, completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else ""
-            )
+                tasks[name] = bar.add_task(name, total=total, completed=done, failed="")
+            words = f"[red]{failed} failed[/]" if failed else ""
+            bar.update(tasks[name], total=total, completed=done + failed, failed=words)
 
-        return progress
-
-    def __exit__(self, *_):
-        self.bar.stop()
+        yield progress

@@ -14,13 +14,11 @@ fresh seeds, and the answer and its confidence come from these alone. The search
 seed, so that a call after a stop reads the runs that are done and goes on from there.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
@@ -30,12 +28,10 @@ from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Named, checked
 from ..base.units import to_si
+from ..running.fmu import Model
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
 BAD = 1e30  # of an objective whose run was stopped

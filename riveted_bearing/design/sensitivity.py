@@ -17,13 +17,11 @@ variance that the seeds leave in a point's mean, delta the step of a trajectory;
 share s^2/V.  Both stand beside the indices.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, Field
@@ -32,12 +30,10 @@ from ..base.errors import UserError, extra
 from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Section, checked
+from ..running.fmu import Model
 from ..running.responses import display_of
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
 from .bench import BenchFile, Box, Responses, noise_variance
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 
 def even(value: Any) -> Any:

@@ -2,7 +2,6 @@
 runs.parquet and life.json.
 """
 
-import hashlib
 import json
 import math
 from dataclasses import dataclass, field, replace
@@ -72,20 +71,18 @@ class Runs:
         run_sweep.
         """
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
-        fmu = model.path.read_bytes()
-        fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
         self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
-                scene = started(replace(case.scene, outputs=outputs), model, first, s)
-                self.keys[c, s] = key_of(scene, fingerprint)
+                scene = started(replace(case.scene, outputs=outputs), model, mission.settings["seed"], s)
+                self.keys[c, s] = key_of(scene, model.digest)
                 scenes[self.keys[c, s]] = scene
         self.sweep = Sweep(
             mission.name,
             mission.description,
             model,
-            fmu,
+            model.path.read_bytes(),
             mission.document,
             ("start.seed",),
             scenes,
@@ -98,30 +95,32 @@ class Runs:
         """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case
         without runs is asked for.
         """
-        wanted = [(c, s) for c, n in enumerate(counts) for s in range(n)]
-        missing = {self.keys[place] for place in wanted} - self.damages.keys()
-        if missing:
-            keys = list(dict.fromkeys(self.keys[place] for place in wanted))
-            rows = run_sweep(self.sweep, self.folder, self.client, self.progress, keys)
-            places = {key: i for i, key in enumerate(rows["key"])}
-            for c, s in wanted:
-                if (key := self.keys[c, s]) not in self.damages:
-                    self.take(c, s, key, rows, places[key])
+        self.simulate({(c, s): self.keys[c, s] for c, n in enumerate(counts) for s in range(n)})
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
 
     def finer(self, c):
         """Keys of the finer runs of case c, on its first seeds."""
-        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), []
+        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), {}
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
             scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
-            keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
-            self.sweep.scenes[keys[-1]] = scene
-        if missing := [key for key in keys if key not in self.damages]:
-            rows = run_sweep(self.sweep, self.folder, self.client, self.progress, missing)
-            places = {key: i for i, key in enumerate(rows["key"])}
-            for s, key in enumerate(keys):
-                self.take(c, s, key, rows, places[key])
-        return keys
+            keys[c, s] = key_of(scene, self.model.digest)
+            self.sweep.scenes[keys[c, s]] = scene
+        self.simulate(keys)
+        return list(keys.values())
+
+    def simulate(self, wanted):
+        """Do the runs that are missing of the keys wanted[case, seed], and read their damages."""
+        if wanted.values() <= self.damages.keys():
+            return
+        rows = run_sweep(self.sweep, self.folder, self.client, self.progress, list(wanted.values()))
+        for i, ((c, s), key) in enumerate(wanted.items()):
+            if key not in self.damages:
+                self.take(c, s, key, rows, i)
+
+    def keys_of(self, c):
+        """Keys of the runs of case c that were asked for."""
+        keys = (self.keys[c, s] for s in range(self.mission.settings["max_seeds"]))
+        return [key for key in keys if key in self.damages]
 
     def take(self, c, s, key, rows, i):
         """Read the damage of one run, row i."""
@@ -161,7 +160,7 @@ class Runs:
         """
         found, own = 0.0, 0.0
         for c, case in enumerate(self.mission.cases):
-            keys = [key for s in range(self.mission.settings["max_seeds"]) if (key := self.keys[c, s]) in self.matrices]
+            keys = self.keys_of(c)
             for key in keys:
                 weight = self.mission.duty.weights[case.part] * self.per[key] / len(keys)
                 of_matrix, of_fmu = damages_counted(*self.matrices[key])

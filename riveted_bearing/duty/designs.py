@@ -180,7 +180,7 @@ def compare_designs(
         say(design.name)
         runs = Runs(mission, design.model, Path(folder) / f"design_{k + 1}", client, progress)
         assess(mission, runs)
-        own = np.array([counted(runs, c) for c in range(len(mission.cases))])
+        own = np.array([len(runs.keys_of(c)) for c in range(len(mission.cases))])
         counts = own if counts is None else np.maximum(counts, own)
         all_runs.append(runs)
     settings = missions[0].settings
@@ -242,11 +242,6 @@ def rested_on(missions):
     """{line of the basis: its text in each mission}, of the lines that any mission has."""
     lines = [dict(mission.basis) for mission in missions]
     return {key: [own.get(key, "–") for own in lines] for key in LINES if any(key in own for own in lines)}
-
-
-def counted(runs, c):
-    """Number of runs of case c that have been asked for."""
-    return sum(runs.keys[c, s] in runs.damages for s in range(runs.mission.settings["max_seeds"]))
 
 
 def life_ratio(samples, found, confidence):

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base.errors import UserError
 from ..base.toml_files import leaves
-from .parts import part_of, settling
+from .parts import part_of
 
 
 def events(path, file, model):
@@ -16,7 +16,7 @@ def events(path, file, model):
         part = part_of(path, file, model, label, name, block, block.count)
         own = {name for name, _ in leaves(block.inputs, model.inputs)}
         names = own | (set(part.scene.inputs) if block.scene is not None else set())
-        settle = settling(part.scene, model)
+        settle = part.scene.value("start.settle", model)
         scene, warnings = event_in_time(path, label, block.after_settle, part.scene, settle, sorted(names))
         yield replace(part, event=True, scene=scene, warnings=warnings)
 

@@ -1,13 +1,10 @@
 """The page of a mission: life with its confidence, who contributes, rivet by rivet, damage against load and speed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 import numpy as np
 from scipy.stats import t as student
 
@@ -17,12 +14,10 @@ from ..running.budget import RULE, amounts, digits, life_ends, told, unsized_lin
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, few_ticks, plt, save_figure
 from ..show.tornado import tornado
+from .assess import Life
 from .raceways import card
-
-if TYPE_CHECKING:
-    from .assess import Life
 
 MOST_BARS = 14
 OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
@@ -191,11 +186,8 @@ def life_chart(fig, life):
     ax.axvline(found.life, color=HEAD, lw=1.8, label="life")
     ax.set_xscale("log")
     ax.set(xlabel="life [h]", ylabel="density of ln life", xlim=(hours[0], hours[-1]), ylim=(0.0, None))
-    low, high = np.log10(hours[[0, -1]])
-    if high - low < 1.0:
-        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)[1:-1]])
-        ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
-        ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+    if hours[-1] < 10.0 * hours[0]:
+        few_ticks(ax, np.geomspace(hours[0], hours[-1], 5)[1:-1])
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 
@@ -218,14 +210,11 @@ def share_chart(fig, life):
     ax = fig.subplots()
     parts = [(life.mission.parts[i], share) for i, share in zip(life.kept, life.estimate.shares, strict=True)]
     parts.sort(key=lambda pair: -pair[1])
-    shown = parts[:MOST_BARS] if len(parts) <= MOST_BARS else parts[: MOST_BARS - 1]
-    names = [part.name for part, _ in shown] + (
-        [f"{len(parts) - len(shown)} others"] if len(shown) < len(parts) else []
-    )
-    shares = [share for _, share in shown] + (
-        [sum(share for _, share in parts[len(shown) :])] if len(shown) < len(parts) else []
-    )
-    colours = [RING if part.event else MIDDLE for part, _ in shown] + [MUTED] * (len(names) - len(shown))
+    shown = parts if len(parts) <= MOST_BARS else parts[: MOST_BARS - 1]
+    rows = [(part.name, share, RING if part.event else MIDDLE) for part, share in shown]
+    if rest := parts[len(shown) :]:
+        rows.append((f"{len(rest)} others", sum(share for _, share in rest), MUTED))
+    names, shares, colours = zip(*rows, strict=True)
     bars = ax.barh(range(len(names)), 100 * np.array(shares), color=colours, height=0.66)
     ax.bar_label(bars, [share_text(share) for share in shares], padding=3, fontsize=8)
     ax.set_yticks(range(len(names)), names)
@@ -290,23 +279,23 @@ def condition(values):
     return 1e-3 * math.hypot(*loads), RPM * (values.get("shaft.omega") or 0.0)
 
 
-CHARTS = {
-    "life": (life_chart, WIDE, "Life and its confidence"),
-    "shares": (share_chart, TALL, "Share of each point and event in the damage"),
-    "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
-    "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
-}
-
-
 def wrong_chart(fig, life):
     """What the life's error is made of."""
     tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades")
 
 
+CHARTS = {
+    "life": (life_chart, WIDE, "Life and its confidence"),
+    "shares": (share_chart, TALL, "Share of each point and event in the damage"),
+    "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
+    "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
+    "wrong": (wrong_chart, TALL, "How wrong the life may be, by parts"),
+}
+
+
 def charts_of(life):
-    """The charts that a Life has."""
-    wrong = {"wrong": (wrong_chart, TALL, "How wrong the life may be, by parts")}
-    return CHARTS | (wrong if DECADES in life.budgets else {})
+    """The charts that a Life has: only with an error budget one of it."""
+    return {name: chart for name, chart in CHARTS.items() if name != "wrong" or DECADES in life.budgets}
 
 
 def write_picture(life: Life, path: Path) -> Path:

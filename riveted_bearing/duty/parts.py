@@ -46,7 +46,7 @@ def part_of(path, file, model, label, name, block, weight):
         (f"{path}: {label}", settings_of(block)),
         ("a mission", {"parameters": {name: value for name, value in FORCED.items() if name in model.parameters}}),
     )
-    settle = settling(scene, model)
+    settle = scene.value("start.settle", model)
     if scene.t_end <= settle:
         raise refusal(
             f"{path}: {label}",
@@ -69,11 +69,6 @@ def part_of(path, file, model, label, name, block, weight):
 def settings_of(block):
     """The settings of a block as a document like a scene file's."""
     return {"simulation": block.simulation, "parameters": block.parameters, "inputs": block.inputs}
-
-
-def settling(scene, model):
-    """start.settle of a scene [s]."""
-    return scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
 
 
 def values_of(scene, model):

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.tables import Wanted, read
 from ..base.toml_files import leaves
 from ..base.units import SECONDS, scale
@@ -106,10 +106,9 @@ def columns_of(path, where, section, model, further=()):
             if any(not isinstance(value.get(key, ""), str) for key in ("column", "unit")):
                 raise refusal(path, f"{where}.{name}", value, "column and unit are texts")
             scales = model.units[variables[name].unit]
-            try:
-                scale(value["unit"], scales) if "unit" in value else None
-            except UserError as problem:
-                raise refusal(path, f"{where}.{name}.unit", value["unit"], problem) from None
+            if "unit" in value:
+                with refusing(path, f"{where}.{name}.unit", value["unit"]):
+                    scale(value["unit"], scales)
             found[name] = (kind, Wanted(value["column"], scales, value.get("unit", "")), value)
     if not found:
         raise UserError(f"{path}: {where}: inputs or parameters are needed, each with its column")

@@ -8,22 +8,18 @@
 90 % of equal bearings reach such a life.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError, shortlist
 from ..base.units import hours_text
+from ..bearing.case import Case
 from ..running.scene_case import scene_case
-
-if TYPE_CHECKING:
-    from ..bearing.case import Case
 
 MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ASSUMED = "normal"  # cleanliness where nobody gave one

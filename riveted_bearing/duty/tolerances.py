@@ -11,27 +11,22 @@ cage.guide_clearance = { distribution = "triangular", low = "0.15 mm", mode = "0
 joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68 % within median/factor ... median factor
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.files import write_json
 from ..base.toml_files import leaves
 from ..base.units import check_alike, to_si
-from .assess import Runs, places
+from ..running.fmu import Model
+from .assess import Life, Runs, places
 from .blends import Case, loosened
+from .mission import Mission
 from .weibull import Weibull, fit_weibull
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from .assess import Life
-    from .mission import Mission
 
 DISTRIBUTIONS = {
     "normal": ("mean", "sd"),
@@ -100,14 +95,10 @@ def distribution(path, name, entry, model):
     scales, values = model.units[variable.unit], []
     for key in DISTRIBUTIONS[kind]:
         allowed = {"1": (1.0, 0.0)} if key == "factor" else differences(scales) if key == "sd" else scales
-        try:
+        with refusing(path, f"{where}.{key}", entry[key]):
             values.append(to_si(entry[key], allowed))
-        except UserError as problem:
-            raise refusal(path, f"{where}.{key}", entry[key], problem) from None
-    try:
+    with refusing(path, where, entry):
         check_alike([entry[key] for key in DISTRIBUTIONS[kind] if key != "factor"], scales)
-    except UserError as problem:
-        raise refusal(path, where, entry, problem) from None
     first, *rest = values
     if kind == "normal" and rest[0] > 0.0:
         return stats.norm(first, rest[0])
@@ -178,16 +169,8 @@ def scatter(
         ]
         if tolerances.seeds > 1:
             spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
-            noise.append(
-                np.sum(
-                    (
-                        np.array([runs.mean() for runs in at_place])
-                        / damage[place]
-                        * relative_error(spread, tolerances.seeds)
-                    )
-                    ** 2
-                )
-            )
+            shares = np.array([runs.mean() for runs in at_place]) / damage[place]
+            noise.append(np.sum((shares * relative_error(spread, tolerances.seeds)) ** 2))
     lives = np.array(lives)
     share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
     return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))

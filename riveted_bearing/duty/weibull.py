@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base.errors import UserError, extra
 from ..base.units import hours_text
-from ..show.style import FORCE, HEAD, MIDDLE, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, STYLE, few_ticks, plt, save_figure
 
 
 @dataclass(frozen=True)
@@ -107,10 +107,7 @@ def write_weibull_plot(law: Any, title: str, path: Path) -> Path:
             ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0),
         )
         ax.set_yticks(-np.log1p(-shares), [f"{100 * share:g} %" for share in shares])
-        ax.set_xticks(
-            ticks := np.unique([float(f"{x:.2g}") for x in np.geomspace(1.02 * low, 0.98 * high, 5)]),
-            [f"{tick:,.4g}" for tick in ticks],
-        )
+        few_ticks(ax, np.geomspace(1.02 * low, 0.98 * high, 5))
         ax.minorticks_off()
         ax.legend(loc="upper left")
         figure.suptitle(title, x=0.01, ha="left", fontsize=11)

@@ -1,24 +1,19 @@
 """What an identification leaves: identify.json, the scene file identified.toml, and the page identify.html."""
 
-from __future__ import annotations
-
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from ..base.files import write_text
+from ..base.files import write_json, write_text
 from ..base.toml_files import to_toml
 from ..base.version import __version__
 from ..running.responses import display_of, displayed, titled
+from ..running.scene import Scene
 from ..show import charts
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED
-
-if TYPE_CHECKING:
-    from ..running.scene import Scene
 
 VERDICTS = {"both": "decided", "below": "bounded from below", "above": "bounded from above", "no": "not decided"}
 
@@ -121,8 +116,7 @@ def write_answer(found: Any, basis: Any, path: Path) -> Path:
         "rounds": found.rounds,
         "notes": found.notes,
     }
-    text = json.dumps(document, indent=1) + "\n"
-    return write_text(path, text)
+    return write_json(path, document)
 
 
 def write_scene(found: Any, scene: Scene, path: Path) -> Path:

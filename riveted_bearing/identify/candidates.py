@@ -1,24 +1,20 @@
 """Candidate causes: their ranges, the designs that are drawn from them, and the inspections that tell causes apart."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from pydantic import Field
 from scipy.stats import qmc
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import refusal, refusing, unknown
 from ..base.schema import Named, Section, Text, checked
 from ..base.toml_files import leaves, read_toml
 from ..base.units import scales_of, to_si
+from ..running.fmu import Model
+from ..running.scene import Scene
 from ..studies.sweep_file import bounds, known_names
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from ..running.scene import Scene
 
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "causes.toml"
 OWN = {  # names that are none of the FMU's, with their values where nothing is out of order
@@ -176,12 +172,9 @@ def own_value(where, name, model, scene):
     name = name.replace("[*]", "[1]")
     if name in OWN:
         return OWN[name]
-    if name in scene.inputs:
-        return float(scene.inputs[name](0.0))
-    variable = (model.parameters | model.inputs).get(name)
-    if variable is None:
-        raise unknown(where, "parameter or input", name, [*model.parameters, *model.inputs])
-    return float(scene.parameters.get(name, model.default(variable)))
+    if name not in (known := [*model.parameters, *model.inputs]):
+        raise unknown(where, "parameter or input", name, known)
+    return float(scene.value(name, model))
 
 
 def quantity_of(path, block, names, model):
@@ -190,10 +183,8 @@ def quantity_of(path, block, names, model):
     if block.quantity not in names:
         raise unknown(where, "parameter or input", block.quantity, names)
     relative = isinstance(block.uncertainty, str) and block.uncertainty.strip().endswith("%")
-    try:
+    with refusing(where, "uncertainty", block.uncertainty):
         spread = to_si(block.uncertainty, scales_of("1", {}) if relative else scales_at(block.quantity, model))
-    except UserError as problem:
-        raise refusal(where, "uncertainty", block.uncertainty, problem) from None
     if not spread > 0.0:
         raise refusal(where, "uncertainty", block.uncertainty, "must be greater than 0")
     return Quantity(block.name, block.quantity, spread, relative, block.text)

@@ -1,29 +1,21 @@
 """What `causes` leaves: causes.json, and the page causes.html for the report of a laboratory."""
 
-from __future__ import annotations
-
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.units import hours_text
 from ..base.version import __version__
 from ..running.responses import display_of
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
-from .findings import NONE
-from .order import plain
+from .findings import NONE, Study
+from .order import State, plain
 from .pool import RESPONSES
-from .posterior import heavy, sound_medians
-
-if TYPE_CHECKING:
-    from .findings import Study
-    from .order import State
-    from .posterior import Answer, Predicted
+from .posterior import Answer, Predicted, heavy, sound_medians
 
 STRONG = 2.0  # a finding that changes the odds by this speaks for or against a cause
 FEW = 4.0  # designs: below it the Monte Carlo interval itself is a guess
@@ -153,7 +145,7 @@ def cause_rows(study: Study) -> Any:
     ]
 
 
-def write_json(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
+def write_answer(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
     """Write the answer as JSON, whole or not at all; returns the path."""
     document: dict[str, Any] = {"version": __version__, "description": study.file.description, "basis": dict(basis)}
     document["findings"] = dict(finding_rows(study))
@@ -179,9 +171,7 @@ def write_json(study: Study, said: Answer | None, pool: Any, states: Any, basis:
         }
     if states:
         document["order"] = [plain(state) for state in states]
-    text = json.dumps(document, indent=1) + "\n"
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
+    return write_json(path, document)
 
 
 def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:

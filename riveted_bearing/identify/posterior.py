@@ -24,22 +24,16 @@ Carlo error.  "None of these" predicts each finding evenly: all numbers of middl
 six decades, marks by a coin, values anywhere.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.special import betaln, comb
 from scipy.stats import norm
 
 from .candidates import SOUND, own_value, quantity_at
-from .findings import LOOSE, NONE
-from .pool import CURVE, RESPONSES, weakened
-
-if TYPE_CHECKING:
-    from .findings import Findings, Study
-    from .pool import Sample
+from .findings import LOOSE, NONE, Findings, Study
+from .pool import CURVE, RESPONSES, Sample, weakened
 
 TRUST = 20.0  # broken rivets, as many as a design's own prediction is worth
 SURE = (0.02, 0.98)  # of a mark

@@ -3,27 +3,23 @@
 A weight is 1/uncertainty^2.  Without an uncertainty a target has no weight and is refused.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
 from scipy.stats import norm
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import Choice, Count, Named, Section, checked
 from ..base.toml_files import leaves
 from ..design.sensitivity import even
+from ..running.fmu import Model
 from ..running.scene import load_scene
 from ..studies.sweep_file import Settings, beside, bounds, known_names
 from .targets import Reader, SeriesBlock, TargetBlock, quantity, spread
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 PARAMETER = ("low", "high", "scale", "mean", "sd")
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
@@ -226,10 +222,8 @@ def parameters_of(path, section, model, points):
         low, high = bounds(path, where.removeprefix("parameter."), (table["low"], table["high"]), model)
         variable = (model.parameters | model.inputs)[name]
         for end in (low, high):
-            try:
+            with refusing(path, where, value):
                 model.check_range(end, variable)
-            except UserError as problem:
-                raise refusal(path, where, value, problem) from None
         if not low < high:
             raise refusal(path, where, value, "the lowest value must be below the highest")
         scale = table.get("scale", "linear")

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.schema import Count, Named, Number, Section, Truth
 from ..base.tables import Table, Wanted
 from ..base.toml_files import leaves
@@ -77,10 +77,8 @@ class Target:
 
 def quantity(path, key, value, scales):
     """An SI value; UserError naming the key."""
-    try:
+    with refusing(path, key, value):
         return to_si(value, scales)
-    except UserError as problem:
-        raise refusal(path, key, value, problem) from None
 
 
 def text_of(path, key, value):
@@ -217,8 +215,7 @@ class Reader:
     def limits(self, point):
         """Lowest and highest frequency [Hz] of a run's spectrum."""
         scene = self.scenes[point]
-        settle = scene.parameters.get("start.settle", self.model.default(self.model.parameters["start.settle"]))
-        length = scene.t_end - settle
+        length = scene.t_end - scene.value("start.settle", self.model)
         return 1.05 * FEWEST / length if length > 0.0 else np.inf, 0.5 / (scene.step * scene.stride)
 
     def series(self, where, block):

@@ -2,10 +2,8 @@
 pages and files.
 """
 
-from __future__ import annotations
-
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,11 +11,9 @@ from ..base.errors import UserError, shortlist
 from ..bearing import oil as oils
 from ..bearing.plausible import fast
 from . import preload as preloads
+from .fmu import Model
 from .inputs import History
 from .scene import in_words
-
-if TYPE_CHECKING:
-    from .fmu import Model
 
 LOADS = (
     *(f"shaft.{name}" for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "tilt_y", "tilt_z")),

@@ -1,20 +1,16 @@
 """One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit (orbit.py), and the rivets side by side."""
 
-from __future__ import annotations
-
 import textwrap
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..running.in_run import changes
+from ..running.results import Result
 from ..running.summary import RPM, breaks, rivet_rows, settled, summary_rows
 from .orbit import cage_orbit
 from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
-
-if TYPE_CHECKING:
-    from ..running.results import Result
 
 TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves

@@ -1,12 +1,10 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +20,7 @@ from ..running.budget import computed_share, shown
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
-from ..running.results import read_result
+from ..running.results import Result, read_result
 from ..running.summary import (
     DEG,
     accelerated,
@@ -46,9 +44,6 @@ from .animation import frames, number_of_balls
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
 from .tornado import wrong
-
-if TYPE_CHECKING:
-    from ..running.results import Result
 
 FIRST = 3  # rows without statistics that stand on the cards
 PLACE_NAMES = {"head": "head", "mid": "middle"}

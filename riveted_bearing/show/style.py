@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 
@@ -28,6 +29,13 @@ STYLE = {
     "figure.constrained_layout.w_pad": 0.12,  # inch
     "figure.constrained_layout.h_pad": 0.08,
 }
+
+
+def few_ticks(ax, places: Any) -> None:
+    """Label a short logarithmic axis at these places, rounded to two digits, and nowhere else."""
+    ticks = np.unique([float(f"{x:.2g}") for x in places])
+    ax.set_xticks(ticks, [f"{x:,.0f}" if 1e2 <= x < 1e7 else f"{x:.3g}" for x in ticks])
+    ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
 def save_figure(figure: Any, path: Path, dpi: int = 110) -> Path:

@@ -30,8 +30,6 @@ after start.settle, as `mean(ring.y)`. Rows are written as they arrive, a few in
 file whole or not at all; a second call does only runs that are missing or failed.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json
@@ -40,23 +38,20 @@ import time
 from concurrent.futures import CancelledError
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError
 from ..base.files import KEY, write_atomically
-from ..base.interrupts import ignored_interrupts, kept_from_children
+from ..base.interrupts import held_interrupts, kept_from_children
 from ..base.version import __version__
 from ..running.basis import basis
 from ..running.fmu import Model
 from ..running.runner import closing_names, simulate
 from ..running.summary import has_statistics, settled
 from .rows import Store, columns_of
-from .sweep_file import ROW_VERSION
-
-if TYPE_CHECKING:
-    from .sweep_file import Sweep
+from .sweep_file import ROW_VERSION, Sweep
 
 KINDS = {
     "mean": np.mean,
@@ -149,14 +144,15 @@ class cluster:
         return self.client
 
     def __exit__(self, *_):
-        with ignored_interrupts():
+        with held_interrupts():
             self.client.close()
             if self.local:
                 self.local.close()
 
 
 def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, keys: Any = None) -> dict[str, np.ndarray]:
-    """Do the runs that a sweep's folder lacks and return the rows that it then has.
+    """Do the runs that a sweep's folder lacks and return the rows that it then has, of the keys in their order if there are
+    some.
 
     folder: of the rows, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with
     the runs), or a function that gives it, called if something has to be simulated; progress:
@@ -166,11 +162,16 @@ def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, key
     """
     with Store(folder) as store:
         try:
-            run_missing(sweep, store, client, progress or (lambda *_: None), list(keys or sweep.scenes))
+            run_missing(sweep, store, client, progress or (lambda *_: None), list(dict.fromkeys(keys or sweep.scenes)))
         finally:
-            with ignored_interrupts():
+            with held_interrupts():
                 store.export(schema_of(sweep), sweep.scenes, sweep.grows)
-    return columns_of(folder)
+    rows = columns_of(folder)
+    if keys is None:
+        return rows
+    places = {key: i for i, key in enumerate(rows["key"])}
+    chosen = [places[key] for key in keys]
+    return {name: column[chosen] for name, column in rows.items()}
 
 
 def run_missing(sweep, store, client, progress, keys):
@@ -179,9 +180,9 @@ def run_missing(sweep, store, client, progress, keys):
 
     finished = store.done() & set(keys)
     done, failed = len(finished), 0
-    if not callable(client) or len(finished) < len(set(keys)):
+    if not callable(client) or done < len(keys):
         progress(done, failed, len(keys))
-    if len(finished) == len(set(keys)):
+    if done == len(keys):
         return
     client = client() if callable(client) else client
     # as a task, so that Dask makes it again if its workers die
@@ -210,7 +211,7 @@ def run_missing(sweep, store, client, progress, keys):
             done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
             progress(done, failed, len(keys))
     finally:
-        with ignored_interrupts():
+        with held_interrupts():
             client.cancel(futures)
 
 

@@ -2,12 +2,10 @@
 and a page.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -17,9 +15,7 @@ from ..running.basis import basis
 from ..show import charts
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
-
-if TYPE_CHECKING:
-    from .sweep_file import Sweep
+from .sweep_file import Sweep
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
