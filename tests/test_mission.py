@@ -737,17 +737,3 @@ def test_a_change_divides_the_point_in_which_it_falls(model):
     ]
     assert [part.scene.parameters.get("joint.mu") for part in mission.parts] == [None, None, 0.2, 0.2]
     assert mission.hours == 5.0
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"joint": {"mu": 0.2}}, "change 1: at is needed"),
-        ({"at": 1.0, "bearing": {"D": 0.01}}, "bearing.D is fixed in a run"),
-        ({"at": 7.0, "joint": {"mu": 0.2}}, "change.at = .*below the 2 h"),
-        ({"at": 1.0, "scene": {"breakage": "on"}}, "not free here"),
-    ],
-)
-def test_a_change_that_cannot_be_is_refused(model, change, words):
-    with pytest.raises(UserError, match=words):
-        mission_of(model, [(2.0, {"shaft.F_y": 2000.0})], change=[change])

@@ -87,19 +87,21 @@ class Number(Rule):
 
 @dataclass(frozen=True, eq=False)
 class Count(Rule):
-    """A whole number of at least `least`; words: what is needed."""
+    """A whole number of at least `least`, and at most `most` if that is given; words: what is needed."""
 
     least: int = 1
     words: str = ""
+    most: int | None = None
 
     def read(self, value: Any) -> int:
         """The number; UserError for anything else."""
-        if isinstance(value, bool) or not isinstance(value, int) or value < self.least:
+        whole = isinstance(value, int) and not isinstance(value, bool)
+        if not whole or value < self.least or (self.most is not None and value > self.most):
             raise UserError(self.words or f"a whole number from {self.least} on is needed")
         return value
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return {"type": "integer", "minimum": self.least}
+        return {"type": "integer", "minimum": self.least} | ({} if self.most is None else {"maximum": self.most})
 
 
 @dataclass(frozen=True, eq=False)

@@ -27,7 +27,7 @@ from ..base.errors import UserError, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
 from ..base.toml_files import positive, read_toml
 from ..bearing.bearing_file import bearing_case
-from ..bearing.bearing_keys import RIVET_SIZES
+from ..bearing.bearing_keys import BALLS, RIVET_SIZES
 from ..bearing.file_values import is_number, unit_scales
 from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
 
@@ -138,14 +138,7 @@ def cage_sizes(path, section):
         if name not in CAGE_SIZES:
             continue
         with refusing(path, name, value):
-            yield name, whole(value) if name == "Z" else positive(value, unit_scales("m"))
-
-
-def whole(value):
-    """The number of rivets, which is that of the balls."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 5 <= value <= 32:
-        raise UserError("allowed: an integer from 5 to 32")
-    return value
+            yield name, BALLS.read(value) if name == "Z" else positive(value, unit_scales("m"))
 
 
 def called(name):

@@ -9,7 +9,7 @@ import numpy as np
 from ..base.files import write_json
 from ..base.units import LONGEST, hours_text
 from ..running.accuracy import DECADES
-from ..running.budget import RULE, amounts, digits, told, unsized_lines
+from ..running.budget import digits
 from ..show import charts
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, few_ticks
@@ -188,10 +188,6 @@ def write_page(found: Any, path: Path) -> Path:
         interval_text=lambda outcome: interval_text(*ends_of(outcome), few=digits(outcome.budgets)),
         life_text=lambda outcome: hours_text(outcome.estimate.life, digits(outcome.budgets)),
         budgets=lambda outcome: list(outcome.budgets.values()),
-        amounts=amounts,
-        told_with_error=told,
-        unsized_lines=unsized_lines,
-        rule=RULE,
         ratio_text=ratio_text,
         verdict=verdict,
         charts={

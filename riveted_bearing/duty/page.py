@@ -10,7 +10,7 @@ from scipy.stats import t as student
 
 from ..base.units import LONGEST, figure, hours_text
 from ..running.accuracy import DECADES
-from ..running.budget import RULE, amounts, digits, life_ends, told, unsized_lines
+from ..running.budget import digits, life_ends
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
@@ -43,10 +43,6 @@ def write_page(life: Life, path: Path, notes: Any, warnings: Any = ()) -> Path:
             for name, (draw, size, label) in charts_of(life).items()
         },
         budgets=list(life.budgets.values()),
-        amounts=amounts,
-        told_with_error=told,
-        unsized_lines=unsized_lines,
-        rule=RULE,
     )
 
 

@@ -13,7 +13,7 @@ from scipy.stats import norm
 
 from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
-from ..base.schema import Choice, Count, Named, Section, checked
+from ..base.schema import Choice, Count, Named, Number, Section, checked
 from ..base.toml_files import leaves
 from ..design.sensitivity import even
 from ..running.fmu import Model
@@ -30,13 +30,6 @@ def so_many(value):
     if isinstance(value, bool) or not isinstance(value, int) or value < 0 or value == 1:
         raise UserError("0 (none), or from 2 on (each so many-th), is allowed")
     return value
-
-
-def fraction(value):
-    """A number between 0 and 1; ValueError for anything else."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < 1.0:
-        raise UserError("a number between 0 and 1 is needed")
-    return float(value)
 
 
 class Screen(Section):
@@ -75,7 +68,7 @@ class IdentifyFile(Settings):
     held_out: Annotated[int, BeforeValidator(so_many)] = Field(
         3, description="each so many-th target is kept from the fit; 0: none"
     )
-    confidence: Annotated[float, BeforeValidator(fraction)] = 0.95
+    confidence: Annotated[float, Number(above=0.0, below=1.0, words="a number between 0 and 1 is needed")] = 0.95
     parameter: Named = Field(
         {}, description="[lowest, highest] by name, or { low, high, scale = log, mean, sd } with a normal prior"
     )

@@ -161,70 +161,40 @@ def curve(result: Result) -> str:
     return in_words(strength) + assumed(strength, result.about.get("given", ()))
 
 
-def ball_channels(*names):
-    """Channels of all balls."""
-    return lambda result: [f"ball[{j}].{name}" for j in range(1, number_of_balls(result) + 1) for name in names]
-
-
-def rivet_channels(*names):
-    """Channels of all rivets."""
-    return lambda result: [f"rivet[{k}].{name}" for k in range(1, number_of_balls(result) + 1) for name in names]
-
-
-def named(*names):
-    """Channels by name."""
-    return lambda result: list(names)
-
-
 PANELS = {draw.__name__: charts.over_time((draw, names)) for draw, names in plot.OVER_TIME}
-CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart needs)
-    "loads": (
-        PANELS["loads"],
-        LOW,
-        "Loads on the inner ring over time",
-        named("shaft.F_x", "shaft.F_y", "shaft.omega"),
-    ),
-    "stress": (
-        PANELS["stress"],
-        WIDE,
-        "Largest rivet stress over time",
-        named("rivet.sigma_head_max", "rivet.sigma_mid_max"),
-    ),
-    "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", rivet_channels("sigma_head", "sigma_mid")),
-    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", named()),
+CHARTS = {  # name: draw(figure, result), size, label, channels that the chart needs: ball[*] and rivet[*] of each
+    "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", "shaft.F_x shaft.F_y shaft.omega"),
+    "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", "rivet.sigma_head_max rivet.sigma_mid_max"),
+    "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", "rivet[*].sigma_head rivet[*].sigma_mid"),
+    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", ""),
     "map": (
         charts.stress_over_azimuth,
         HIGH,
         "Head stress of each rivet over its azimuth",
-        lambda r: ["half_0.psi", *rivet_channels("sigma_head_peak")(r)],
+        "half_0.psi rivet[*].sigma_head_peak",
     ),
-    "history": (
-        charts.stress_over_time,
-        HIGH,
-        "Head stress of each rivet over time",
-        rivet_channels("sigma_head_peak"),
-    ),
-    "rainflow": (None, HIGH, "Rainflow matrix of the weakest rivet", rivet_channels("sigma_head")),
+    "history": (charts.stress_over_time, HIGH, "Head stress of each rivet over time", "rivet[*].sigma_head_peak"),
+    "rainflow": (None, HIGH, "Rainflow matrix of the weakest rivet", "rivet[*].sigma_head"),
     "distribution": (
         charts.load_distribution,
         WIDE,
         "Load distribution over the azimuth",
-        ball_channels("psi", "Q_i", "Q_e"),
+        "ball[*].psi ball[*].Q_i ball[*].Q_e",
     ),
-    "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", ball_channels("Q_c")),
-    "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", named("cage.F_pocket_peak")),
-    "section": (charts.section, SQUARE, "Section of the bearing with its dimensions", named()),
-    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", named("cage.y", "cage.z")),
-    "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", rivet_channels("T", "M_y", "M_z")),
-    "slip": (PANELS["slip"], LOW, "Cage slip over time", named("cage.slip_ratio")),
-    "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", named("ring.x", "ring.y", "ring.z")),
+    "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", "ball[*].Q_c"),
+    "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", "cage.F_pocket_peak"),
+    "section": (charts.section, SQUARE, "Section of the bearing with its dimensions", ""),
+    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", "cage.y cage.z"),
+    "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", "rivet[*].T rivet[*].M_y rivet[*].M_z"),
+    "slip": (PANELS["slip"], LOW, "Cage slip over time", "cage.slip_ratio"),
+    "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", "ring.x ring.y ring.z"),
     "vibration": (
         charts.vibration,
         SQUARE,
         "Spectrum and envelope spectrum of the vibration",
-        named("shaft.omega", "cage.omega"),
+        "shaft.omega cage.omega",
     ),
-    "energy": (charts.energy, LOW, "Power loss and energy balance over time", named("bearing.power_loss")),
+    "energy": (charts.energy, LOW, "Power loss and energy balance over time", "bearing.power_loss"),
 }
 OF_ELASTIC = ("joints",)  # charts of elastic cage halves alone
 
@@ -237,7 +207,9 @@ def is_shown(name, result, elastic):
 def chart(result, name, lives):
     """SVG of one chart, or in words which channels it lacks."""
     draw, size, label, needs = CHARTS[name]
-    missing = [channel for channel in needs(result) if channel not in result.data]
+    numbers = range(1, max(number_of_balls(result), 1) + 1)
+    each = (channel.replace("*", str(k)) for k in numbers for channel in needs.split())  # one without * each time
+    missing = list(dict.fromkeys(channel for channel in each if channel not in result.data))
     if missing or len(result.data["time"]) < 16:
         lack = (
             f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}"

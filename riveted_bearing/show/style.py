@@ -31,7 +31,7 @@ STYLE = {
 }
 
 
-def few_ticks(ax, places: Any) -> None:
+def few_ticks(ax: Any, places: Any) -> None:
     """Label a short logarithmic axis at these places, rounded to two digits, and nowhere else."""
     ticks = np.unique([float(f"{x:.2g}") for x in places])
     ax.set_xticks(ticks, [f"{x:,.0f}" if 1e2 <= x < 1e7 else f"{x:.3g}" for x in ticks])
