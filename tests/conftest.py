@@ -23,6 +23,7 @@ from slave import Slave
 from threadpoolctl import threadpool_limits
 
 from riveted_bearing.building.builder import PLATFORMS, build_folder
+from riveted_bearing.running.fmu import Model
 
 
 def pytest_generate_tests(metafunc):
@@ -74,6 +75,12 @@ def fmu():
     path = ROOT / "fmus" / "RivetedBearing.fmu"
     assert path.is_file(), f"{path} is missing: make build"
     return path
+
+
+@pytest.fixture(scope="session")
+def model(fmu):
+    """The Model of that FMU."""
+    return Model(fmu)
 
 
 ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Origin><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>

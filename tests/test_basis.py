@@ -39,11 +39,6 @@ OIL = '[parameters]\noil.nu_1 = "25 mm2/s"\noil.nu_2 = "5 mm2/s"\n[inputs]\noil.
 NO_SCENE = "none: the FMU's own parameters and inputs"
 
 
-@pytest.fixture(scope="module")
-def model(fmu):
-    return Model(fmu)
-
-
 @pytest.fixture
 def warm(tmp_path):
     """A scene with an oil of two points, in the units of a data sheet."""

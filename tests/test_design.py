@@ -17,7 +17,6 @@ from riveted_bearing.design.bench import Bench
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
 from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, read_indices, write_indices, write_picture
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.responses import displayed, response, shown, titled
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.studies.sweep import cluster
@@ -25,11 +24,6 @@ from riveted_bearing.studies.sweep import cluster
 ROOT = Path(__file__).resolve().parents[1]
 NAMES = ["joint.mu", "oil.eta", "joint.preload"]  # any three with ranges; the functions below take them in [0, 1]
 BOX = {"joint.mu": [0.1, 0.3], "oil.eta": [0.002, 0.01], "joint.preload": [5.0, 45.0]}
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 def in_place_of_the_bearing(function, noise=0.0, seed=1):

@@ -43,11 +43,6 @@ LIFE = Life().model_dump()
 NO_RUNS = SimpleNamespace(cost={}, sweep=SimpleNamespace(model=SimpleNamespace(parameters={})))
 
 
-@pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
 def surrogate(rates, spread, rng):
     """runs(counts) of a bearing whose damage is log-normal: rates of the cases at the places [C, Z, 2], standard
     deviation of the logarithm.

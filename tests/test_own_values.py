@@ -47,11 +47,6 @@ from generate import load_table, write_description
 OWN = 'designation = "6309"\nZ = 8\n'
 
 
-@pytest.fixture(scope="module")
-def model(fmu):
-    return Model(fmu)
-
-
 def read(tmp_path, text):
     """The Case of a bearing file."""
     path = tmp_path / "mine.toml"

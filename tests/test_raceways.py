@@ -25,18 +25,12 @@ from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, designs_page, page, raceways, sheet, verdict
 from riveted_bearing.duty.evidence import Evidence
 from riveted_bearing.duty.mission import plan_mission
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History
 from riveted_bearing.running.runner import simulate, turns
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.running.summary import count_note, settle_note, speed_note, static_and_swing
 
 TURN = 2.0 * math.pi
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 @pytest.fixture(scope="module")

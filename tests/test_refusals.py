@@ -23,7 +23,6 @@ from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.tolerances import read_tolerances
 from riveted_bearing.identify.study import plan_identify
 from riveted_bearing.running import scene
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies.sweep_file import plan_sweep
 
 RECORD = json.loads(Path(__file__).with_name("refusals.json").read_text(encoding="utf-8"))
@@ -37,11 +36,6 @@ READERS = {  # of a document, which reads the file itself where the program can 
     "optimize": plan_optimize,
     "identify": plan_identify,
 }
-
-
-@pytest.fixture(scope="module")
-def model(fmu):
-    return Model(fmu)
 
 
 def recorded(kind):
