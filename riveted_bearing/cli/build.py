@@ -77,14 +77,12 @@ def build(
             bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
 
         path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes, cage)
-    console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
-    console.print(str(path), style="cyan", soft_wrap=True)
+    console.print(escape(Model(path).description.description), style="dim")
+    console.print(str(path), style="cyan")
     if screen:
         screening_of(Model(path))
     shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing, cage)))}"
-    console.print(
-        f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True
-    )
+    console.print(f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim")
     if rivet:
         from ..building.rivet import given_geometry, seat_note, write_drawing
 

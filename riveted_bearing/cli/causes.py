@@ -66,12 +66,12 @@ def causes(
     print_basis(basis)
     if said is not None:
         console.print(table(RANKED, ranked_rows(said)[:10], left=len(RANKED)))
-        console.print(escape(verdict(said)), soft_wrap=True)
+        console.print(escape(verdict(said)))
         best = [f"{name} ({bits:.2f} bits)" for name, _, bits in said.inspections[:3]]
-        console.print(f"inspect next: {escape(', '.join(best))}", soft_wrap=True)
+        console.print(f"inspect next: {escape(', '.join(best))}")
     if states:
         console.print(table(ORDER, order_rows(states), left=len(ORDER)))
-        console.print(f"end: {states[-1].end}", soft_wrap=True)
+        console.print(f"end: {states[-1].end}")
     print_paths(
         ("results", write_answer(study, said, pool, states, basis, folder / "causes.json")),
         ("page", write_page(study, said, pool, states, basis, folder / "causes.html")),

@@ -62,15 +62,13 @@ def compare(
             progress=lambda what, share: bar.update(task, description=what, completed=share),
         )
     console.print(
-        f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU",
-        soft_wrap=True,
+        f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU"
     )
     print_basis(basis(model, [plan]))
     console.print(table(*short_table(found)))
     if found.statistics:
         console.print(
-            f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference",
-            soft_wrap=True,
+            f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference"
         )
         heads, rows = long_table(found)
         console.print(table(heads, rows, left=2))

@@ -95,7 +95,7 @@ def print_comparison(found, hours_text):
     console.print(other_figures(found))
     for outcome in found.outcomes:
         for budget in outcome.budgets.values():
-            console.print(f"[dim]{escape(outcome.design.name)}: {escape(in_line(budget))}[/]", soft_wrap=True)
+            console.print(f"[dim]{escape(outcome.design.name)}: {escape(in_line(budget))}[/]")
     differ = ((name, *texts) for name, texts in found.differences[:MOST_DIFFERENCES])
     console.print(table(("differs", *names), differ, left=1 + len(names)))
     if len(found.differences) > MOST_DIFFERENCES:

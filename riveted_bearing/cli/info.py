@@ -41,7 +41,7 @@ def info(
 
     case, scene, model = case_of(target, fmu, cage), None, None
     case = replace(case, cleanliness=chosen_cleanliness(cleanliness))
-    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}")
     if target is None and fmu is None:
         text = f"no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu"
         note(text, to=console)
@@ -50,7 +50,7 @@ def info(
         scene = load_scene(target, model)
         print_basis(basis(model, [scene]))
     if case.bare:
-        console.print(escape(CAGE_MEANT), soft_wrap=True)
+        console.print(escape(CAGE_MEANT))
     for text in doubts(case):
         note(text, to=console)
     if case.alone:
@@ -59,10 +59,10 @@ def info(
         note(text, to=console)
     tables = info_tables(case)
     for title, table in tables:
-        console.print(f"\n[bold]{title}[/]", soft_wrap=True)
+        console.print(f"\n[bold]{title}[/]")
         console.print(table)
     if idle := without_effect(case, given_values(case, scene, model)):
-        console.print(f"\nwithout effect here: {escape(', '.join(idle))}", soft_wrap=True)
+        console.print(f"\nwithout effect here: {escape(', '.join(idle))}")
 
 
 def read_as_scene(names):

@@ -63,7 +63,10 @@ def info_tables(case):
 
     state = case.equilibrium()
     return [
-        ("Geometry and masses", pairs(geometry(case))),
+        (
+            "Geometry and masses",
+            pairs([*told(case, geometry(case)), *preload(case), *materials(case), *told(case, masses(case))]),
+        ),
         ("Oil and temperatures", pairs(oil(case))),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {speeds_text(case.load)}", frequencies(case, state)),
@@ -72,61 +75,48 @@ def info_tables(case):
     ]
 
 
+def told(case, rows):
+    """Rows (label, value, unit, names ...) with the origin of the names."""
+    return ((label, value, unit, origins(case, *names)) for label, value, unit, *names in rows)
+
+
 def geometry(case):
-    """Name, value, unit and origin of what the bearing is; sizes at assembly temperature."""
+    """Label, value, unit and names of the bearing's sizes, at assembly temperature."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
     if all(key in catalogue for key in BOUNDARY):
-        yield (
-            "bore x outside diameter x width",
-            " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY),
-            "mm",
-            origins(case, *BOUNDARY),
-        )
+        size = " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY)
+        yield "bore x outside diameter x width", size, "mm", *BOUNDARY
     if "C" in catalogue and "C_0" in catalogue:
-        yield (
-            "load ratings C, C_0",
-            f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}",
-            "kN",
-            origins(case, "C", "C_0"),
-        )
-    yield "balls", f"{case.Z} x {1e3 * values['bearing.D']:g}", "mm", origins(case, "Z", "bearing.D")
-    yield "pitch diameter", f"{1e3 * values['bearing.d_m']:g}", "mm", origins(case, "bearing.d_m")
-    yield (
-        "groove radius / ball diameter, inner, outer",
-        f"{bearing.f_i:g}, {bearing.f_e:g}",
-        "",
-        origins(case, "bearing.f_i", "bearing.f_e"),
-    )
-    yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", origins(case, "bearing.P_d")
+        forces = f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}"
+        yield "load ratings C, C_0", forces, "kN", "C", "C_0"
+    yield "balls", f"{case.Z} x {1e3 * values['bearing.D']:g}", "mm", "Z", "bearing.D"
+    yield "pitch diameter", f"{1e3 * values['bearing.d_m']:g}", "mm", "bearing.d_m"
+    ratios = f"{bearing.f_i:g}, {bearing.f_e:g}"
+    yield "groove radius / ball diameter, inner, outer", ratios, "", "bearing.f_i", "bearing.f_e"
+    yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", "bearing.P_d"
     omega = case.load.omega + case.load.frame_omega
     left, angle = bearing.clearance_at(omega), bearing.free_contact_angle(omega)
-    yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
-    yield "free contact angle at speed, temperatures and fits", f"{DEG * angle:.2f}", "deg", ""
+    yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um"
+    yield "free contact angle at speed, temperatures and fits", f"{DEG * angle:.2f}", "deg"
     for label, names in RIBBON if is_ribbon(values) else MACHINED:
-        yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
+        yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", *names
     if case.rivet is not None:
-        rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
-        yield (
-            "rivet: shank, head, head height, fillet",
-            ", ".join(rivet),
-            "mm",
-            origins(case, *(f"rivet.{name}" for name in RIVET)),
-        )
-    yield from preload(case)
+        sizes = ", ".join(f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET)
+        yield "rivet: shank, head, head height, fillet", sizes, "mm", *(f"rivet.{name}" for name in RIVET)
+
+
+def materials(case):
+    """Label, value, unit and origin of the parts' materials."""
     for part, material in case.materials.items():
-        yield (
-            f"material of {'the ' + part if part in ('cage', 'rivet') else part}",
-            material.words(),
-            "",
-            "yours" if material.given else "default",
-        )
-    yield (
-        "mass of a ball, a cage half",
-        f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}",
-        "g",
-        origins(case, "cage.m"),
-    )
-    yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:.3g}", "kg", origins(case, "ring.m")
+        label = f"material of {'the ' + part if part in ('cage', 'rivet') else part}"
+        yield label, material.words(), "", "yours" if material.given else "default"
+
+
+def masses(case):
+    """Label, value, unit and names of the bodies' masses."""
+    pair = f"{1e3 * case.bearing.ball_mass:.3g}, {1e3 * case.values['cage.m']:.3g}"
+    yield "mass of a ball, a cage half", pair, "g", "cage.m"
+    yield "mass of the inner ring and its share of shaft", f"{case.values['ring.m']:.3g}", "kg", "ring.m"
 
 
 def preload(case):

@@ -90,9 +90,7 @@ def life(
         )
     print_paths(*files)
     if old_sheet:
-        console.print(
-            f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]", soft_wrap=True
-        )
+        console.print(f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]")
 
 
 def write_life(found, folder, texts, warnings):
@@ -111,12 +109,12 @@ def print_life(found, remarks):
     """Life, interval, points and rivets on the terminal."""
     from ..duty.page import cards, part_rows
 
-    console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
+    console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}")
     print_basis(found.mission.basis)
     for title, value, remark in cards(found):
-        console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
+        console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]")
     heads = "", "load", "speed", "in the mission", "simulated", "damage", "per", "share"
     console.print(table(heads, part_rows(found), left=3))
     print_budgets(list(found.budgets.values()))
     for remark in remarks:
-        console.print(f"[dim]{escape(remark)}[/]", soft_wrap=True)
+        console.print(f"[dim]{escape(remark)}[/]")

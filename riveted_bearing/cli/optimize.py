@@ -95,11 +95,9 @@ def print_optimum(found, present, parts=None):
         shown_points.add_row(*texts, style="bold" if best else None)
     console.print(shown_points)
     text = f"{len(found.points)} points searched; means ± standard error over {study.file.check_seeds} seeds that the search has not seen"
-    console.print(
-        f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True
-    )
+    console.print(f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]")
     if found.best is not None:
-        console.print(f"recommended: {escape(criterion(study))}", soft_wrap=True)
+        console.print(f"recommended: {escape(criterion(study))}")
     if found.best is not None and parts is not None and go_apart(parts[-1], parts[found.best]):
         was, now = ([shown(name, value) for name, value in zip(PARTS, row)] for row in (parts[-1], parts[found.best]))
         changes = ", ".join(f"{name} {a} to {b}" for name, a, b in zip(PARTS, was, now))

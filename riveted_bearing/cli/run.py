@@ -12,7 +12,7 @@ from rich.markup import escape
 from ..base.errors import UserError, extra, unknown
 from ..base.files import FORMATS, make_folder
 from ..base.interrupts import held_interrupts
-from ..base.shipped import shipped_scenes
+from ..base.shipped import find_scene, shipped_scenes
 from .printing import note, print_budgets, print_paths, table
 from .terminal import (
     FMU,
@@ -62,6 +62,8 @@ def run(
     plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
 ):
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
+    if scene is not None:
+        find_scene(scene)  # a wrong name is told before slow imports
     from ..bearing.plausible import odd_materials
     from ..running.fmu import Model
     from ..running.results import write_result
@@ -91,8 +93,7 @@ def run(
             paths.append(plot_result(result, target.with_suffix(".png")))
     print_paths(*zip(("results", "picture"), paths, strict=False))
     console.print(
-        f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
-        soft_wrap=True,
+        f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play"
     )
     from ..running.in_run import break_lines
     from ..running.summary import accelerated
@@ -150,7 +151,7 @@ def print_without_effect(model, scene, result):
     cost, scene = result.summary["wall_time"], replace(scene, accuracy=None)
     idle, until = without_effect(model, scene, result.about["set"], whole=all_figures(result), cost=cost)
     if idle:
-        console.print(escape(in_words(idle, until)), soft_wrap=True)
+        console.print(escape(in_words(idle, until)))
 
 
 def is_there(library, what):
@@ -236,10 +237,10 @@ def print_summary(result):
     )
 
     about, summary = result.about, result.summary
-    console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
+    console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}")
     print_basis(about["basis"].items())
     for line in change_lines(result):
-        console.print(f"changes {escape(line)}", soft_wrap=True)
+        console.print(f"changes {escape(line)}")
     console.print(statistics_table(result) if has_statistics(result) else early_table(result))
     rivets = rivet_rows(result)
     if rivets:
@@ -265,8 +266,7 @@ def print_summary(result):
         )
     console.print(
         f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
-        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
-        soft_wrap=True,
+        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)"
     )
     print_known(result)
     if rows := assumed_rows(result):
@@ -276,16 +276,13 @@ def print_summary(result):
             f"{row.name} {row.words[0]} ({': '.join(filter(None, (row.words[1], row.change('stress'))))})"
             for row in moving
         )
-        console.print(
-            f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]",
-            soft_wrap=True,
-        )
+        console.print(f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]")
         if rest := [row for row in rows if row not in moving]:
-            console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]", soft_wrap=True)
+            console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]")
     for source, names in about.get("not_given", {}).items():
-        console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
+        console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]")
     if names := assumed_as_bronze(result):
-        console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
+        console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]")
     kinds = (settle_note, count_note, speed_note, flag_note, table_note, alone_note)
     for text in filter(None, (of(result) for of in kinds)):
         note(text)

@@ -94,7 +94,7 @@ def print_screening(model, record):
     rows = sorted(
         all_assumed(origin_of(model, scene), values), key=lambda row: (-row.size("damage"), -row.size("stress"))
     )
-    console.print(f"[bold]{escape(model.bearing)}[/]", soft_wrap=True)
+    console.print(f"[bold]{escape(model.bearing)}[/]")
     shown = (
         (row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in rows if row.effect
     )
@@ -103,11 +103,10 @@ def print_screening(model, record):
     )
     for line in {row.unknown: None for row in rows if not row.effect}:
         names = ", ".join(row.name for row in rows if row.unknown == line and not row.effect)
-        console.print(f"[dim]not covered: {names}: {escape(line)}[/]", soft_wrap=True)
+        console.print(f"[dim]not covered: {names}: {escape(line)}[/]")
     console.print(
         f"[dim]99.9 % quantile of the worst head, damage of the worst place; one at a time, {record['seeds']} common seeds of "
-        f"{record['t_end']:.3g} s; in {record['seconds']:.0f} s[/]",
-        soft_wrap=True,
+        f"{record['t_end']:.3g} s; in {record['seconds']:.0f} s[/]"
     )
     print_paths(("results", next(path for path in paths(model) if path.is_file())))
 
@@ -130,7 +129,7 @@ def print_indices(found, box):
             if sobol is None or sobol["noise"] is None
             else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
         )
-        console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
+        console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]")
         rows = []
         for k in order(found, name):
             cells = [ends[k], *(f"{factor * morris[key][k]:.3g}" for key in ("mu_star", "mu_star_conf", "sigma"))]
@@ -142,6 +141,5 @@ def print_indices(found, box):
         console.print(table(heads, rows))
     console.print(
         "[dim]Not among the factors: shapes of which the FMU is built (stress table, cage half, rivet). They need an FMU of "
-        "their own (riveted-bearing build); compare-designs sets such FMUs side by side.[/]",
-        soft_wrap=True,
+        "their own (riveted-bearing build); compare-designs sets such FMUs side by side.[/]"
     )

@@ -69,12 +69,12 @@ def summary(
         sheet, folder = sheet_of_mission(source, fmu, hours, decides, out, scheduler, workers)
         path = out or folder / SHEET
     write_sheet(sheet, path)
-    console.print(f"[bold]{escape(sheet.verdict[1])}[/]  {escape(sheet.verdict[2])}", soft_wrap=True)
+    console.print(f"[bold]{escape(sheet.verdict[1])}[/]  {escape(sheet.verdict[2])}")
     for check in sheet.checks:
         use = "" if check.use is None else f"utilisation {check.use:.2g}"
-        console.print(f"{check.title:32} {escape(check.value)}  [dim]{escape(check.allowed)}  {use}[/]", soft_wrap=True)
+        console.print(f"{check.title:32} {escape(check.value)}  [dim]{escape(check.allowed)}  {use}[/]")
     for fault, text in sheet.limits:
-        console.print(f"[{'yellow' if fault else 'dim'}]{escape(text)}[/]", soft_wrap=True)
+        console.print(f"[{'yellow' if fault else 'dim'}]{escape(text)}[/]")
     print_paths(("page", path))
 
 

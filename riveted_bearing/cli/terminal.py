@@ -15,7 +15,6 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.text import Text
 
 from ..base.errors import UserError, extra, refusal, unknown
-from ..base.version import __version__
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
 # Libraries of the extra "full": a run needs none of them.
@@ -31,10 +30,19 @@ FULL = (
     "filelock",
     "rainflow",
 )
+
+
+class Terminal(Console):
+    """A console whose texts are wrapped by the terminal itself, so that paths stay whole; tables fit its width."""
+
+    def print(self, *objects, **options):
+        super().print(*objects, **{"soft_wrap": all(isinstance(each, str) for each in objects)} | options)
+
+
 program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 PIPE_WIDTH = 160  # characters, where there is no terminal to ask
-console = Console(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
-messages = Console(stderr=True, highlight=False)
+console = Terminal(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
+messages = Terminal(stderr=True, highlight=False)
 
 # Options that several commands have.
 FMU = Annotated[
@@ -83,6 +91,8 @@ def option_value(option, text, read):
 def print_version(wanted: bool):
     """Print version, Python and platform, then end."""
     if wanted:
+        from ..base.version import __version__  # its library takes longer than the rest of the help
+
         console.print(
             f"riveted-bearing {__version__}, Python {platform.python_version()}, {platform.system()} {platform.machine()}"
         )
@@ -107,15 +117,14 @@ def guarded(function):
         try:
             return function(*arguments, **options)
         except UserError as problem:
-            messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
+            messages.print(f"[bold red]error:[/] {escape(str(problem))}")
             raise typer.Exit(BAD_INPUT) from None
         except ModuleNotFoundError as problem:
             library = (problem.name or "").partition(".")[0]
             if library not in FULL:
                 raise
             messages.print(
-                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}",
-                soft_wrap=True,
+                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}"
             )
             raise typer.Exit(BAD_INPUT) from None
         except KeyboardInterrupt:
@@ -127,7 +136,7 @@ def guarded(function):
             if problem.strerror is None:
                 raise
             place = f"{problem.filename}: " if problem.filename else ""
-            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}", soft_wrap=True)
+            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}")
             raise typer.Exit(BAD_INPUT) from None
 
     return called
@@ -145,8 +154,7 @@ def resumable(folder):
         yield
     except KeyboardInterrupt:
         messages.print(
-            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others",
-            soft_wrap=True,
+            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others"
         )
         raise typer.Exit(INTERRUPTED) from None
 
@@ -218,13 +226,13 @@ def number_or_text(value):
 def print_basis(rows):
     """What the figures that follow rest on; what a scene has replaced stands out."""
     for name, text in rows:
-        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]", soft_wrap=True)
+        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]")
 
 
 def print_warnings(texts):
     """Sentences that a user must not miss, on stderr."""
     for text in texts:
-        messages.print(f"[yellow]warning: {escape(text)}[/]", soft_wrap=True)
+        messages.print(f"[yellow]warning: {escape(text)}[/]")
 
 
 @contextlib.contextmanager

@@ -9,11 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from ..base import tables
-from ..base.errors import UserError, is_file, refusal, refusing, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
-from ..base.shipped import SHIPPED, shipped_scenes
+from ..base.shipped import find_scene
 from ..base.toml_files import leaves, read_toml, whole_name
 from ..base.units import suffix
 from ..base.variable_list import is_like
@@ -169,18 +168,6 @@ def replacements(of_file, scene, model):
             yield f"{name} {there} for {here}"
 
 
-def find_scene(source):
-    """The file of a scene given by path or by shipped name."""
-    if str(source) in shipped_scenes():
-        return SHIPPED / f"{source}.toml"
-    path = Path(source)
-    if is_file(path):
-        return path
-    if path.suffix:
-        raise UserError(f"{source}: no such scene file")
-    raise unknown("scene", "name", source, shipped_scenes())
-
-
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
     check_keys(where, document, SceneFile.model_fields, "scene")
@@ -296,6 +283,7 @@ def profile_waves(race, profile, model, folder):
 
     The mean height is left out: it belongs to the groove's diameter.
     """
+    from ..base import tables
     from ..bearing.surfaces import waves_of
 
     angle, height = tables.read(
