@@ -5,6 +5,7 @@ import reprlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +58,14 @@ def refusing(where: Any, key: Any, value: Any) -> Iterator[None]:
 def extra(name: str) -> str:
     """How to install what one of the package's extras brings: the package is in no index."""
     return f'pip install -e ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'
+
+
+def library(name: str, what: str) -> Any:
+    """A library of the extra "full"; UserError if it is missing; what: needs it."""
+    try:
+        return import_module(name)
+    except ImportError:
+        raise UserError(f"{what}: needs the library {name.partition('.')[0]}: {extra('full')}") from None
 
 
 def shortlist(names: Any, length: int = 12) -> str:

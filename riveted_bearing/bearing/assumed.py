@@ -130,7 +130,8 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
         if name.startswith("rivet."):
             yield assumed(name, "mm", 1e3, sizes.get(name), each, screening=screening)
         elif name in parameters:
-            yield assumed(name, *shown_unit(name), parameters[name], each, parameters, screening)
+            unit, factor = shown_unit(name)
+            yield assumed(name, unit, factor, parameters[name], each, parameters, screening)
     temperatures = {name: T - 273.15 for name, T in about.get("temperatures", {}).items()}
     for name, T in temperatures.items():
         low, high, source = TEMPERATURES[name]

@@ -9,7 +9,7 @@ from rich.markup import escape
 from rich.progress import TimeElapsedColumn
 
 from .printing import note, print_paths
-from .terminal import command, console, messages, progress_bar
+from .terminal import CAGE, command, console, messages, progress_bar
 from .terminal import screen as screening_of
 
 TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second
@@ -41,10 +41,7 @@ def build(
             help="vibration modes of a cage half, a pair counted as two; default: about 5 a ball, 40 for 8 or 9"
         ),
     ] = None,
-    cage: Annotated[
-        str | None,
-        typer.Option(help="shape of the cage; default: the bearing file's, else machined", metavar="machined|ribbon"),
-    ] = None,
+    cage: CAGE = None,
     screen: Annotated[
         bool,
         typer.Option(

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 
 from .printing import note
-from .terminal import CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
+from .terminal import CAGE, CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
 
 
 @command
@@ -20,12 +20,7 @@ def info(
         ),
     ] = None,
     fmu: FMU = None,
-    cage: Annotated[
-        str | None,
-        typer.Option(
-            help="shape of the cage of a bearing; default: the file's, else machined", metavar="machined|ribbon"
-        ),
-    ] = None,
+    cage: CAGE = None,
     cleanliness: CLEANLINESS = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""

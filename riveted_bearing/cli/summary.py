@@ -14,6 +14,7 @@ from .terminal import (
     CLEANLINESS,
     FMU,
     SCHEDULER,
+    SENSITIVITY,
     WORKERS,
     chosen_cleanliness,
     command,
@@ -35,10 +36,7 @@ def summary(
     ],
     fmu: FMU = None,
     target: Annotated[str | None, typer.Option(help='life that is wanted, e.g. "10000 h"')] = None,
-    sensitivity: Annotated[
-        Path | None,
-        typer.Option(help="sensitivity.json of `sensitivity`, or its folder: names the assumptions that decide"),
-    ] = None,
+    sensitivity: SENSITIVITY = None,
     out: Annotated[
         Path | None,
         typer.Option(

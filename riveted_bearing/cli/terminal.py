@@ -63,6 +63,16 @@ WORKERS = Annotated[
     int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")
 ]
 
+CAGE = Annotated[
+    str | None,
+    typer.Option(
+        "--cage", help="shape of a bearing's cage; default: the file's, else machined", metavar="machined|ribbon"
+    ),
+]
+SENSITIVITY = Annotated[
+    Path | None,
+    typer.Option("--sensitivity", help="sensitivity.json of `sensitivity`, or its folder: names what decides"),
+]
 CLEANLINESS = Annotated[
     str | None,
     typer.Option(

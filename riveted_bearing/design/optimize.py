@@ -23,14 +23,14 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from ..base.errors import UserError, extra, refusal, unknown
+from ..base.errors import UserError, library, refusal, unknown
 from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Named, checked
 from ..base.units import to_si
 from ..running.fmu import Model
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, picture
 from .bench import BenchFile, Box, Responses
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
@@ -114,10 +114,7 @@ def plan_optimize(path: str | Path, document: dict[str, Any], model: Model) -> A
 
 def optuna_library() -> Any:
     """Optuna; UserError if it is missing."""
-    try:
-        import optuna
-    except ImportError:
-        raise UserError(f"optimize: needs the library Optuna: {extra('full')}") from None
+    optuna = library("optuna", "optimize")
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     return optuna
 
@@ -261,12 +258,10 @@ def write_picture(found: Any, path: Path) -> Path:
     """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first
     two variables; returns the path.
     """
-    with plt.rc_context(STYLE):
-        figure, ax = plt.subplots(figsize=(6.6, 5.0), layout="constrained")
-        (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
-        figure.suptitle(f"{found.study.path.stem}: {len(found.points)} points searched", x=0.01, ha="left", fontsize=11)
+    with picture(path, (6.6, 5.0), f"{found.study.path.stem}: {len(found.points)} points searched") as figure:
+        (pareto_panel if len(found.study.objectives) > 1 else single_panel)(figure.subplots(), found)
         figure.legend(loc="outside lower center", ncols=3, fontsize=8)  # points lie anywhere on the panel
-        return save_figure(figure, path)
+    return path
 
 
 def pareto_panel(ax, found):

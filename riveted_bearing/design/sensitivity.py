@@ -26,13 +26,13 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import AfterValidator, Field
 
-from ..base.errors import UserError, extra
+from ..base.errors import UserError, library
 from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Section, checked
 from ..running.fmu import Model
 from ..running.responses import display_of
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, picture
 from .bench import BenchFile, Box, Responses, noise_variance
 
 
@@ -125,14 +125,10 @@ def salib(command: str = "sensitivity") -> Any:
     """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
     missing.
     """
-    try:
-        from SALib.analyze import morris as analyze_morris
-        from SALib.analyze import sobol as analyze_sobol
-        from SALib.sample import morris as sample_morris
-        from SALib.sample import sobol as sample_sobol
-    except ImportError:
-        raise UserError(f"{command}: needs the library SALib: {extra('full')}") from None
-    return sample_morris, analyze_morris, sample_sobol, analyze_sobol
+    return [
+        library(f"SALib.{part}", command)
+        for part in ("sample.morris", "analyze.morris", "sample.sobol", "analyze.sobol")
+    ]
 
 
 def analyse(study: Any, evaluate: Any) -> Any:
@@ -234,12 +230,9 @@ def read_indices(path: str | Path) -> Any:
 def write_picture(found: Any, path: Path) -> Path:
     """Write the picture: mu_star of each factor with its confidence and the noise, and Sobol indices; returns the path."""
     columns = 2 if found.sobol else 1
-    with plt.rc_context(STYLE):
-        height = 1.2 + max(2.2, 0.34 * len(found.factors) + 0.9) * len(found.responses)
-        figure, axes = plt.subplots(
-            len(found.responses), columns, figsize=(5.6 * columns, height), layout="constrained", squeeze=False
-        )
-        figure.suptitle(f"{found.name}: what decides, {found.seeds} seeds a point", x=0.01, ha="left", fontsize=11)
+    height = 1.2 + max(2.2, 0.34 * len(found.factors) + 0.9) * len(found.responses)
+    with picture(path, (5.6 * columns, height), f"{found.name}: what decides, {found.seeds} seeds a point") as figure:
+        axes = figure.subplots(len(found.responses), columns, squeeze=False)
         for row, name in zip(axes, found.responses, strict=True):
             screening_panel(row[0], found, name)
             if found.sobol:
@@ -247,7 +240,7 @@ def write_picture(found: Any, path: Path) -> Path:
         keys = {text: handle for ax in axes.flat for handle, text in zip(*ax.get_legend_handles_labels(), strict=True)}
         if keys:  # beside the panels, whose bars and errors lie anywhere
             figure.legend(keys.values(), keys, loc="outside lower center", ncols=len(keys))
-        return save_figure(figure, path)
+    return path
 
 
 def screening_panel(ax, found, name):

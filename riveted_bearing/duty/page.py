@@ -14,7 +14,7 @@ from ..running.budget import digits, life_ends
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, few_ticks, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, few_ticks, picture
 from ..show.tornado import tornado
 from .assess import Life
 from .raceways import card
@@ -298,15 +298,9 @@ def write_picture(life: Life, path: Path) -> Path:
     """The charts as one PNG, whole or not at all; returns the path."""
     shown = charts_of(life).values()
     rows = (len(shown) + 1) // 2
-    with plt.rc_context(STYLE):
-        whole = plt.figure(figsize=(11, 3.7 * rows), layout="constrained")
-        whole.suptitle(
-            f"{life.mission.name}: life {hours_text(life.estimate.life, digits(life.budgets))}, {life.place}",
-            x=0.01,
-            ha="left",
-            fontsize=11,
-        )
+    title = f"{life.mission.name}: life {hours_text(life.estimate.life, digits(life.budgets))}, {life.place}"
+    with picture(path, (11, 3.7 * rows), title) as whole:
         for part, (draw, _, label) in zip(whole.subfigures(rows, 2).ravel(), shown, strict=False):
             draw(part, life)
             part.suptitle(label, x=0.02, ha="left", fontsize=10, fontweight="bold")
-        return save_figure(whole, path)
+    return path

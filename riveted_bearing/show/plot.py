@@ -10,7 +10,7 @@ from ..running.in_run import changes
 from ..running.results import Result
 from ..running.summary import RPM, breaks, rivet_rows, settled, summary_rows
 from .orbit import cage_orbit
-from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
+from .style import FORCE, HEAD, MIDDLE, MUTED, RING, picture
 
 TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
@@ -19,10 +19,8 @@ MARK = "_mark"  # label of lines that are no curves
 def plot_result(result: Result, path: Path) -> Path:
     """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded are left out."""
     panels = [(draw, data) for draw, data in ((draw, wanted(result, names)) for draw, names in OVER_TIME) if data]
-    with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(13, 1.2 + 1.65 * max(len(panels), 4)), layout="constrained")
+    with picture(path, (13, 1.2 + 1.65 * max(len(panels), 4)), title(result), 130) as figure:
         left, right = figure.subfigures(1, 2, width_ratios=[2.1, 1])
-        figure.suptitle(title(result), x=0.01, ha="left", fontsize=11)
         if panels:
             heights = [HEIGHTS.get(draw, 1.0) for draw, _ in panels]
             axes = left.subplots(len(panels), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
@@ -34,7 +32,7 @@ def plot_result(result: Result, path: Path) -> Path:
         orbit_ax, bars_ax = right.subplots(2, 1)
         cage_orbit(orbit_ax, result)
         rivet_bars(bars_ax, result)
-        return save_figure(figure, path, 130)
+    return path
 
 
 def title(result):
@@ -185,10 +183,9 @@ def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
     """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by
     tolerance, statistics in standard deviations.
     """
-    with plt.rc_context(STYLE):
-        rows = 3 if found.statistics else 2
-        figure, axes = plt.subplots(2, rows, figsize=(4.6 * rows, 7.0), layout="constrained")
-        figure.suptitle(f"{found.scene}: FMU against the Python reference", x=0.01, ha="left", fontsize=11)
+    rows = 3 if found.statistics else 2
+    with picture(path, (4.6 * rows, 7.0), f"{found.scene}: FMU against the Python reference", dpi) as figure:
+        axes = figure.subplots(2, rows)
         by_name = {channel.name: channel for channel in found.channels}
         panels = [axes[0, 0], axes[0, 1], axes[1, 0]]
         for ax, (name, title) in zip(panels, OVERLAID, strict=True):
@@ -198,7 +195,7 @@ def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
             grid = axes[0, 2].get_gridspec()
             axes[0, 2].remove(), axes[1, 2].remove()
             deviations(figure.add_subplot(grid[:, 2]), found)
-        return save_figure(figure, path, dpi)
+    return path
 
 
 def overlay(ax, t, channel, title):

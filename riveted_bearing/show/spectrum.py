@@ -31,7 +31,7 @@ from ..running.results import Result
 from ..running.scene import ALWAYS, Scene
 from ..running.summary import settled
 from .animation import number_of_balls
-from .style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
+from .style import FORCE, HEAD, MIDDLE, MUTED, picture
 
 CHANNELS = ("housing.a_y", "housing.F_y", "ring.a_y", "ring.y")  # first of these that moves, unless one is named
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
@@ -324,7 +324,6 @@ def squared(unit: str) -> Any:
 
 def plot_spectra(found: Any, path: Path) -> Path:
     """A picture of both spectra."""
-    with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(9, 6), layout="constrained")
+    with picture(path, (9, 6)) as figure:
         draw(figure, found)
-        return save_figure(figure, path)
+    return path

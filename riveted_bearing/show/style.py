@@ -1,5 +1,7 @@
 """How all pictures look: colours by what a curve shows, matplotlib's settings, and files written whole or not at all."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -38,8 +40,13 @@ def few_ticks(ax: Any, places: Any) -> None:
     ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
 
 
-def save_figure(figure: Any, path: Path, dpi: int = 110) -> Path:
-    """Write a figure as PNG, whole or not at all, and close it; returns the path."""
-    write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
-    plt.close(figure)
-    return path
+@contextmanager
+def picture(path: Path, size: tuple[float, float], title: str = "", dpi: int = 110) -> Iterator[Any]:
+    """A figure [inches] to draw on, with its title, that is then written as PNG, whole or not at all."""
+    with plt.rc_context(STYLE):
+        figure = plt.figure(figsize=size, layout="constrained")
+        if title:
+            figure.suptitle(title, x=0.01, ha="left", fontsize=11)
+        yield figure
+        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=dpi))
+        plt.close(figure)

@@ -28,7 +28,7 @@ from ..running.inputs import History
 from ..running.scene import Scene, own_names
 from ..running.scene_case import case_at
 from ..running.summary import RPM
-from ..show.style import FORCE, HEAD, MIDDLE, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, picture
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
@@ -276,8 +276,8 @@ def plot_matrices(found: Any, path: Path) -> Path:
     factor.
     """
     loads = list(dict.fromkeys(p.load for p in found))
-    with plt.rc_context(STYLE):
-        figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
+    with picture(path, (11, 4.2)) as figure:
+        left, right = figure.subplots(1, 2)
         for load, dash in zip(loads, ("-", "--", ":", "-.") * len(loads), strict=False):
             points = [p for p in found if p.load == load]
             speed = RPM * np.array([p.omega for p in points])
@@ -293,4 +293,4 @@ def plot_matrices(found: Any, path: Path) -> Path:
         for ax in (left, right):
             if ax.has_data() and ax.get_legend_handles_labels()[0]:
                 ax.legend()
-        return save_figure(figure, path)
+    return path

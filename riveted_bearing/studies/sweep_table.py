@@ -14,7 +14,7 @@ from ..base.units import suffix
 from ..running.basis import basis
 from ..show import charts
 from ..show.pages import save_page
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, picture
 from .sweep_file import Sweep
 
 CONFIDENCE = 0.95
@@ -186,18 +186,14 @@ def write_picture(table: Any, path: Path) -> Path:
     """The responses side by side as PNG, whole or not at all; returns the path."""
     columns = min(3, len(table.responses))
     rows = -(-len(table.responses) // columns)
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(
-            rows, columns, figsize=(4.4 * columns, 0.5 + 3.3 * rows), layout="constrained", squeeze=False
-        )
-        figure.suptitle(
-            f"{table.name}: means over seeds, {100 * CONFIDENCE:g} % intervals", x=0.01, ha="left", fontsize=11
-        )
+    title = f"{table.name}: means over seeds, {100 * CONFIDENCE:g} % intervals"
+    with picture(path, (4.4 * columns, 0.5 + 3.3 * rows), title) as figure:
+        axes = figure.subplots(rows, columns, squeeze=False)
         for ax in axes.ravel()[len(table.responses) :]:
             ax.remove()
         for ax, response in zip(axes.ravel(), table.responses, strict=False):
             draw_response(ax, table, response)
-        return save_figure(figure, path)
+    return path
 
 
 def write_page(table: Any, description: Any, path: Path) -> Path:
