@@ -24,6 +24,7 @@ from threadpoolctl import threadpool_limits
 
 from riveted_bearing.building.builder import PLATFORMS, build_folder
 from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import cluster
 
 
 def pytest_generate_tests(metafunc):
@@ -160,6 +161,15 @@ def everywhere(tmp_path_factory):
         (shaft / "binaries" / platform).mkdir(parents=True, exist_ok=True)
         shutil.copy(binary, shaft / "binaries" / platform)
     return {"RivetedBearing": bearing, "Shaft": shaft}
+
+
+@pytest.fixture(scope="module")
+def client():
+    """Two worker processes of this machine."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(ROOT))
+        with cluster(workers=2) as client:
+            yield client
 
 
 @pytest.fixture(scope="session")

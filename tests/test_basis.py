@@ -31,7 +31,7 @@ from riveted_bearing.running.scene import load_scene
 from riveted_bearing.running.scene_case import case_of, scene_case
 from riveted_bearing.show.report import render, setting_rows
 from riveted_bearing.studies.matrices import quasi_static_matrices
-from riveted_bearing.studies.sweep import cluster, run_sweep
+from riveted_bearing.studies.sweep import run_sweep
 from riveted_bearing.studies.sweep_file import plan_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -477,14 +477,6 @@ SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
 def other(tmp_path_factory):
     """An FMU of the 6309, three minutes the first time."""
     return Model(build("6309", out=tmp_path_factory.mktemp("6309") / "my6309.fmu"))
-
-
-@pytest.fixture(scope="module")
-def client():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(ROOT))
-        with cluster(workers=1) as client:
-            yield client
 
 
 def written_out(model):

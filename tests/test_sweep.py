@@ -25,15 +25,6 @@ SHORT = '[simulation]\nt_end = 2e-3\n[parameters]\nstart.settle = "0.5 ms"\n'  #
 LONGER = SHORT.replace("2e-3", "0.1")  # 0.1 s a run: there is a middle to be killed in
 
 
-@pytest.fixture(scope="module")
-def client():
-    """Two worker processes of this machine."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(ROOT))
-        with cluster(workers=2) as client:
-            yield client
-
-
 def plan(folder, model, text):
     """The Sweep of a file with this content."""
     path = folder / "study.toml"
