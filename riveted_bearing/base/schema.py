@@ -165,13 +165,13 @@ def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault:
             prefix = f"{prefix}.{step}".lstrip(".")
     full = prefix if isinstance(key, int) else f"{prefix}.{key}".lstrip(".")  # an entry of a list is the list's
     if fault["type"] == "extra_forbidden":
-        return unknown(place, "key", key, keys_at(kind, above), f"{prefix}." if prefix else "")
+        return unknown(place, "key", key, [*fields_at(kind, above)], f"{prefix}." if prefix else "")
     if fault["type"] == "missing":
-        about = field_at(kind, [*above, key]).description
+        about = fields_at(kind, above)[key].description
         return UserError(f"{place}: {full} is needed{f': {about}' if about else ''}")
     if isinstance(key, int) and fault["type"] in ("model_type", "dict_type"):  # not a list of tables
         return UserError(f"{place}: {above[-1]}: write [[{above[-1]}]] with its keys below it")
-    if fault["type"] == "list_type" and is_of_tables(field_at(kind, [*above, key]).annotation):
+    if fault["type"] == "list_type" and is_of_tables(fields_at(kind, above)[key].annotation):
         return UserError(f"{place}: {full}: write [[{full}]] with its keys below it")
     error = fault.get("ctx", {}).get("error")
     return refusal(place, full, fault["input"], error or WORDS.get(fault["type"], fault["msg"]))
@@ -189,20 +189,12 @@ def is_of_tables(annotation: Any) -> bool:
     return model_of(annotation) is not None or Named in get_args(annotation)
 
 
-def field_at(kind: type[Section], place: list[Any]) -> Any:
-    """The field of a place in a document."""
-    *above, key = [step for step in place if isinstance(step, str)]
-    for step in above:
-        kind = model_of(kind.model_fields[step].annotation) or kind
-    return kind.model_fields[key]
-
-
-def keys_at(kind: type[Section], place: list[Any]) -> list[str]:
-    """Keys that a table at a place of a document may have."""
+def fields_at(kind: type[Section], place: list[Any]) -> Any:
+    """The fields of a table at a place of a document."""
     for step in place:
         if isinstance(step, str):
             kind = model_of(kind.model_fields[step].annotation) or kind
-    return [*kind.model_fields]
+    return kind.model_fields
 
 
 def json_schema(kind: type[Section]) -> dict[str, Any]:

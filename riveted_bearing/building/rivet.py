@@ -32,7 +32,6 @@ from ..bearing.file_values import is_number, unit_scales
 from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
-OF_6207 = "in the cage of the 6207"
 CAGE_NAMES = {  # key of a geometry file -> of a bearing file
     "Z": "Z",
     "d_m": "bearing.d_m",
@@ -55,11 +54,8 @@ def rivet_curves(source: Any = None, bearing: Any = None) -> Any:
     if bearing is not None or path.suffix == ".toml":
         geometry = source_geometry(source, bearing)
         joint = condensed(geometry, path)
-        cage = (
-            f"in the cage of the {designation_of(bearing)}"
-            if bearing
-            else f"{OF_6207} where the file gives no other sizes"
-        )
+        whose = f"{bearing_case(bearing).designation}" if bearing else "6207 where the file gives no other sizes"
+        cage = f"in the cage of the {whose}"
         response, title = pictures.joint_response(joint), f"{path.name}: finite elements, {cage}"
     else:
         t = read_table(path)
@@ -77,11 +73,6 @@ def source_geometry(source: Any, bearing: Any) -> Any:
     if bearing is not None and Path(source).suffix != ".toml":
         raise UserError(f"--bearing {bearing}: {source} is a table, which is made for a cage already")
     return given_geometry(source, bearing)
-
-
-def designation_of(bearing):
-    """What a bearing (designation or file) is called."""
-    return bearing_case(bearing).designation
 
 
 def is_papers(geometry):

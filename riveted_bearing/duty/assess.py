@@ -78,16 +78,8 @@ class Runs:
                 scene = started(replace(case.scene, outputs=outputs), model, mission.settings["seed"], s)
                 self.keys[c, s] = key_of(scene, model.digest)
                 scenes[self.keys[c, s]] = scene
-        self.sweep = Sweep(
-            mission.name,
-            mission.description,
-            model,
-            model.path.read_bytes(),
-            mission.document,
-            ("start.seed",),
-            scenes,
-            (rainflow_columns, rainflow_fields),
-        )
+        about = mission.name, mission.description, model, model.path.read_bytes(), mission.document
+        self.sweep = Sweep(*about, ("start.seed",), scenes, (rainflow_columns, rainflow_fields))
         self.strengths, self.damages, self.matrices, self.cost, self.figures = {}, {}, {}, {}, {}
         self.per = {}  # of each run: what makes its damage one per hour of a point, or per event
 
@@ -132,9 +124,8 @@ class Runs:
             raise UserError(
                 f"{where}: the rivets' stress rests on closed forms, which are no base of a life: build --table coarse makes finite elements"
             )
-        own = np.array(
-            [[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in range(1, number_of_rivets(rows) + 1)]
-        )
+        rivets = range(1, 1 + sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows))
+        own = np.array([[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in rivets])
         law = fatigue_law({name: rows[name][i] for name in rows if name.startswith("fatigue.")})
         matrix = stored_cycles(rows, i)
         damage = own
@@ -181,11 +172,6 @@ def place_text(place, rivets):
     k, end = divmod(place, 2)
     where = ("head", "middle")[end]
     return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
-
-
-def number_of_rivets(rows):
-    """Number of rivets that a sweep's rows have."""
-    return sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows)
 
 
 def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: None) -> Life:

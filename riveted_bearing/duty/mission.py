@@ -151,14 +151,10 @@ def curves(path: Path, section: Any, scenes: Any, model: Model) -> Any:
     found = {}
     for scene in scenes:
         given = frozenset(name for name in given_names(model, scene) if name.startswith("fatigue."))
-        found[scene_law(scene, model), given] = None
+        law = {name: scene.value(name, model) for name in model.parameters if name.startswith("fatigue.")}
+        found[fatigue_law(law), given] = None
     strengths = ((read_strength(path, section, law), given) for law, given in found)
     return "; ".join(dict.fromkeys(f"{in_words(strength)}{assumed(strength, given)}" for strength, given in strengths))
-
-
-def scene_law(scene, model):
-    """The FatigueLaw of a scene's parameters."""
-    return fatigue_law({name: scene.value(name, model) for name in model.parameters if name.startswith("fatigue.")})
 
 
 def life_settings(path, life):

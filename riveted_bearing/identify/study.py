@@ -157,7 +157,9 @@ def plan_identify(path: str | Path, document: dict[str, Any], model: Model) -> A
     settings |= {"screen": dict(file.screen), "search": dict(file.search)}
     points = points_of(path, file)
     parameters = parameters_of(path, file.parameter, model, points)
-    scenes = [scene_of(path, file, model, changes) for _, changes in points]
+    common = {"simulation": file.simulation, "parameters": file.parameters, "inputs": file.inputs}
+    source = beside(path, file.scene)
+    scenes = [load_scene(source, model, (str(path), common), (str(path), changes)) for _, changes in points]
     reader = Reader(path, model, points, scenes, file.held_out)
     for i, block in enumerate(file.target, 1):
         reader.target(f"target {i}", block)
@@ -169,17 +171,8 @@ def plan_identify(path: str | Path, document: dict[str, Any], model: Model) -> A
         )
     if all(target.held_out for target in reader.targets):
         raise UserError(f"{path}: all targets are held out: nothing to fit")
-    measures = tuple(dict.fromkeys(reader.measures))
-    return Study(
-        path,
-        file.description,
-        parameters,
-        reader.targets,
-        points,
-        measures,
-        tuple(dict.fromkeys(reader.outputs)),
-        settings,
-    )
+    measures, outputs = (tuple(dict.fromkeys(names)) for names in (reader.measures, reader.outputs))
+    return Study(path, file.description, parameters, reader.targets, points, measures, outputs, settings)
 
 
 def points_of(path, file):
@@ -241,9 +234,3 @@ def parameters_of(path, section, model, points):
         if both := own & {parameter.name for parameter in found}:
             raise UserError(f"{path}: {', '.join(sorted(both))}: to be found, but point {name} sets it")
     return found
-
-
-def scene_of(path, file, model, changes):
-    """The scene of an operating point, before the outputs that the targets need."""
-    common = {"simulation": file.simulation, "parameters": file.parameters, "inputs": file.inputs}
-    return load_scene(beside(path, file.scene), model, (str(path), common), (str(path), changes))

@@ -81,13 +81,6 @@ def quantity(path, key, value, scales):
         return to_si(value, scales)
 
 
-def text_of(path, key, value):
-    """A text; UserError naming the key."""
-    if not isinstance(value, str):
-        raise refusal(path, key, value, "a text is needed")
-    return value
-
-
 def spread(path, key, value, scales, mean):
     """A standard deviation in SI: of a unit, or in percent of the mean; offsets of units do not count."""
     relative = isinstance(value, str) and value.strip().endswith("%")
@@ -235,9 +228,9 @@ class Reader:
             raise refusal(where, "statistics", kinds, f"a list of {', '.join(allowed)} is needed")
         for channel, wanted in columns.items():
             unit, scales = self.channel(where, "channel", channel)
-            t, values = table.series(
-                time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=block.longest_gap
-            )
+            if not isinstance(wanted, str):
+                raise refusal(where, f"columns.{channel}", wanted, "a text is needed")
+            t, values = table.series(time, Wanted(wanted, scales), gap=block.longest_gap)
             if len(t) < 16 * SEGMENTS:
                 raise UserError(f"{file}: {len(t)} rows: at least {16 * SEGMENTS} times are needed")
             head = table.heads[table.place(wanted)]

@@ -89,19 +89,14 @@ def report_pages(
         if not has_numbers(result):
             raise UserError(f"{path}: no output has a number: there is nothing to show")
         measured = read_measured(overlay, result, columns) if overlay else ()
-        yield write_report(result, out if as_file else out / name.name if out else name, decides, measured)
+        target = out if as_file else out / name.name if out else name
+        yield write_text(target, render(result, decides, measured))
 
 
 def has_numbers(result):
     """Whether any column beside time and inputs has a number, if there are such columns."""
     outputs = [values for name, values in result.data.items() if name not in {"time", *variables.INPUTS}]
     return not outputs or not all(np.all(np.isnan(values)) for values in outputs)
-
-
-def write_report(result, path, decides=None, measured=()):
-    """Write the page of a result, whole or not at all; returns the path."""
-    page = render(result, decides, measured)
-    return write_text(path, page)
 
 
 def render(result, decides=None, measured=()):

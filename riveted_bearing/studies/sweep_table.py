@@ -40,7 +40,6 @@ class Response:
     unit: str
     mean: np.ndarray
     half: np.ndarray
-    logarithmic: bool = False
 
 
 @dataclass(frozen=True)
@@ -75,7 +74,7 @@ def sweep_table(sweep: Sweep, rows: Any) -> Any:
             responses.append(Response(title, unit, *averaged(factor * rows[column], groups)))
     if np.any(damage := damage_per_hour(rows, done)):
         mean, half = averaged(np.log10(np.maximum(damage, 1e-300)), groups)
-        responses.append(Response("log10 damage per hour", "", mean, half, logarithmic=True))
+        responses.append(Response("log10 damage per hour", "", mean, half))
     factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
     seeds = np.array([len(group) for group in groups.values()])
     return SweepTable(sweep.name, factors, list(groups), seeds, responses, basis(sweep.model, sweep.scenes.values()))
@@ -92,9 +91,8 @@ def shown(model, name, values):
 
 def column_of(name):
     """Column of the rows that holds a factor."""
-    return {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}.get(
-        name, name
-    )
+    others = {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}
+    return others.get(name, name)
 
 
 def damage_per_hour(rows, done):
@@ -155,17 +153,8 @@ def draw_response(ax, table, response):
         places, x = np.array(places)[order], np.array(x, float)[order]
         label = ", ".join(value if isinstance(value, str) else f"{value:.5g}" for value in rest)
         style = "o-" if numbers and len(groups) <= MOST_LINES else "o"
-        ax.errorbar(
-            x,
-            response.mean[places],
-            yerr=np.nan_to_num(response.half[places]),
-            fmt=style,
-            color=colour,
-            ms=4,
-            lw=1.0,
-            capsize=2,
-            label=label,
-        )
+        half, look = np.nan_to_num(response.half[places]), {"ms": 4, "lw": 1.0, "capsize": 2}
+        ax.errorbar(x, response.mean[places], yerr=half, fmt=style, color=colour, label=label, **look)
     if ticks:
         ax.set_xticks(range(len(ticks)), ticks)
     ax.set(
