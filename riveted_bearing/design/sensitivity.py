@@ -204,18 +204,10 @@ def read_indices(path: str | Path) -> Any:
     path = Path(path)
     path = path / "sensitivity.json" if path.is_dir() else path
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        found = Sensitivity(**record)
-        whole = all(
-            len(found.morris[name][key]) == len(found.factors)
-            for name in found.responses
-            for key in ("mu_star", "mu_star_conf", "sigma")
-        )
-        whole = (
-            whole
-            and all("noise" in found.morris[name] for name in found.responses)
-            and len(found.factors) > 0 < len(found.responses)
-        )
+        found = Sensitivity(**json.loads(path.read_text(encoding="utf-8")))
+        of_responses, keys = [found.morris[name] for name in found.responses], ("mu_star", "mu_star_conf", "sigma")
+        lengths = {len(indices[key]) for indices in of_responses for key in keys}
+        whole = lengths == {len(found.factors)} != {0} and all("noise" in indices for indices in of_responses)
     except OSError as error:
         raise UserError(
             f"{path}: {error.strerror or error}; allowed is the sensitivity.json of `riveted-bearing sensitivity`, or its folder"
@@ -264,15 +256,8 @@ def sobol_panel(ax, found, name):
     """Bars of S1 and ST with their confidence; the share of the noise as a line."""
     indices, k = found.sobol[name], np.arange(len(found.chosen))
     for key, shift, colour in (("S1", -0.19, MIDDLE), ("ST", 0.19, MUTED)):
-        ax.barh(
-            k + shift,
-            indices[key],
-            xerr=indices[f"{key}_conf"],
-            color=colour,
-            height=0.34,
-            label=key,
-            error_kw={"ecolor": FORCE, "lw": 1.0},
-        )
+        look = {"color": colour, "height": 0.34, "error_kw": {"ecolor": FORCE, "lw": 1.0}}
+        ax.barh(k + shift, indices[key], xerr=indices[f"{key}_conf"], label=key, **look)
     ax.set_yticks(k, found.chosen)
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)
