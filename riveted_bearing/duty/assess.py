@@ -191,19 +191,12 @@ def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: N
     used = used_cases(duty, kept).tolist()
     means = np.array([damages.mean(axis=0) for damages in samples])
     rates = np.zeros((len(mission.parts), *means.shape[1:]))
-    rates[kept] = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0].reshape(
-        len(kept), *means.shape[1:]
-    )
+    at_start = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0]
+    rates[kept] = at_start.reshape(len(kept), *means.shape[1:])
     own = [[used.index(c) for c in own_cases(mission, i) if c in used] for i in range(len(mission.parts))]
-    return Life(
-        mission,
-        found,
-        tuple(kept),
-        bounds,
-        tuple(int(sum(counts[place] for place in places)) for places in own),
-        tuple(samples[places[0]] if places else None for places in own),
-        rates,
-    )
+    runs_of = tuple(int(sum(counts[place] for place in places)) for places in own)
+    damages_of = tuple(samples[places[0]] if places else None for places in own)
+    return Life(mission, found, tuple(kept), bounds, runs_of, damages_of, rates)
 
 
 def own_cases(mission, i):
@@ -297,12 +290,8 @@ def bounded(mission, found, kept, rare):
 def bound(mission, rate, q, i):
     """Bound of the damage per hour of point i by that of point q; infinite if they differ in more than loads and speed."""
     known, rare = mission.parts[q], mission.parts[i]
-    if (
-        known.event
-        or known.factor != rare.factor
-        or known.values.keys() != rare.values.keys()
-        or mission.duty.weights[q] == 0.0
-    ):
+    alike = known.factor == rare.factor and known.values.keys() == rare.values.keys()
+    if known.event or not alike or mission.duty.weights[q] == 0.0:
         return math.inf
     ratio = 1.0
     for name, value in rare.values.items():

@@ -37,9 +37,8 @@ def event_in_time(path, label, moved, scene, settle, names):
         told = f"{label}: inputs.{name} changes from {begin:g} s to {end:g} s"
         over = end <= settle and history.value[0] == history.value[-1]
         if over or begin >= scene.t_end:
-            remedy = (
-                "set a longer t_end" if not over else "set later times, or after_settle = true, from which they count"
-            )
+            later = "set later times, or after_settle = true, from which they count"
+            remedy = later if over else "set a longer t_end"
             raise UserError(f"{path}: {told}, but {counted}: {remedy}")
         if begin < settle or end > scene.t_end:
             warnings.append(f"{told}, but {counted}: a part of the event does not count")

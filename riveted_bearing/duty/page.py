@@ -58,23 +58,14 @@ def cards(life: Life) -> Iterator[Any]:
     yield "Life of the rivets", hours_text(found.life, few), f"{life.place} · Miner's sum 1"
     if (ends := life_ends(life.budgets)) and found.life <= LONGEST:
         largest = ", ".join(part.name for part in life.budgets[DECADES].parts[:3])
-        yield (
-            "with all its errors",
-            " – ".join(hours_text(end, few) for end in ends),
-            f"90 %, by parts: {largest} first",
-        )
-    yield (
-        f"{100 * settings['confidence']:g} % interval",
-        interval_text(*ends_of(life), few=few),
-        f"of the runs, {width_text(life)}",
-    )
+        both = " – ".join(hours_text(end, few) for end in ends)
+        yield "with all its errors", both, f"90 %, by parts: {largest} first"
+    interval = interval_text(*ends_of(life), few=few)
+    yield f"{100 * settings['confidence']:g} % interval", interval, f"of the runs, {width_text(life)}"
     yield "Life of the raceways", *card(life.mission.raceways())
     yield "Mission", *mission_text(life)
-    yield (
-        "Runs",
-        f"{sum(life.counts)}",
-        f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated",
-    )
+    simulated = sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)
+    yield "Runs", f"{sum(life.counts)}", f"{simulated} points and events simulated"
 
 
 def mission_text(life):
@@ -160,11 +151,8 @@ def time_text(hours, mission):
 def rate_at_place(life, i):
     """Damage of part i per hour or event at the place that fails first."""
     place = life.estimate.place
-    return (
-        life.rates[i].reshape(-1)[place]
-        if life.mission.settings["rivets"] == "each"
-        else life.rates[i, :, place].mean()
-    )
+    each = life.mission.settings["rivets"] == "each"
+    return life.rates[i].reshape(-1)[place] if each else life.rates[i, :, place].mean()
 
 
 def life_chart(fig, life):
@@ -225,14 +213,8 @@ def rivet_chart(fig, life):
     damage = np.einsum("i,ikp->kp", life.mission.duty.weights, life.rates)
     k = np.arange(1, len(damage) + 1)
     for place, colour, label in ((0, HEAD, "head fillet"), (1, MIDDLE, "middle of the shank")):
-        ax.bar(
-            k + 0.4 * place - 0.2,
-            np.maximum(damage[:, place], 1e-300),
-            width=0.36,
-            color=colour,
-            alpha=0.85,
-            label=label,
-        )
+        look = {"width": 0.36, "color": colour, "alpha": 0.85, "label": label}
+        ax.bar(k + 0.4 * place - 0.2, np.maximum(damage[:, place], 1e-300), **look)
     seen = damage[damage > 1e-299]
     if len(seen):
         ax.set_yscale("log")

@@ -69,12 +69,8 @@ def read_tolerances(mission: Mission, model: Model) -> Any:
     given = dict(leaves(section.parameters, model.parameters))
     if not given:
         raise UserError(f"{path}: tolerance.parameters: name at least one parameter with its distribution")
-    return Tolerances(
-        section.bearings,
-        section.seeds,
-        section.share,
-        {name: distribution(path, name, entry, model) for name, entry in given.items()},
-    )
+    laws = {name: distribution(path, name, entry, model) for name, entry in given.items()}
+    return Tolerances(section.bearings, section.seeds, section.share, laws)
 
 
 def distribution(path, name, entry, model):
@@ -108,12 +104,8 @@ def distribution(path, name, entry, model):
         return stats.uniform(first, rest[0] - first)
     if kind == "triangular" and first < rest[1] and first <= rest[0] <= rest[1]:
         return stats.triang((rest[0] - first) / (rest[1] - first), loc=first, scale=rest[1] - first)
-    raise refusal(
-        path,
-        where,
-        entry,
-        "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed",
-    )
+    reason = "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed"
+    raise refusal(path, where, entry, reason)
 
 
 def differences(scales):
@@ -158,15 +150,11 @@ def scatter(
     lives, noise = [], []
     for b in range(tolerances.bearings):
         own = samples[b * len(chosen) : (b + 1) * len(chosen)]
-        damage = places(
-            (rest + sum(weights[i] * runs.mean(axis=0) for i, runs in zip(chosen, own, strict=True)))[None],
-            settings["rivets"],
-        )[0]
+        weighted = [weights[i] * runs for i, runs in zip(chosen, own, strict=True)]
+        damage = places((rest + sum(runs.mean(axis=0) for runs in weighted))[None], settings["rivets"])[0]
         place = int(damage.argmax())
         lives.append(1.0 / damage[place])
-        at_place = [
-            weights[i] * places(runs, settings["rivets"])[:, place] for i, runs in zip(chosen, own, strict=True)
-        ]
+        at_place = [places(runs, settings["rivets"])[:, place] for runs in weighted]
         if tolerances.seeds > 1:
             spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
             shares = np.array([runs.mean() for runs in at_place]) / damage[place]
@@ -203,12 +191,8 @@ def changed(mission, model, i, values):
         try:
             model.check_range(value, model.parameters[name])
         except UserError as problem:
-            raise refusal(
-                mission.path,
-                f"tolerance.{name}",
-                value,
-                f"a bearing drawn from the distribution is impossible: {problem}",
-            ) from None
+            reason = f"a bearing drawn from the distribution is impossible: {problem}"
+            raise refusal(mission.path, f"tolerance.{name}", value, reason) from None
     scene = replace(scene, parameters=scene.parameters | values)
     return loosened(scene, part.factor, model)
 
