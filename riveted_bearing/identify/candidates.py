@@ -133,13 +133,11 @@ def cause_of(path, block, sound, names, model, scene):
 def range_of(where, name, spec, model, scene):
     """The Range of [low, high] or of a table, in data/causes.toml."""
     table = spec if isinstance(spec, dict) else {"from": spec[0], "to": spec[1]} if is_pair(spec) else {}
-    kinds = [kind for kind in ("times", "plus") if is_pair(table.get(kind))] + ["from"] * (
-        "from" in table and "to" in table
-    )
+    kinds = [kind for kind in ("times", "plus") if is_pair(table.get(kind))]
+    kinds += ["from"] * ("from" in table and "to" in table)
     if len(kinds) != 1 or not set(table) <= {"from", "to", "times", "of", "plus", "spacing"}:
-        raise refusal(
-            where, name, spec, "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed"
-        )
+        reason = "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed"
+        raise refusal(where, name, spec, reason)
     if kinds == ["from"]:
         low, high = pair_of(where, name, (table["from"], table["to"]), model)
     elif kinds == ["times"]:
@@ -204,9 +202,8 @@ def designs(cause: Cause, count: int, seed: Any, model: Model) -> list[dict[str,
     single = [name for name in cause.ranges if "[*]" not in name]
     shared = [name for name in single if name in cause.sound]
     own = [name for name in single if name not in cause.sound]
-    cubes = [
-        qmc.LatinHypercube(d=max(len(n), 1), rng=s).random(count) for n, s in ((cause.sound, seed), (own, seed + 1))
-    ]
+    names = (cause.sound, seed), (own, seed + 1)
+    cubes = [qmc.LatinHypercube(d=max(len(n), 1), rng=s).random(count) for n, s in names]
     places = [cause.sound.index(name) for name in shared]
     unit = np.hstack([cubes[0][:, places], cubes[1][:, : len(own)]])
     rng, known = np.random.default_rng(seed), [*model.parameters, *model.inputs]

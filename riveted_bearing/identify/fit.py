@@ -191,20 +191,9 @@ def found_by(study, evaluate, start):
     fresh = range(study.settings["seed"] + FRESH, study.settings["seed"] + FRESH + study.settings["check_seeds"])
     again = evaluate(np.vstack([study.values(best), start]), fresh)
     answer, untuned = (check(study, point, one) for point, one in zip([study.values(best)[0], start], again))
-    found = Found(
-        study,
-        intervals,
-        C / np.sqrt(np.outer(np.diag(C), np.diag(C))),
-        widened,
-        misfit,
-        effects(study, objective, u, values, best),
-        screen,
-        answer,
-        untuned,
-        u,
-        rounds,
-        [],
-    )
+    correlations = C / np.sqrt(np.outer(np.diag(C), np.diag(C)))
+    changes = effects(study, objective, u, values, best)
+    found = Found(study, intervals, correlations, widened, misfit, changes, screen, answer, untuned, u, rounds, [])
     found.notes.extend(notes(found, objective, best))
     return found
 
@@ -336,9 +325,8 @@ def effects(study, objective, u, values, best):
 def check(study, values, figures):
     """The Check of figures [seeds, targets] at parameter values."""
     if not np.isfinite(figures).all():
-        raise UserError(
-            f"{study.path}: runs with fresh seeds were stopped by the FMU at {dict(zip(study.names, values))}"
-        )
+        place = dict(zip(study.names, values))
+        raise UserError(f"{study.path}: runs with fresh seeds were stopped by the FMU at {place}")
     wanted = np.array([target.value for target in study.targets])
     sigma = np.array([target.uncertainty for target in study.targets])
     mean, n = figures.mean(axis=0), len(figures)

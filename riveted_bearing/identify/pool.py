@@ -59,11 +59,8 @@ def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followe
     t_end = settle + (WINDOW + breaks * (SETTLE_AGAIN + WINDOW_AGAIN) + 1.0) * turn
     values = {name: value for name, value in vars(scene).items() if name != "t_end"}
     kept = {name: value for name, value in scene.parameters.items() if name not in ACCELERATED}
-    values["parameters"] = kept | {
-        "start.settle": float(settle),
-        "scene.stress": "fatigue",
-        "scene.statistics": "off",
-    }
+    forced = {"start.settle": float(settle), "scene.stress": "fatigue", "scene.statistics": "off"}
+    values["parameters"] = kept | forced
     values["outputs"] = ()
     return Followed(**values, t_end=float(t_end), breaks=breaks, turn=turn, strengths=strengths)
 
@@ -196,9 +193,8 @@ def sampled(study: Study, model: Model, document: Any, count: int | None = None,
             strengths[:, 0] *= min(1.0, design.get("model.formed", 1.0))
             settings = {name: value for name, value in design.items() if name not in OWN}
             settings["start.seed"] = int(rng.integers(1, 2**31))
-            scene = load_scene(
-                source, model, (str(study.path), common), (str(study.path), sections_of(settings, model))
-            )
+            changes = (common, sections_of(settings, model))
+            scene = load_scene(source, model, *((str(study.path), document) for document in changes))
             scene = replace(followed(scene, model, file.breaks, strengths.tolist()), name=cause.name)
             found.append((number, i, design, strengths, scene))
     return found
@@ -228,10 +224,8 @@ def check_starts(study, planned, samples, rows):
     for number, cause in enumerate(study.causes):
         started = sum(sample.cause == number for sample in samples)
         if 2 * started < sum(plan[0] == number for plan in planned):
-            failed = zip(rows["message"], rows["scene"], rows["status"], strict=True)
-            why = next(
-                (m for m, name, status in failed if name == cause.name and status == "failed"), "they stop at once"
-            )
+            failed = rows["message"][(rows["scene"] == cause.name) & (rows["status"] == "failed")]
+            why = next(iter(failed), "they stop at once")
             raise UserError(f"{study.path}: cause {cause.name}: most designs do not run: {why}")
 
 

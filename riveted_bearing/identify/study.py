@@ -192,15 +192,10 @@ def parameters_of(path, section, model, points):
     for name, value in leaves(section, known):
         if name not in known or name.startswith(NOT_FOUND):
             raise unknown(path, "parameter or input", name, [key for key in known if not key.startswith(NOT_FOUND)])
-        table = (
-            value
-            if isinstance(value, dict)
-            else dict(zip(("low", "high"), value))
-            if isinstance(value, list) and len(value) == 2
-            else None
-        )
+        pair = isinstance(value, list) and len(value) == 2
+        table = dict(zip(("low", "high"), value)) if pair else value
         where = f"parameter.{name}"
-        if table is None or not {"low", "high"} <= set(table):
+        if not isinstance(table, dict) or not {"low", "high"} <= set(table):
             raise refusal(path, where, value, "[lowest, highest] or { low = ..., high = ... } is needed")
         for key in table:
             if key not in PARAMETER:
