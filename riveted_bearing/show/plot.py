@@ -38,11 +38,8 @@ def plot_result(result: Result, path: Path) -> Path:
 def title(result):
     """Scene, conditions and main figures in a few lines."""
     about, speed = result.about, result.data.get("shaft.omega")
-    facts = [
-        f"preload {result.parameters['joint.preload']:.4g} N",
-        f"fit {1e6 * result.parameters['joint.fit']:+.4g} µm",
-        f"seed {result.parameters['start.seed']}",
-    ]
+    p = result.parameters
+    facts = [f"preload {p['joint.preload']:.4g} N", f"fit {1e6 * p['joint.fit']:+.4g} µm", f"seed {p['start.seed']}"]
     if speed is not None:
         facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
     lines = [": ".join(filter(None, (about.get("scene"), about.get("description")))), " · ".join(facts)]
@@ -101,9 +98,8 @@ def loads(ax, t, data):
     colours = {"shaft.F_y": FORCE, "shaft.F_x": MIDDLE, "shaft.F_z": MUTED, "impact.F_r": HEAD, "impact.F_a": "#e09f3e"}
     for name, values in data.items():
         if name in colours and (name in ("shaft.F_x", "shaft.F_y") or np.any(values)):
-            ax.plot(
-                t, 1e-3 * values, color=colours[name], label=name.replace("shaft.", "").replace("impact.", "impact ")
-            )
+            label = name.replace("shaft.", "").replace("impact.", "impact ")
+            ax.plot(t, 1e-3 * values, color=colours[name], label=label)
     ax.set(title="Loads on the inner ring", ylabel="kN")
     speed = RPM * data.get("shaft.omega", np.zeros(1))
     if np.ptp(speed):
@@ -122,12 +118,9 @@ def pocket_force(ax, t, data):
 
 def stress(ax, t, data):
     """Largest stress of all rivets in each communication step."""
-    for name, colour, label in (
-        ("rivet.sigma_head_max", HEAD, "head fillet"),
-        ("rivet.sigma_mid_max", MIDDLE, "middle of the shank"),
-    ):
-        if name in data:
-            ax.plot(t, 1e-6 * data[name], color=colour, lw=0.5, label=label)
+    for place, colour, label in (("head", HEAD, "head fillet"), ("mid", MIDDLE, "middle of the shank")):
+        if (values := data.get(f"rivet.sigma_{place}_max")) is not None:
+            ax.plot(t, 1e-6 * values, color=colour, lw=0.5, label=label)
     ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa")
     legend(ax)
 
@@ -214,9 +207,8 @@ def differences(ax, found):
     for i, (tolerance, colour) in enumerate(zip(found.tolerances, (HEAD, MIDDLE, RING), strict=True)):
         for motion, style in ((True, "-"), (False, "--")):
             worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
-            ax.semilogy(
-                1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=f"{tolerance:.0e}" if motion else None
-            )
+            label = f"{tolerance:.0e}" if motion else None
+            ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=label)
     ax.locator_params(axis="x", nbins=5)
     ax.set(title="By tolerance", xlabel="time [ms]", ylabel="largest difference / scale: motion, - - loads")
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -225,18 +217,11 @@ def differences(ax, found):
 def deviations(ax, found):
     """Statistics of the reference in standard deviations of the FMU's over seeds."""
     rows = [row for row in found.statistics if np.isfinite(row.deviation)][::-1]
-    ax.barh(
-        range(len(rows)),
-        [row.deviation for row in rows],
-        color=[MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows],
-        height=0.6,
-    )
+    colours = [MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows]
+    ax.barh(range(len(rows)), [row.deviation for row in rows], color=colours, height=0.6)
     ax.set_yticks(range(len(rows)), [row.name.removeprefix("stat.") for row in rows])
     ax.locator_params(axis="x", nbins=4)
     limit = max(3.5, 1.1 * max((abs(row.deviation) for row in rows), default=0.0))
-    ax.set(
-        title=f"Statistics of {found.long - found.settle:g} s: reference - FMU",
-        xlabel="standard deviations over seeds",
-        xlim=(-limit, limit),
-    )
+    title = f"Statistics of {found.long - found.settle:g} s: reference - FMU"
+    ax.set(title=title, xlabel="standard deviations over seeds", xlim=(-limit, limit))
     ax.axvline(0.0, color=MUTED, lw=0.8)

@@ -206,11 +206,8 @@ def chart(result, name, lives):
     each = (channel.replace("*", str(k)) for k in numbers for channel in needs.split())  # one without * each time
     missing = list(dict.fromkeys(channel for channel in each if channel not in result.data))
     if missing or len(result.data["time"]) < 16:
-        lack = (
-            f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}"
-            if missing
-            else "too few samples"
-        )
+        names = f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}"
+        lack = names if missing else "too few samples"
         return f'<p class="missing">{label}: {lack}</p>'
     if name == "vibration" and (reason := charts.no_vibration(result)):
         return f'<p class="missing">{label}: {reason}</p>'
@@ -239,11 +236,9 @@ def all_lives(result):
     for k in range(1, number_of_balls(result) + 1):
         head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))
         if head and mid:
-            own = [
-                float(result.data[name][-1]) if (name := f"rivet[{k}].damage_{place}") in result.data else math.nan
-                for place in ("head", "mid")
-            ]
-            rows.append({"k": k, "head": head, "mid": mid, "fmu_head": own[0], "fmu_mid": own[1]})
+            counted = (result.data.get(f"rivet[{k}].damage_{place}", [math.nan])[-1] for place in ("head", "mid"))
+            own = dict(zip(("fmu_head", "fmu_mid"), map(float, counted), strict=True))
+            rows.append({"k": k, "head": head, "mid": mid} | own)
     return rows
 
 
@@ -258,12 +253,8 @@ def cards(result, lives):
     rows, share = {row.channel: row for row in summary_rows(result)}, computed_share(result)
     if not rows:
         for channel, unit, last, largest in list(early_rows(result))[:FIRST]:
-            yield (
-                channel.capitalize(),
-                figure(largest),
-                unit.replace("um", "µm"),
-                f"largest since the start · {figure(last)} at the end",
-            )
+            remark = f"largest since the start · {figure(last)} at the end"
+            yield channel.capitalize(), figure(largest), unit.replace("um", "µm"), remark
     for channel, title in (
         ("head stress, largest of rivets", "Head stress"),
         ("middle stress, largest of rivets", "Middle stress"),
@@ -274,19 +265,10 @@ def cards(result, lives):
             p999, mean, largest = (shown(row, value, share) for value in (row.p999, row.mean, row.largest))
             yield title, p999, row.unit, f"p99.9 · mean {mean} · largest {largest}"
     if "cage slip ratio" in rows:
-        yield (
-            "Cage slip",
-            figure(rows["cage slip ratio"].mean),
-            "%",
-            f"mean · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else "mean",
-        )
-    if "cage dislocation" in rows:
-        yield (
-            "Dislocation of the halves",
-            figure(rows["cage dislocation"].largest),
-            "µm",
-            f"largest · mean {figure(rows['cage dislocation'].mean)}",
-        )
+        speed = f" · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else ""
+        yield "Cage slip", figure(rows["cage slip ratio"].mean), "%", f"mean{speed}"
+    if row := rows.get("cage dislocation"):
+        yield "Dislocation of the halves", figure(row.largest), "µm", f"largest · mean {figure(row.mean)}"
     broken = breaks(result)
     if broken:
         k, place, t = broken[0]
@@ -298,12 +280,8 @@ def cards(result, lives):
         yield "Life of the weakest rivet", duration(shortest), "", f"rivet {k}, {PLACE_NAMES[place]} · Miner's sum 1"
     if "real_time_factor" in result.summary:
         s = result.summary
-        yield (
-            "Real-time factor",
-            figure(s["real_time_factor"]),
-            "",
-            f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s",
-        )
+        remark = f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s"
+        yield "Real-time factor", figure(s["real_time_factor"]), "", remark
 
 
 def input_rows(result):
@@ -323,24 +301,13 @@ def setting_rows(result):
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
         elif isinstance(value, str):
-            yield (
-                name,
-                variable.description,
-                value + later,
-                "",
-                bool(later) or value != getattr(variables, variable.type)(variable.start).name.lower(),
-            )
+            other = value != getattr(variables, variable.type)(variable.start).name.lower()
+            yield name, variable.description, value + later, "", bool(later) or other
         else:
             unit, factor, offset = unit_of(result, name, variable)
             shown = value if variable.type == "Integer" else factor * value + offset
-            yield (
-                name,
-                variable.description,
-                figure(shown) + later,
-                unit,
-                bool(later)
-                or (name not in ineffective and not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)),
-            )
+            other = not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15) and name not in ineffective
+            yield name, variable.description, figure(shown) + later, unit, bool(later) or other
 
 
 def ball_rows(result):
@@ -383,27 +350,16 @@ def solver_rows(result):
     if "solver.tolerance" in s:
         yield "tolerance", f"{s['solver.tolerance']:g}"
     if "solver.method_used" in s:
-        yield (
-            "method",
-            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)", 3: "fixed steps"}.get(
-                s["solver.method_used"], f"{s['solver.method_used']:g}"
-            ),
-        )
+        methods = {1: "velocity Verlet", 2: "Runge–Kutta 4(3)", 3: "fixed steps"}
+        yield "method", methods.get(s["solver.method_used"], f"{s['solver.method_used']:g}")
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
     if "bearing.energy_residual" in result.data:
         yield "energy residual at the end", f"{1e3 * result.data['bearing.energy_residual'][-1]:.3g} mJ"
     if "bearing.penetration" in result.data:
         yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
-    onsets = {
-        name: result.data[name][-1] for name in result.data if name.startswith("event.") and name.endswith("_onsets")
-    }
-    if onsets:
-        seen = [
-            f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,.0f}"
-            for name, count in onsets.items()
-            if count
-        ]
-        yield "onsets of events", ", ".join(seen) or "none"
+    if onsets := columns(result, "event.", "_onsets"):
+        counts = {name[len("event.") : -len("_onsets")].replace("_", " "): result.data[name][-1] for name in onsets}
+        yield "onsets of events", ", ".join(f"{name} {n:,.0f}" for name, n in counts.items() if n) or "none"
     if columns(result, "rivet[", "].flag"):
         yield "flags of the rivets", flag_note(result).partition(": ")[2] or "none"
