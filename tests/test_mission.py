@@ -640,7 +640,7 @@ def test_what_matrices_find_counts_by_the_damage_in_the_mission(model, monkeypat
     runs = Runs(mission_of(model, [(1, {}), (1, {"shaft.F_y": 9000.0})]), model, Path(), None)
     for c, (found, own) in enumerate(((1e-12, 1e-12), (0.7e-6, 1e-6))):
         runs.matrices[runs.keys[c, 0]] = (found, None, own)
-        runs.per[runs.keys[c, 0]] = 3600.0
+        runs.per[runs.keys[c, 0]], runs.damages[runs.keys[c, 0]] = 3600.0, own
     monkeypatch.setattr("riveted_bearing.duty.assess.damages_counted", lambda found, laws, own: (found, own))
     assert runs.counted() == pytest.approx(0.7, rel=1e-5)
 

@@ -63,9 +63,8 @@ def life(
     def say(found, target):
         reached.append(found)
         if messages.is_terminal:
-            messages.print(
-                f"[dim]round {len(reached)}: half-width {percent(found.half_width)} of life, wanted {percent(target)}[/]"
-            )
+            half = f"half-width {percent(found.half_width)} of life, wanted {percent(target)}"
+            messages.print(f"[dim]round {len(reached)}: {half}[/]")
 
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
@@ -80,14 +79,8 @@ def life(
         from ..duty.weibull import write_weibull_plot
 
         files.append(("results", write_scatter(of_bearings, folder / RECORD)))
-        files.append(
-            (
-                "picture",
-                write_weibull_plot(
-                    of_bearings.law, f"{plan.name}: {tolerances.bearings} bearings", folder / "weibull.png"
-                ),
-            )
-        )
+        title = f"{plan.name}: {tolerances.bearings} bearings"
+        files.append(("picture", write_weibull_plot(of_bearings.law, title, folder / "weibull.png")))
     print_paths(*files)
     if old_sheet:
         console.print(f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]")

@@ -196,14 +196,10 @@ def statistics_table(result):
     from ..running.summary import summary_rows
 
     share = computed_share(result)
-    rows = (
-        (
-            row.channel + ("" if row.every_step else " *"),
-            row.unit,
-            *(shown(row, value, share) for value in (row.mean, row.rms, row.p999, row.largest)),
-        )
-        for row in summary_rows(result)
-    )
+    rows = []
+    for row in summary_rows(result):
+        figures = (shown(row, value, share) for value in (row.mean, row.rms, row.p999, row.largest))
+        rows.append((row.channel + ("" if row.every_step else " *"), row.unit, *figures))
     return table(("", "unit", "mean", "RMS", "p99.9", "max"), rows, left=2)
 
 
@@ -255,15 +251,10 @@ def print_summary(result):
         console.print(
             f"[dim]after the first {result.parameters['start.settle']:g} s; every internal step, * at communication points only[/]"
         )
-    counters = {
-        name: f"{summary[f'solver.{name}']:,.0f}"
-        for name in ("steps", "rhs_evals", "error_tests_failed")
-        if f"solver.{name}" in summary
-    }
-    if counters:
-        console.print(
-            f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected"
-        )
+    names = [f"solver.{name}" for name in ("steps", "rhs_evals", "error_tests_failed")]
+    if names[0] in summary:
+        steps, evaluations, rejected = (f"{summary[name]:,.0f}" for name in names)
+        console.print(f"{steps} steps, {evaluations} evaluations of the equations, {rejected} steps rejected")
     console.print(
         f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
         f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)"
@@ -272,10 +263,8 @@ def print_summary(result):
     if rows := assumed_rows(result):
         moving = [row for row in rows if row.size("stress")] or rows
         meant = f"usual range: change of the worst head over it, {measured_in(rows)}"
-        texts = (
-            f"{row.name} {row.words[0]} ({': '.join(filter(None, (row.words[1], row.change('stress'))))})"
-            for row in moving
-        )
+        said = ((row.name, row.words[0], filter(None, (row.words[1], row.change("stress")))) for row in moving)
+        texts = (f"{name} {value} ({': '.join(span)})" for name, value, span in said)
         console.print(f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]")
         if rest := [row for row in rows if row not in moving]:
             console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]")

@@ -91,16 +91,13 @@ def print_screening(model, record):
 
     scene = load_scene(None, model)
     values = {name: model.default(variable) for name, variable in model.parameters.items()} | scene.parameters
-    rows = sorted(
-        all_assumed(origin_of(model, scene), values), key=lambda row: (-row.size("damage"), -row.size("stress"))
-    )
+    rows = list(all_assumed(origin_of(model, scene), values))
+    rows.sort(key=lambda row: (-row.size("damage"), -row.size("stress")))
     console.print(f"[bold]{escape(model.bearing)}[/]")
-    shown = (
-        (row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in rows if row.effect
-    )
-    console.print(
-        table(("assumed", "value", "range", "stress", "damage per hour", "source of the range"), shown, left=6)
-    )
+    heads = "assumed", "value", "range", "stress", "damage per hour", "source of the range"
+    known = [row for row in rows if row.effect]
+    cells = ((row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in known)
+    console.print(table(heads, cells, left=6))
     for line in {row.unknown: None for row in rows if not row.effect}:
         names = ", ".join(row.name for row in rows if row.unknown == line and not row.effect)
         console.print(f"[dim]not covered: {names}: {escape(line)}[/]")
@@ -116,19 +113,14 @@ def print_indices(found, box):
     from ..design.sensitivity import order
     from ..running.responses import display_of, displayed, titled
 
-    ends = [
-        f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}"
-        for name, low, high in zip(box.names, box.low, box.high, strict=True)
-    ]
+    pairs = zip(box.names, box.low, box.high, strict=True)
+    ends = [f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}" for name, low, high in pairs]
     for name in found.responses:
         morris, sobol = found.morris[name], found.sobol.get(name)
         factor = display_of(name)[1]
         noise = "" if morris["noise"] is None else f", seeds alone {factor * morris['noise']:.3g}"
-        share = (
-            ""
-            if sobol is None or sobol["noise"] is None
-            else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
-        )
+        known = sobol is not None and sobol["noise"] is not None
+        share = f", seeds have {100 * sobol['noise']:.2g} % of the variance" if known else ""
         console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]")
         rows = []
         for k in order(found, name):

@@ -68,11 +68,8 @@ class Box:
 
     def problem(self):
         """The box as SALib has it."""
-        return {
-            "num_vars": len(self.names),
-            "names": self.names,
-            "bounds": np.column_stack([self.low, self.high]).tolist(),
-        }
+        bounds = np.column_stack([self.low, self.high]).tolist()
+        return {"num_vars": len(self.names), "names": self.names, "bounds": bounds}
 
     def chosen(self, names):
         """The box of some of its names."""
@@ -126,9 +123,8 @@ class Bench:
     def scene_at(self, names, point):
         """The scene of one point."""
         settings = {name: self.plain(name, value) for name, value in zip(names, point, strict=True)}
-        return load_scene(
-            self.source, self.model, (str(self.path), self.common), (str(self.path), sections_of(settings, self.model))
-        )
+        changes = (str(self.path), self.common), (str(self.path), sections_of(settings, self.model))
+        return load_scene(self.source, self.model, *changes)
 
     def plain(self, name, value):
         """A value as the scene takes it: whole numbers for integer parameters."""
@@ -176,8 +172,6 @@ def noise_variance(values):
     """Variance that the seeds leave in the mean of a point, for each response [m]; values [n, seeds, m]; nan with one
     seed.
     """
-    return (
-        values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1]
-        if values.shape[1] > 1
-        else np.full(values.shape[2], np.nan)
-    )
+    if values.shape[1] < 2:
+        return np.full(values.shape[2], np.nan)
+    return values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1]

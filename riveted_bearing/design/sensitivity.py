@@ -144,10 +144,8 @@ def analyse(study: Any, evaluate: Any) -> Any:
         found = analyze_morris.analyze(problem, points, values.mean(axis=1)[:, i], num_levels=design.levels, seed=seed)
         morris[name] = {key: [float(x) for x in found[key]] for key in ("mu_star", "mu_star_conf", "sigma")}
         morris[name]["noise"] = float(2.0 * math.sqrt(noise[i] / math.pi) / step) if np.isfinite(noise[i]) else None
-    scale = [max(max(morris[name]["mu_star"]), 1e-300) for name in study.responses]
-    strength = np.max(
-        [np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0
-    )
+    effects = [np.array(morris[name]["mu_star"]) for name in study.responses]
+    strength = np.max([effect / max(effect.max(), 1e-300) for effect in effects], axis=0)
     chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: sobol_design.factors]]
     sobol: dict[str, dict[str, Any]] = {}
     seeds = values.shape[1]
@@ -163,20 +161,10 @@ def analyse(study: Any, evaluate: Any) -> Any:
             found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=seed)
             sobol[name] = {key: [float(x) for x in found[key]] for key in ("S1", "S1_conf", "ST", "ST_conf")}
             sobol[name]["noise"] = float(noise[i] / means.var()) if np.isfinite(noise[i]) else None
-    return Sensitivity(
-        study.path.stem,
-        study.file.description,
-        seeds,
-        tuple(study.responses),
-        tuple(study.box.names),
-        morris,
-        tuple(chosen),
-        sobol,
-        ranges={
-            name: [float(low), float(high)]
-            for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)
-        },
-    )
+    ends = zip(study.box.low.tolist(), study.box.high.tolist(), strict=True)
+    ranges = {name: list(pair) for name, pair in zip(study.box.names, ends, strict=True)}
+    about = study.path.stem, study.file.description, seeds, tuple(study.responses), tuple(study.box.names)
+    return Sensitivity(*about, morris, tuple(chosen), sobol, ranges=ranges)
 
 
 def complete(study, values):
@@ -246,9 +234,8 @@ def screening_panel(ax, found, name):
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
         ax.axvline(factor * indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
-    ax.set(
-        title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}"
-    )
+    label = f"mu*: change of the response{unit and f' [{unit}]'}"
+    ax.set(title=f"{name}: effect over the range (Morris)", xlabel=label)
     ax.set_xlim(left=0.0)
 
 

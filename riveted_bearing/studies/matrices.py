@@ -109,9 +109,8 @@ def idle_settings(model: Model, scene: Scene, point: Any, speeds_given: Any, sta
 
     def held(one):
         one = scene_at(model, one, point)
-        place = dict.fromkeys((f"shaft.{name}" for name in RATES), 0.0) | {
-            f"shaft.{name}": value for name, value in zip(DIRECTIONS, point.q, strict=True)
-        }
+        place = dict.fromkeys((f"shaft.{name}" for name in RATES), 0.0)
+        place |= {f"shaft.{name}": value for name, value in zip(DIRECTIONS, point.q, strict=True)}
         histories = {name: History(np.zeros(1), np.array([value])) for name, value in place.items()}
         return replace(one, outputs=REACTIONS, parameters=one.parameters | FORCED, inputs=one.inputs | histories)
 
@@ -203,22 +202,14 @@ def write_table(found: Any, path: Path, basis: Any = ()) -> Path:
     """
     entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
     kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
-    header = [
-        "omega [rad/s]",
-        "load",
-        "frequency [rad/s]",
-        *(f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS),
-    ]
+    places = [f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS]
+    header = ["omega [rad/s]", "load", "frequency [rad/s]", *places]
     header += [f"{kind}[{entry}]" for kind in kinds for entry in entries]
-    rows = [
-        [p.omega, p.load, p.frequency, *p.q, *np.concatenate([getattr(p, kind).ravel() for kind in kinds])]
-        for p in found
-    ]
-    text = (
-        "\n".join([*comments(basis), ",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)])
-        + "\n"
-    )
-    return write_text(path, text)
+    lines = [*comments(basis), ",".join(header)]
+    for p in found:
+        entries = np.concatenate([getattr(p, kind).ravel() for kind in kinds])
+        lines.append(",".join(f"{value:.9g}" for value in (p.omega, p.load, p.frequency, *p.q, *entries)))
+    return write_text(path, "\n".join(lines) + "\n")
 
 
 def comments(basis):

@@ -76,15 +76,10 @@ def perform(scene, fmu, measure=None):
     except UserError as problem:
         return {"status": "failed", "message": str(problem), "date": started}
     late = settled(result)
-    sampled = {
-        f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()
-    }
-    about = {
-        "status": "stopped" if result.stopped else "done",
-        "message": result.stopped,
-        "date": started,
-        "whole_cpu_time": time.thread_time() - cpu,
-    }
+    late_values = {name: result.data[name][late] for name in scene.outputs}
+    sampled = {f"{kind}({name})": float(of(x)) for name, x in late_values.items() for kind, of in KINDS.items()}
+    about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started}
+    about["whole_cpu_time"] = time.thread_time() - cpu
     summary = result.summary
     if not has_statistics(result):  # those of a single step, at start.settle, would look like some
         summary = {name: math.nan if name.startswith("stat.") else value for name, value in summary.items()}
@@ -237,14 +232,11 @@ def about_run(sweep, key):
     """The driver's part of a row: parameters, inputs and settings of the run."""
     scene, model = sweep.scenes[key], sweep.model
     row = {"key": key, "scene": scene.name, "t_end": scene.t_end, "step": scene.step}
-    row |= {name: scene.parameters.get(name, model.default(variable)) for name, variable in model.parameters.items()}
+    row |= {name: scene.value(name, model) for name in model.parameters}
     row["solver.tol"] = row["solver.tol"] if scene.tolerance is None else scene.tolerance
-    for name, variable in model.inputs.items():
-        history = scene.inputs.get(name)
-        # None: varies in time
-        row[name] = (
-            model.default(variable) if history is None else float(history.value[0]) if len(history.t) == 1 else None
-        )
+    for name in model.inputs:
+        varies = name in scene.inputs and len(scene.inputs[name].t) > 1
+        row[name] = None if varies else scene.value(name, model)
     return row
 
 
@@ -253,25 +245,20 @@ def schema_of(sweep: Sweep) -> Any:
     import pyarrow as pa
 
     model = sweep.model
-    units = {
-        name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs | model.locals).items()
-    }
+    variables = model.parameters | model.inputs | model.outputs | model.locals
+    units = {name: v.unit or "1" for name, v in variables.items()}
     kinds = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.string()}
     outputs = dict.fromkeys(name for scene in sweep.scenes.values() for name in scene.outputs)
+
+    def column(name, unit, kind=None):
+        return pa.field(name, kind or pa.float64(), metadata={"unit": unit})
+
+    times = ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")
     fields = [pa.field(name, pa.string()) for name in ("key", "scene", "status", "message", "date")]
-    fields += [pa.field("run", pa.int64())]
-    fields += [
-        pa.field(name, pa.float64(), metadata={"unit": "s"})
-        for name in ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")
-    ]
-    fields += [
-        pa.field(name, kinds[v.type], metadata={"unit": units[name]})
-        for name, v in (model.parameters | model.inputs).items()
-    ]
-    fields += [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in closing_names(model)]
-    fields += [
-        pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS
-    ]
+    fields += [pa.field("run", pa.int64()), *(column(name, "s") for name in times)]
+    fields += [column(name, units[name], kinds[v.type]) for name, v in (model.parameters | model.inputs).items()]
+    fields += [column(name, units[name]) for name in closing_names(model)]
+    fields += [column(f"{kind}({name})", units[name]) for name in outputs for kind in KINDS]
     fields += [further for give in sweep.further[1:] for further in give()]
     about = {
         "format": ROW_VERSION,

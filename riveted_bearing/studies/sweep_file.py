@@ -115,7 +115,8 @@ def plan_sweep(name, document, model, path):
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
         source = settings.pop("scene", file.scene)
-        scene = load_scene(beside(path, source), model, (str(path), common), (str(path), sections_of(settings, model)))
+        changes = (str(path), common), (str(path), sections_of(settings, model))
+        scene = load_scene(beside(path, source), model, *changes)
         key = key_of(scene, fingerprint)
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
@@ -154,12 +155,8 @@ def values_of(path, name, value, model):
             check_alike(value, SETTINGS.get(name) or model.units[getattr(variable, "unit", None) or "1"])
         return value
     if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
-        raise refusal(
-            path,
-            f"vary.{name}",
-            value,
-            'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed',
-        )
+        reason = 'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed'
+        raise refusal(path, f"vary.{name}", value, reason)
     low, high = bounds(path, name, (value["from"], value["to"]), model)
     count = points_of(path, f"vary.{name}.count", value["count"])
     spacing = value.get("spacing", "linear")
@@ -264,11 +261,7 @@ def sections_of(settings: Any, model: Model) -> Any:
 
 def key_of(scene: Scene, fingerprint: Any) -> str:
     """Key of a run: a digest of the FMU's content and of everything in the scene."""
-    content = {name: value for name, value in vars(scene).items() if name not in WORDS} | {
-        "inputs": {
-            name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()
-        },
-        "fmu": fingerprint,
-        "row": ROW_VERSION,
-    }
+    inputs = {name: (h.t.tolist(), h.value.tolist(), h.hold) for name, h in scene.inputs.items()}
+    content = {name: value for name, value in vars(scene).items() if name not in WORDS}
+    content |= {"inputs": inputs, "fmu": fingerprint, "row": ROW_VERSION}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:24]

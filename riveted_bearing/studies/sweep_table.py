@@ -59,15 +59,13 @@ class SweepTable:
 def sweep_table(sweep: Sweep, rows: Any) -> Any:
     """The SweepTable of a sweep's rows; runs that failed or were stopped do not count."""
     names = [name for name in sweep.factors if name != SEED]
-    units, columns = (
-        zip(*(shown(sweep.model, name, rows[column_of(name)]) for name in names), strict=True) if names else ((), ())
-    )
+    found = [shown(sweep.model, name, rows[column_of(name)]) for name in names]
+    units, columns = zip(*found, strict=True) if found else ((), ())
     done = rows["status"] == "done"
     groups = {}
     for i in np.flatnonzero(done):
-        groups.setdefault(
-            tuple(column[i] if isinstance(column[i], str) else float(column[i]) for column in columns), []
-        ).append(i)
+        point = tuple(column[i] if isinstance(column[i], str) else float(column[i]) for column in columns)
+        groups.setdefault(point, []).append(i)
     responses = []
     for title, unit, factor, column in RESPONSES:
         if column in rows and np.any(rows[column][done]):
@@ -107,29 +105,23 @@ def damage_per_hour(rows, done):
 def averaged(values, groups):
     """Means over the runs of each group and half-widths of their interval by Student's t."""
     mean = np.array([values[group].mean() for group in groups.values()])
-    half = [
-        stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(group) - 1) * values[group].std(ddof=1) / math.sqrt(len(group))
-        if len(group) > 1
-        else math.nan
-        for group in groups.values()
-    ]
-    return mean, np.array(half)
+
+    def half(sample):
+        error = sample.std(ddof=1) / math.sqrt(len(sample)) if len(sample) > 1 else math.nan
+        return stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(sample) - 1) * error
+
+    return mean, np.array([half(values[group]) for group in groups.values()])
 
 
 def lines(table: Any) -> Any:
     """Heads and cells of the table as texts."""
-    heads = [
-        *table.factors,
-        "seeds",
-        *(f"{response.title} [{response.unit}]" if response.unit else response.title for response in table.responses),
-    ]
+    titles = [f"{each.title} [{each.unit}]" if each.unit else each.title for each in table.responses]
     cells = []
     for p, point in enumerate(table.points):
+        values = [value if isinstance(value, str) else f"{value:.6g}" for value in point]
         means = [cell(response.mean[p], response.half[p]) for response in table.responses]
-        cells.append(
-            [*(value if isinstance(value, str) else f"{value:.6g}" for value in point), str(table.seeds[p]), *means]
-        )
-    return heads, cells
+        cells.append([*values, str(table.seeds[p]), *means])
+    return [*table.factors, "seeds", *titles], cells
 
 
 def cell(mean, half):
@@ -145,10 +137,8 @@ def draw_response(ax, table, response):
         groups.setdefault(point[1:], []).append(p)
     ticks = [] if numbers else list(dict.fromkeys(point[0] if point else "" for point in table.points))
     for (rest, places), colour in zip(groups.items(), colours(len(groups)), strict=True):
-        x = [
-            table.points[p][0] if numbers else ticks.index(table.points[p][0] if table.points[p] else "")
-            for p in places
-        ]
+        firsts = [table.points[p][0] if table.points[p] else "" for p in places]
+        x = firsts if numbers else list(map(ticks.index, firsts))
         order = np.argsort(x)
         places, x = np.array(places)[order], np.array(x, float)[order]
         label = ", ".join(value if isinstance(value, str) else f"{value:.5g}" for value in rest)
@@ -157,9 +147,8 @@ def draw_response(ax, table, response):
         ax.errorbar(x, response.mean[places], yerr=half, fmt=style, color=colour, label=label, **look)
     if ticks:
         ax.set_xticks(range(len(ticks)), ticks)
-    ax.set(
-        title=response.title, xlabel=table.factors[0] if table.factors else "", ylabel=response.unit or response.title
-    )
+    label = table.factors[0] if table.factors else ""
+    ax.set(title=response.title, xlabel=label, ylabel=response.unit or response.title)
     ax.margins(x=0.06, y=0.12)
     if 1 < len(groups) <= MOST_LINES:
         ax.set_ylim(top=ax.get_ylim()[1] + LEGEND_LINE * (2 + (len(groups) - 1) // 3) * np.ptp(ax.get_ylim()))
