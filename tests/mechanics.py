@@ -192,6 +192,19 @@ def film_rates(w, j):
     return sum(D * np.outer(m, m) for D, m in films)
 
 
+def assert_step_gets_film(moved, least):
+    """D m m^T is minus the derivative of the force on a ball by its velocity, where the floor does not matter.
+
+    moved(dv): the working memory with the ball faster by dv [m/s]; least: of the derivative's largest entry [N s/m]
+    """
+    step = 1e-4
+    J = np.array([(on_ball(moved(np.zeros(3)))[0][0] - on_ball(moved(step * d))[0][0]) / step for d in np.eye(3)]).T
+    D = film_rates(moved(np.zeros(3)), 0)
+    # along other axes; the floor's change with the speed: h_e^2/h^2
+    assert np.linalg.eigvalsh(D) == pytest.approx(np.linalg.eigvalsh(0.5 * (J + J.T)), abs=0.02 * np.abs(J).max())
+    assert np.abs(J).max() > least
+
+
 def running_state(model, rng, *, pockets=True, slip=1.0, stuck=False):
     """A state near the quasi-static start with every element at work: pockets closed, cage off centre and tilted,
     joints offset; their friction holds.

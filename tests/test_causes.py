@@ -38,7 +38,7 @@ from riveted_bearing.identify.posterior import (
     predictions,
 )
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.show.plot import STYLE, plt
+from riveted_bearing.show.style import STYLE, plt
 from riveted_bearing.studies.sweep import cluster
 
 # ---- what breaks next -------------------------------------------------------------------------------------------------
