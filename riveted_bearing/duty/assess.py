@@ -102,7 +102,7 @@ class Runs:
 
     def simulate(self, wanted):
         """Do the runs that are missing of the keys wanted[case, seed], and read their damages."""
-        if wanted.values() <= self.damages.keys():
+        if self.damages.keys() >= set(wanted.values()):
             return
         rows = run_sweep(self.sweep, self.folder, self.client, self.progress, list(wanted.values()))
         for i, ((c, s), key) in enumerate(wanted.items()):
