@@ -27,7 +27,7 @@ from riveted_bearing.identify.findings import plan_causes
 from riveted_bearing.identify.pool import mission_scene, run_pool
 from riveted_bearing.identify.posterior import RESPONSES, answer, heavy, predictions, sound_medians
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.show.plot import HEAD, MIDDLE, MUTED, STYLE, plt
+from riveted_bearing.show.style import HEAD, MIDDLE, MUTED, STYLE, plt
 from riveted_bearing.studies.sweep import cluster
 
 KNOWN = {"place": 0.9, "order": 0.2, "hours": 0.35, "about hours": 0.35, "mark": 0.6, "inspection": 0.35, "loose": 0.7}

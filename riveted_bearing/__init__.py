@@ -24,9 +24,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from .base.errors import UserError
-from .base.version import __version__
 
 if TYPE_CHECKING:
+    from .base.version import __version__
     from .bearing.case import Case
     from .running.results import Result, read_result, write_result
 
@@ -34,7 +34,11 @@ __all__ = ["Result", "UserError", "__version__", "build", "info", "read_result",
 
 
 def __getattr__(name):
-    """Result, read_result and write_result, when they are first asked for."""
+    """The version, Result, read_result and write_result, when they are first asked for."""
+    if name == "__version__":
+        from .base.version import __version__
+
+        return __version__
     if name in ("Result", "read_result", "write_result"):
         from .running import results
 

@@ -23,6 +23,8 @@ from slave import Slave
 from threadpoolctl import threadpool_limits
 
 from riveted_bearing.building.builder import PLATFORMS, build_folder
+from riveted_bearing.running.fmu import Model
+from riveted_bearing.studies.sweep import cluster
 
 
 def pytest_generate_tests(metafunc):
@@ -74,6 +76,12 @@ def fmu():
     path = ROOT / "fmus" / "RivetedBearing.fmu"
     assert path.is_file(), f"{path} is missing: make build"
     return path
+
+
+@pytest.fixture(scope="session")
+def model(fmu):
+    """The Model of that FMU."""
+    return Model(fmu)
 
 
 ORIGIN = """<VendorAnnotations><Tool name="riveted-bearing"><Origin><Value name="shaft.F_y" origin="yours"/><Value name="shaft.omega" origin="rule"/>
@@ -153,6 +161,15 @@ def everywhere(tmp_path_factory):
         (shaft / "binaries" / platform).mkdir(parents=True, exist_ok=True)
         shutil.copy(binary, shaft / "binaries" / platform)
     return {"RivetedBearing": bearing, "Shaft": shaft}
+
+
+@pytest.fixture(scope="module")
+def client():
+    """Two worker processes of this machine."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("PYTHONPATH", str(ROOT))
+        with cluster(workers=2) as client:
+            yield client
 
 
 @pytest.fixture(scope="session")

@@ -1,9 +1,11 @@
 """What the tests of the dynamics share: views of C structs, poses of bodies, states away from rest."""
 
 import numpy as np
+import pytest
 import ribbon
 from library import TWO_HALF
 from python_core import Body, PythonWork
+from scipy.spatial.transform import Rotation
 
 from bearing_model.cage.elastic.elastic_half import mode_order
 from bearing_model.generated import variables
@@ -70,15 +72,15 @@ def frames(theta):
 
 
 def place_balls(model, x, r, theta, v=None, omega=None, omega_m=None):
-    """Writes the kinematics of all balls into Work; v in the balls' frames, its t part is r omega_m."""
+    """Writes the kinematics of all balls into Work, alike for all or [Z]; v in the balls' frames, its t part is r omega_m."""
     w = View(model.core, model.work)
     n = slice(0, Z)
     w.x[n], w.r[n], w.theta[n] = x, r, theta
     w.cos_theta[n], w.sin_theta[n] = np.cos(theta), np.sin(theta)
-    v = np.zeros((Z, 3)) if v is None else v
+    v, omega = (np.broadcast_to(np.zeros(3) if each is None else each, (Z, 3)) for each in (v, omega))
     w.v_x[n], w.v_r[n], w.v_t[n] = v.T
     w.omega_m[n] = v[:, 2] / r if omega_m is None else omega_m
-    w.omega_x[n], w.omega_r[n], w.omega_t[n] = (np.zeros((Z, 3)) if omega is None else omega).T
+    w.omega_x[n], w.omega_r[n], w.omega_t[n] = omega.T
     return w
 
 
@@ -120,6 +122,47 @@ def pocket_wrench(model, h):
     return tuple(np.array([list(getattr(row, f"half_{kind}_{i}"))[:Z] for i in "xyz"]).T for kind in "FM")
 
 
+def bodies_of(m, rng, apart):
+    """The halves of a model displaced by up to `apart` [m], tilted, turning and moving."""
+    for half in m.work.half:
+        body = {
+            "x": rng.uniform(-apart, apart, 3),
+            "v": rng.uniform(-0.2, 0.2, 3),
+            "frame": Rotation.from_rotvec(rng.uniform(-3e-4, 3e-4, 3)).as_matrix(),
+            "Omega": np.array([757.0, 0, 0]) + rng.uniform(-5, 5, 3),
+        }
+        pose(m.core, half, **body)
+        yield body
+
+
+def assert_balanced(m, w, ball, bodies, energy):
+    """Forces and moments about the bearing's centre cancel over each ball and the halves, to 1e-13 of force and arm; the power
+    that the contacts take from them is stored, by differences of the energy(place, body, j, side) along the motion over
+    1e-9 s, or dissipated, to 3e-6 of the force times 1 m/s; observed 1e-16 and 3e-7.
+    """
+    F, M = on_ball(w)
+    axes = frames(ball["theta"])
+    for j in range(Z):
+        place, v = axes[j].T @ [ball["x"][j], ball["r"][j], 0.0], axes[j].T @ ball["v"][j]
+        force = axes[j].T @ F[j]
+        moment = np.cross(place, force) + axes[j].T @ M[j]
+        power, stored, scale = F[j] @ ball["v"][j] + M[j] @ ball["omega"][j], 0.0, np.abs(F[j]).max()
+        for index, (side, body) in enumerate(zip((-1, 1), bodies, strict=True)):
+            F_half, M_half = (part[j] for part in pocket_wrench(m, index))
+            force = force + F_half
+            moment = moment + np.cross(body["x"], F_half) + M_half
+            power += F_half @ body["v"] + M_half @ body["Omega"]
+
+            def at(t, body=body, side=side, j=j, place=place, v=v):
+                frame = Rotation.from_rotvec(body["Omega"] * t).as_matrix() @ body["frame"]
+                return energy(place + v * t, {"x": body["x"] + body["v"] * t, "frame": frame}, j, side)
+
+            stored += (at(1e-9) - at(-1e-9)) / 2e-9
+        assert force == pytest.approx(np.zeros(3), abs=1e-13 * (scale + 1.0))
+        assert moment == pytest.approx(np.zeros(3), abs=1e-13 * (scale + 1.0) * ball["r"][j])
+        assert w.dissipated[j] == pytest.approx(-power - stored, abs=3e-6 * scale + 1e-9)
+
+
 def pocket_contact(clearance=2e-4):
     """Hertz contact of ball and pocket at the default geometry, by the quasi-static model: the long half axis lies
     around the pocket's axis.
@@ -147,6 +190,19 @@ def film_rates(w, j):
         of = w.cage.films
         films = [(of.D[h][j], np.array([of.m[i][h][j] for i in range(3)])) for h in range(2)]
     return sum(D * np.outer(m, m) for D, m in films)
+
+
+def assert_step_gets_film(moved, least):
+    """D m m^T is minus the derivative of the force on a ball by its velocity, where the floor does not matter.
+
+    moved(dv): the working memory with the ball faster by dv [m/s]; least: of the derivative's largest entry [N s/m]
+    """
+    step = 1e-4
+    J = np.array([(on_ball(moved(np.zeros(3)))[0][0] - on_ball(moved(step * d))[0][0]) / step for d in np.eye(3)]).T
+    D = film_rates(moved(np.zeros(3)), 0)
+    # along other axes; the floor's change with the speed: h_e^2/h^2
+    assert np.linalg.eigvalsh(D) == pytest.approx(np.linalg.eigvalsh(0.5 * (J + J.T)), abs=0.02 * np.abs(J).max())
+    assert np.abs(J).max() > least
 
 
 def running_state(model, rng, *, pockets=True, slip=1.0, stuck=False):

@@ -517,33 +517,6 @@ def closed_form_table(case, folder):
     return path
 
 
-@pytest.mark.parametrize(
-    ("text", "fragments"),
-    [
-        ('[parameters]\nbearing.D = "8 N"', ["parameters.bearing.D = '8 N'", '"N" does not fit', "m, mm, um"]),
-        ('[parameters]\nbearing.D = "800 mm"', ["parameters.bearing.D = '800 mm'", "1 ... 100 mm"]),
-        ('[catalogue]\nbore = "-1 mm"', ["catalogue.bore", "greater than 0"]),
-        ('[catalogue]\nC = "1 mm"', ["catalogue.C", "N, kN"]),
-        ("Z = 4", ["Z = 4", "5 to 32"]),
-        (
-            '[parameters]\nshaft.F_y = "8 kN"',
-            ["parameters.shaft.F_y: does not belong into [parameters] but into [inputs]"],
-        ),
-        (
-            '[inputs]\njoint.preload = "8 N"',
-            ["inputs.joint.preload: does not belong into [inputs] but into [parameters]"],
-        ),
-        ("catalogue = 3", ["catalogue = 3", "not a table"]),
-        ("parameters = 3", ["parameters = 3", "not a table"]),
-    ],
-)
-def test_bad_bearing_files_name_key_value_and_what_is_allowed(tmp_path, text, fragments):
-    (tmp_path / "mine.toml").write_text(text)
-    with pytest.raises(UserError) as error:
-        bearing_case(tmp_path / "mine.toml")
-    assert all(fragment in str(error.value) for fragment in ["mine.toml", *fragments])
-
-
 def test_a_run_shorter_than_settling_says_that_there_are_no_statistics(tmp_path):
     """Until start.settle itself there is one sample at most, whose mean, RMS, quantile and largest value would be one
     number.

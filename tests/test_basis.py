@@ -31,17 +31,12 @@ from riveted_bearing.running.scene import load_scene
 from riveted_bearing.running.scene_case import case_of, scene_case
 from riveted_bearing.show.report import render, setting_rows
 from riveted_bearing.studies.matrices import quasi_static_matrices
-from riveted_bearing.studies.sweep import cluster, run_sweep
+from riveted_bearing.studies.sweep import run_sweep
 from riveted_bearing.studies.sweep_file import plan_sweep
 
 ROOT = Path(__file__).resolve().parents[1]
 OIL = '[parameters]\noil.nu_1 = "25 mm2/s"\noil.nu_2 = "5 mm2/s"\n[inputs]\noil.T = "40 degC"\nshaft.F_y = "3 kN"\nshaft.x = "20 um"\n'
 NO_SCENE = "none: the FMU's own parameters and inputs"
-
-
-@pytest.fixture(scope="module")
-def model(fmu):
-    return Model(fmu)
 
 
 @pytest.fixture
@@ -482,14 +477,6 @@ SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
 def other(tmp_path_factory):
     """An FMU of the 6309, three minutes the first time."""
     return Model(build("6309", out=tmp_path_factory.mktemp("6309") / "my6309.fmu"))
-
-
-@pytest.fixture(scope="module")
-def client():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(ROOT))
-        with cluster(workers=1) as client:
-            yield client
 
 
 def written_out(model):

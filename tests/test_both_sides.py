@@ -7,6 +7,7 @@ import pytest
 from library import TWO_HALF
 from mechanics import SLICE, Instance, View, Z, pocket_loads, running_state
 from scipy.spatial.transform import Rotation
+from test_energy import power_and_rate
 
 from bearing_model.generated.variables import (
     INPUTS,
@@ -97,22 +98,15 @@ def derivative(bearing, order, **values):
 # --------------------------------------------------------------------------------------------------------------- energy
 
 
-def power_and_rate(model, y, inputs):
-    """Net power into balls and cage, and the rate of their energy while rings and frame move on as their rates say; as
-    in test_energy.
-    """
-    rate = model.rhs(0.0, y)
-    power, h, E = rate[SLICE["work"]][0], 1e-8, {}
-    members = {name: name.split(".") for name in RATES}
-    for n in (-2, -1, 1, 2):
-        for name, (group, member) in members.items():
-            setattr(getattr(model.u, group), member, inputs[name] + n * h * inputs[RATES[name]])
-        moved = y + n * h * rate
-        model.rhs(0.0, moved)
-        E[n] = model.energy(moved)
-    for name, (group, member) in members.items():
-        setattr(getattr(model.u, group), member, inputs[name])
-    return power, (8.0 * (E[1] - E[-1]) - (E[2] - E[-2])) / (12.0 * h)
+def going_on(model, inputs):
+    """Sets rings and frame of a model where their rates have them at a time from now on."""
+
+    def at(h):
+        for name, rate in RATES.items():
+            group, member = name.split(".")
+            setattr(getattr(model.u, group), member, inputs[name] + h * inputs[rate])
+
+    return at
 
 
 @pytest.mark.parametrize("motion", RingMotion)
@@ -129,7 +123,7 @@ def test_power_balance(core, motion):
     model = core.model(parameters=parameters, inputs=MOTIONS)
     for _ in range(5):
         y = running_state(model, rng)
-        power, rate = power_and_rate(model, y, MOTIONS)
+        power, rate = power_and_rate(model, y, going_on(model, MOTIONS))
         w = View(core, model.work)
         moving = np.abs(w.Q_i[:9] + w.Q_e[:9]).max() * 0.1 + pocket_loads(model).max() * 20.0  # [W]
         assert rate == pytest.approx(power, abs=2e-8 * moving + 2e-6)
@@ -144,7 +138,7 @@ def test_a_frame_that_gains_speed_finds_the_inertia_of_the_widened_cage(core):
     for rate in (0.0, 1e6):
         inputs = dict.fromkeys([*RATES, *RATES.values()], 0.0) | {"frame.omega": 1000.0, "frame.omega_dot": rate}
         model = core.model({"scene.cage": CageModel.ELASTIC}, inputs)
-        power, change = power_and_rate(model, y, inputs)
+        power, change = power_and_rate(model, y, going_on(model, inputs))
         off.append(change - power)
     assert 1e9 * sum(np.ravel(J)[0] for J in list(model.work.cage.elastic.more_J)) > 1.0  # [W]
     assert off[1] == pytest.approx(off[0], abs=1e-3)

@@ -22,11 +22,6 @@ from riveted_bearing.running.scene import load_scene
 SCENES = 400  # of synthetic runs; the standard error of a share of 0.9 is 1.5 %
 
 
-@pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
 # The rule -------------------------------------------------------------------------------------------------------------
 
 

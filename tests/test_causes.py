@@ -21,7 +21,7 @@ from riveted_bearing.identify.causes_page import (
     gains,
     ranked_rows,
     verdict,
-    write_json,
+    write_answer,
     write_page,
 )
 from riveted_bearing.identify.findings import NONE, plan_causes
@@ -38,7 +38,7 @@ from riveted_bearing.identify.posterior import (
     predictions,
 )
 from riveted_bearing.running.fmu import Model
-from riveted_bearing.show.plot import STYLE, plt
+from riveted_bearing.show.style import STYLE, plt
 from riveted_bearing.studies.sweep import cluster
 
 # ---- what breaks next -------------------------------------------------------------------------------------------------
@@ -425,7 +425,7 @@ def test_a_pool_is_kept_and_answers(fmu, tmp_path):
     said = answer(study, pool)
     assert said.names[said.ranked[0]] == "misalignment" and "misalignment" in ranked_rows(said)[0]
     stored = json.loads(
-        write_json(study, said, pool, None, [("bearing", "6207")], tmp_path / "causes.json").read_text()
+        write_answer(study, said, pool, None, [("bearing", "6207")], tmp_path / "causes.json").read_text()
     )
     assert stored["causes"][0]["name"] == "misalignment" and len(stored["inspections"]) > 5
     assert sum(cause["probability"] for cause in stored["causes"]) == pytest.approx(1.0)

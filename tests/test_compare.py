@@ -19,11 +19,6 @@ from riveted_bearing.show.plot import plot_comparison
 
 
 @pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
-@pytest.fixture(scope="module")
 def found(model):
     """A scene in which balls press on the cage from the start and a load jumps."""
     inputs = {"shaft.F_y": {"t": [0, 5e-5], "value": [2994.0, 2500.0], "interpolation": "hold"}}

@@ -12,12 +12,11 @@ from commands import command
 
 from riveted_bearing import UserError
 from riveted_bearing.bearing.assumed import assumed_ranges
-from riveted_bearing.cli.optimize import present_values, print_optimum
+from riveted_bearing.cli.optimize import print_optimum
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.design.optimize import plan_optimize, search, write_optimum
 from riveted_bearing.design.optimize import write_picture as write_optimum_picture
 from riveted_bearing.design.sensitivity import analyse, plan_sensitivity, read_indices, write_indices, write_picture
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.responses import displayed, response, shown, titled
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.studies.sweep import cluster
@@ -25,11 +24,6 @@ from riveted_bearing.studies.sweep import cluster
 ROOT = Path(__file__).resolve().parents[1]
 NAMES = ["joint.mu", "oil.eta", "joint.preload"]  # any three with ranges; the functions below take them in [0, 1]
 BOX = {"joint.mu": [0.1, 0.3], "oil.eta": [0.002, 0.01], "joint.preload": [5.0, 45.0]}
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 def in_place_of_the_bearing(function, noise=0.0, seed=1):
@@ -199,7 +193,7 @@ def test_the_program_says_why_a_point_is_recommended(model, capsys):
     document = {"between": two, "objectives": ["-damage"], "limits": {"stress": "1 MPa"}, "trials": 10, "candidates": 2}
     found = search(plan_optimize("o.toml", document, model), in_place_of_the_bearing(lambda a, b, c: [a, 0.0 * a]))
     names = found.study.box.names
-    print_optimum(found, present_values(names, load_scene(None, model), model))
+    print_optimum(found, [load_scene(None, model).value(name, model) for name in names])
     text = capsys.readouterr().out
     assert "recommended: the point simulated again with the largest damage, of those that keep stress <= 1 MPa" in text
     row = next(line for line in text.splitlines() if line.startswith("present design"))

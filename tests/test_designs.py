@@ -12,11 +12,10 @@ import pytest
 from commands import command
 
 from riveted_bearing import UserError
-from riveted_bearing.base.units import hours_text
 from riveted_bearing.cli.compare_designs import print_comparison
 from riveted_bearing.duty import designs, designs_page
 from riveted_bearing.duty.confidence import estimate, ratio_interval
-from riveted_bearing.duty.miner import simple_duty
+from riveted_bearing.duty.miner import Duty
 from riveted_bearing.running.fmu import Model
 
 MISSION = """
@@ -54,7 +53,7 @@ def drawn(rng, n, common, ratio=2.5, spread=0.6):
 
 
 def interval(samples, confidence=0.9):
-    duty = simple_duty([0.6, 0.4])
+    duty = Duty(np.array([0.6, 0.4]), np.eye(2)[None], np.zeros(1))
     found = [estimate(duty, one, confidence) for one in samples]
     return ratio_interval(samples, found, confidence)
 
@@ -145,7 +144,7 @@ def test_an_open_interval_is_told_as_life_tells_it(capsys):
     runs = SimpleNamespace(mission=SimpleNamespace(warnings=(), document={}))
     (text,) = designs.warnings_of([runs, runs], outcomes)
     assert text.startswith("a: the interval of life is open at its lower and its upper end: more seeds (max_seeds)")
-    print_comparison(SimpleNamespace(confidence=0.9, outcomes=outcomes, differences=()), hours_text)
+    print_comparison(SimpleNamespace(confidence=0.9, outcomes=outcomes, differences=()))
     out = capsys.readouterr().out
     assert "open at both ends" in out and "715" not in out and "80 h – 125 h" in out and "1e-06 (open)" in out
     assert designs_page.shown_ends(outcomes[0]) == (1e8 / 11.0, 1.1e9) and designs_page.shown_ends(outcomes[1]) == (

@@ -27,19 +27,21 @@ LOSSLESS = {
 }
 
 
-def power_and_rate(model, y):
-    """Net power into balls and cage from the right-hand side, and the rate of their energy along the motion.
+def power_and_rate(model, y, inputs_at=lambda h: None):
+    """Net power into balls and cage from the right-hand side, and the rate of their energy along the motion; inputs_at: sets
+    the inputs at a time from now on.
 
     Difference quotient of fourth order over 1e-8 s: (1e-8 * 1e6 rad/s)^4/30 of the power, rounding 1e-16 * 30 J/1e-8 s
     = 3e-7 W.
     """
     rate = model.rhs(0.0, y)
-    power, h = rate[SLICE["work"]][0], 1e-8
-    E = {}
+    power, h, E = rate[SLICE["work"]][0], 1e-8, {}
     for n in (-2, -1, 1, 2):
+        inputs_at(n * h)
         moved = y + n * h * rate
         model.rhs(0.0, moved)
         E[n] = model.energy(moved)
+    inputs_at(0.0)
     return power, (8.0 * (E[1] - E[-1]) - (E[2] - E[-2])) / (12.0 * h)
 
 

@@ -137,11 +137,6 @@ def check_run(model, v):
         assert found == ([False, True] if v.needs else [True])
 
 
-@pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
 @pytest.mark.parametrize("name", PARAMETERS)
 def test_what_a_run_feels(model, name):
     """A parameter of the shipped FMU, half a per cent off: some output of six milliseconds changes, and without what

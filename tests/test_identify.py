@@ -25,7 +25,6 @@ from riveted_bearing.identify.measures import Measure, amplitude_between
 from riveted_bearing.identify.rig import Rig, figure_of
 from riveted_bearing.identify.study import Parameter, plan_identify
 from riveted_bearing.identify.surrogate import Surrogate, noise_parts, pruned
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.studies.sweep import cluster
 
@@ -36,11 +35,6 @@ TRUTH = np.array([5e-3, 0.22e-3, 0.2])
 NAMES = ["oil.eta", "cage.guide_clearance", "joint.mu"]
 RANGES = {"oil.eta": ["2 mPa.s", "20 mPa.s"], "cage.guide_clearance": ["0.1 mm", "0.4 mm"], "joint.mu": [0.1, 0.3]}
 SHARE = 0.03  # uncertainty of the cheap rig's figures, and scatter of its seeds
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 # Measures -------------------------------------------------------------------------------------------------------------

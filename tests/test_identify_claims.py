@@ -9,7 +9,6 @@ from library import ROOT
 
 from riveted_bearing import UserError
 from riveted_bearing.base.toml_files import read_toml
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies.sweep import cluster
 
 sys.path.insert(0, str(ROOT / "benchmarks" / "paper"))
@@ -38,11 +37,6 @@ DOCUMENT = {
     "parameter": {"joint.mu": [0.1, 0.3], "oil.eta": ["2 mPa.s", "20 mPa.s"]},
     "claims": {"screens": 200, "figures": 60, "verified": 4, "seeds": 2},
 }
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 @pytest.fixture(scope="module")

@@ -26,7 +26,7 @@ from riveted_bearing.cli.summary import folder_of
 from riveted_bearing.duty.assess import Runs, assess, check_folder, is_current, record, write_record
 from riveted_bearing.duty.confidence import estimate, until_sure
 from riveted_bearing.duty.history import binned
-from riveted_bearing.duty.miner import Duty, lives, simple_duty
+from riveted_bearing.duty.miner import Duty, lives
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.mission_file import Life
 from riveted_bearing.duty.notes import matrix_warnings, notes, oil_in_pockets
@@ -43,17 +43,17 @@ LIFE = Life().model_dump()
 NO_RUNS = SimpleNamespace(cost={}, sweep=SimpleNamespace(model=SimpleNamespace(parameters={})))
 
 
-@pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
 def surrogate(rates, spread, rng):
     """runs(counts) of a bearing whose damage is log-normal: rates of the cases at the places [C, Z, 2], standard
     deviation of the logarithm.
     """
     drawn = [rate * np.exp(spread * rng.normal(size=(64, *rate.shape)) - 0.5 * spread**2) for rate in np.asarray(rates)]
     return lambda counts: [runs[:n] for runs, n in zip(drawn, counts, strict=True)]
+
+
+def simple_duty(weights):
+    """The Duty whose parts are simulated one by one and do not change over the hours."""
+    return Duty(np.asarray(weights, float), np.eye(len(weights))[None], np.zeros(1))
 
 
 def mission_of(model, points, **document):
@@ -640,7 +640,7 @@ def test_what_matrices_find_counts_by_the_damage_in_the_mission(model, monkeypat
     runs = Runs(mission_of(model, [(1, {}), (1, {"shaft.F_y": 9000.0})]), model, Path(), None)
     for c, (found, own) in enumerate(((1e-12, 1e-12), (0.7e-6, 1e-6))):
         runs.matrices[runs.keys[c, 0]] = (found, None, own)
-        runs.per[runs.keys[c, 0]] = 3600.0
+        runs.per[runs.keys[c, 0]], runs.damages[runs.keys[c, 0]] = 3600.0, own
     monkeypatch.setattr("riveted_bearing.duty.assess.damages_counted", lambda found, laws, own: (found, own))
     assert runs.counted() == pytest.approx(0.7, rel=1e-5)
 
@@ -732,17 +732,3 @@ def test_a_change_divides_the_point_in_which_it_falls(model):
     ]
     assert [part.scene.parameters.get("joint.mu") for part in mission.parts] == [None, None, 0.2, 0.2]
     assert mission.hours == 5.0
-
-
-@pytest.mark.parametrize(
-    ("change", "words"),
-    [
-        ({"joint": {"mu": 0.2}}, "change 1: at is needed"),
-        ({"at": 1.0, "bearing": {"D": 0.01}}, "bearing.D is fixed in a run"),
-        ({"at": 7.0, "joint": {"mu": 0.2}}, "change.at = .*below the 2 h"),
-        ({"at": 1.0, "scene": {"breakage": "on"}}, "not free here"),
-    ],
-)
-def test_a_change_that_cannot_be_is_refused(model, change, words):
-    with pytest.raises(UserError, match=words):
-        mission_of(model, [(2.0, {"shaft.F_y": 2000.0})], change=[change])

@@ -28,8 +28,7 @@ from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.designations import known_bearings
 from riveted_bearing.bearing.oil import viscosity
 from riveted_bearing.bearing.plausible import doubts
-from riveted_bearing.cli import program
-from riveted_bearing.cli.info_tables import geometry, oil
+from riveted_bearing.cli import info_tables, program
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
@@ -45,11 +44,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "fmus"))
 from generate import load_table, write_description
 
 OWN = 'designation = "6309"\nZ = 8\n'
-
-
-@pytest.fixture(scope="module")
-def model(fmu):
-    return Model(fmu)
 
 
 def read(tmp_path, text):
@@ -227,14 +221,14 @@ def test_info_has_the_preload_at_temperature(tmp_path, model):
     assert thermal.rate == pytest.approx(preload.of_fmu(model).rate, rel=1e-6) and thermal.T_0 == pytest.approx(293.15)
     path = tmp_path / "mine.toml"
     path.write_text(f'{OWN}[cage]\nmaterial = "brass"\n[inputs]\noil.T = "90 degC"\n')
-    rows = {row[0]: row[1:] for row in geometry(bearing_case(path))}
+    rows = {row[0]: row[1:] for row in info_tables.preload(bearing_case(path))}
     P = bearing_case(path).values["joint.preload"]
     assert rows["preload of a rivet at 20 degC"] == (f"{P:.4g}", "N", "rule")
     hot, _, reason = rows["preload with the cage at 90 degC"]
     rate = float(re.search(r"expands more than the rivets, \+([\d.]+) N/K", reason)[1])
     assert float(hot.removeprefix("some ")) == pytest.approx(P + 70.0 * rate, rel=0.01)
     path.write_text(f'{OWN}[cage]\nmaterial = "steel"\n[inputs]\noil.T = "90 degC"\n')
-    rows = {row[0]: row[1:] for row in geometry(bearing_case(path))}
+    rows = {row[0]: row[1:] for row in info_tables.preload(bearing_case(path))}
     kept = f"some {P:.3g}", "N", "the cage expands as the rivets do"
     assert rows["preload with the cage at 90 degC"] == kept
 
@@ -260,7 +254,7 @@ def test_a_preload_that_is_lost_is_zero():
 def test_info_shows_oil_and_temperatures(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(f'{OWN}{POINTS}[inputs]\noil.T = "100 degC"\n')
-    rows = {row[0]: row[1:] for row in oil(bearing_case(path))}
+    rows = {row[0]: row[1:] for row in info_tables.oil(bearing_case(path))}
     eta = 11e-6 * 900.0 * (1.0 - 7.5e-4 * (373.15 - 359.0006))
     assert rows["oil viscosity at 100 degC"] == (f"{1e3 * eta:.4g}", "mPa.s", "rule")
     assert rows["kinematic viscosity"] == ("100 at 40 degC, 11 at 100 degC", "mm2/s", "yours")
@@ -500,10 +494,13 @@ def test_a_scenes_oil_is_the_same_as_a_bearings(tmp_path, model):
     assert scene.oil == case.oil == "PAO ISO VG 68"
     of_oil = {name: value for name, value in scene.parameters.items() if name.startswith("oil.")}
     assert of_oil == {name: case.values[name] for name in of_oil} and "oil.alpha" in of_oil
-    rows = {row[0]: row[1:] for row in oil(case)}
+    rows = {row[0]: row[1:] for row in info_tables.oil(case)}
     assert rows["oil"] == ("PAO ISO VG 68", "", "yours")
     assert rows["pressure-viscosity coefficient at 85.85 degC"][2].startswith("7.382 nu^0.1335, Gold")
-    own = {row[0]: row[1:] for row in oil(oil_of(tmp_path, "", 'oil.nu_1 = "46 mm2/s"\noil.nu_2 = "6.8 mm2/s"'))}
+    own = {
+        row[0]: row[1:]
+        for row in info_tables.oil(oil_of(tmp_path, "", 'oil.nu_1 = "46 mm2/s"\noil.nu_2 = "6.8 mm2/s"'))
+    }
     assert own["oil"][2] == "what is not given is that of an aviation oil"
     assert own["traction coefficient: largest, in full sliding"] == (
         "0.048, 0.040",

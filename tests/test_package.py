@@ -45,11 +45,6 @@ SANITIZED = "asan" in os.environ.get("LD_PRELOAD", "")
 STEP, STEPS = 1e-4, 10  # of the reference results: 1 ms, over which trajectories can be compared point by point
 
 
-@pytest.fixture(scope="module")
-def folder(fmu, tmp_path_factory):
-    return Path(fmpy.extract(str(fmu), str(tmp_path_factory.mktemp("fmu"))))
-
-
 def outputs_of(folder):
     return [v.name for v in describe(folder).modelVariables if v.causality == "output"]
 

@@ -5,12 +5,12 @@ bodies, parts of the halves, filling, derivatives.
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from mechanics import Instance, View, Z, film_rates, on_ball, pocket_loads, pocket_wrench, running_state
+from mechanics import Instance, View, Z, assert_step_gets_film, on_ball, pocket_loads, pocket_wrench, running_state
 from ribbon import RIBBON
 from scipy.integrate import quad, solve_ivp
 from scipy.sparse.linalg import spsolve
 from test_energy import power_and_rate
-from test_pocket import R, one_ball
+from test_pocket import R_PITCH, R, one_ball
 
 from bearing_model.cage.common.pocket_squeeze import strip_integrals
 from bearing_model.generated.variables import CageModel, Method
@@ -291,22 +291,11 @@ def test_no_suction(core):
 
 
 def test_the_step_gets_the_film(core):
-    """D m m^T is minus the derivative of the force on a ball by its velocity, where the floor does not matter; the step solves with it
-    (test_pocket_films.py).
-    """
-    h, C, step = 2e-5, 1e-4, 1e-4
-    base = {}
-    for k, d in enumerate([np.zeros(3), *np.eye(3)]):
-        S, place = C - h, np.arcsin((C - h) / 0.02675)
-        v = 0.05 * np.array([0.0, np.sin(place), np.cos(place)]) + step * d
-        _m, w = one_ball(core, 0.0, S, v=v, **WET)
-        base[k] = on_ball(w)[0][0]
-        if k == 0:
-            D = film_rates(w, 0)
-    J = -np.array([(base[k + 1] - base[0]) / step for k in range(3)]).T
-    # along other axes; the floor's change with the speed: h_e^2/h^2
-    assert np.linalg.eigvalsh(D) == pytest.approx(np.linalg.eigvalsh(0.5 * (J + J.T)), abs=0.02 * np.abs(J).max())
-    assert np.abs(J).max() > 1.0
+    """The step solves with it: test_pocket_films.py."""
+    C = 1e-4
+    S = C - 2e-5
+    v = 0.05 * np.array([0.0, S / R_PITCH, np.sqrt(1.0 - (S / R_PITCH) ** 2)])
+    assert_step_gets_film(lambda dv: one_ball(core, 0.0, S, v=v + dv, **WET)[1], least=1.0)
 
 
 @pytest.mark.parametrize("cage", [{}, RIBBON], ids=["machined", "ribbon"])
@@ -340,20 +329,25 @@ def test_area_of_the_strip():
 
 
 @pytest.mark.c_only
-@pytest.mark.parametrize("filling", [0.0, 1.0], ids=["dry", "flooded"])
+@pytest.mark.parametrize(
+    ("half", "in_pockets"),
+    [({"cage.pocket_filling": 0.0}, 2e-3), ({}, 2e-3), (RIBBON, 0.0)],
+    ids=["dry", "flooded", "ribbon"],
+)
 @pytest.mark.parametrize("cage", list(CageModel), ids=lambda cage: cage.name)
 @pytest.mark.parametrize(
     ("method", "tolerance"), [(Method.EXPLICIT, 1e-4), (Method.VERLET, 1e-5)], ids=["explicit", "verlet"]
 )
-def test_energy_closes(core, method, tolerance, cage, filling):
+def test_energy_closes(core, method, tolerance, cage, half, in_pockets):
     """Supplied = stored + lost over 10 ms to 0.1 % of what is lost.  The default step's error at its default tolerance is
-    larger, dry or flooded: docs/notes/pocket_oil.md.
+    larger, dry or flooded: docs/notes/pocket_oil.md.  Films of a ribbon's pockets lose 0.16 % here, in place of 2.5 % in
+    dry contacts: their balance by themselves is test_flooded_power_balance.
     """
-    parameters = {"scene.cage": cage, "cage.pocket_filling": filling, "solver.method": method}
+    parameters = {"scene.cage": cage, "cage.pocket_filling": 1.0, "solver.method": method} | half
     bearing, lost, pockets = Instance(core, parameters, tolerance=tolerance), 0.0, 0.0
     for i in range(1, 101):
         bearing.step(1e-4 * i)
         lost += 1e-4 * bearing.output("bearing.power_loss")
         pockets += 1e-4 * bearing.output("loss.pockets")
     assert abs(bearing.output("bearing.energy_residual")) < 1e-3 * lost
-    assert pockets > 2e-3 * lost
+    assert pockets > in_pockets * lost

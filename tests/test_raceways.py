@@ -25,18 +25,13 @@ from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, designs_page, page, raceways, sheet, verdict
 from riveted_bearing.duty.evidence import Evidence
 from riveted_bearing.duty.mission import plan_mission
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History
 from riveted_bearing.running.runner import simulate, turns
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.running.summary import count_note, settle_note, speed_note, static_and_swing
+from riveted_bearing.show.style import plt
 
 TURN = 2.0 * math.pi
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 @pytest.fixture(scope="module")
@@ -336,12 +331,12 @@ def test_a_life_beyond_telling_has_no_bell():
     """5.1e9 h is printed as > 1e6 h: neither its interval nor its density is drawn."""
     estimate = SimpleNamespace(life=5.1e9, low=4.5e9, high=5.8e9, half_width=0.13)
     life = SimpleNamespace(estimate=estimate, low=4.5e9, mission=None)
-    figure = page.plt.figure()
+    figure = plt.figure()
     page.life_chart(figure, life)
     (ax,) = figure.axes
     assert not ax.lines and not ax.collections and "> 1e6 h" in ax.texts[0].get_text()
     assert "%" not in page.width_text(life)
-    page.plt.close(figure)
+    plt.close(figure)
 
 
 def test_revolutions_end_with_the_run(model):

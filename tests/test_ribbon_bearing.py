@@ -68,25 +68,6 @@ def test_own_sizes_in_a_file(tmp_path):
     assert case.values["cage.m"] == pytest.approx(half_shape.half_inertia(geometry_of(case)).m, rel=1e-5)
 
 
-@pytest.mark.parametrize(
-    ("text", "key"),
-    [
-        ('cage.sheet = "4 mm"', "cage.sheet"),
-        ('cage.pocket_depth = "8.7 mm"', "cage.pocket_depth"),
-        ('cage.pocket_depth = "8.868 mm"', "cage.pocket_depth"),
-        ('cage.pocket_fillet = "1.6 mm"', "cage.pocket_fillet"),
-        ('cage.pocket_fillet = "6 mm"', "cage.pocket_fillet"),
-        ('cage.D_i = "72 mm"', "cage.D_i"),
-        ('cage.D_o = "74 mm"', "cage.D_o"),
-        ('[rivet]\nhead_diameter = "8 mm"', "rivet.head_diameter"),
-    ],
-)
-def test_refusals_name_the_users_key(tmp_path, text, key):
-    """What cannot be pressed is refused by the key that the file has, with what is allowed."""
-    with pytest.raises(UserError, match=rf"{key} = .*(at most|at least|impossible)"):
-        bearing_case(written(tmp_path, text))
-
-
 def test_other_refusals(tmp_path):
     with pytest.raises(UserError, match="--cage.*wicker.*machined"):
         bearing_case("6309", cage="wicker")

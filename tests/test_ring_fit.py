@@ -280,9 +280,11 @@ def test_no_clearance_left_is_an_event(folder):
         ({"housing.outside": 0.07}, "housing.outside = 0.07"),
         ({"ring.effective_i": 0.04}, "ring.effective_i = 0.04"),
         ({"ring.effective_e": 0.07}, "ring.effective_e = 0.07"),
+        ({"oil.T_1": 380.0}, "oil.T_1 = 380 K: less than oil.T_2 = 373.15 K is allowed"),
+        ({"oil.nu_1": 4e-6}, "oil.nu_1 = 4e-06 m2/s: more than oil.nu_2"),
     ],
 )
-def test_rings_that_are_none(folder, parameters, reason):
+def test_rings_and_points_of_oil_that_are_none(folder, parameters, reason):
     slave = Slave(folder)
     for name, value in parameters.items():
         slave.set(name, value)

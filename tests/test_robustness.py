@@ -9,7 +9,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import fmpy
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -27,11 +26,6 @@ QUICK = settings(
     derandomize=True,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
-
-
-@pytest.fixture(scope="module")
-def folder(fmu, tmp_path_factory):
-    return Path(fmpy.extract(str(fmu), str(tmp_path_factory.mktemp("fmu"))))
 
 
 @pytest.fixture(scope="module")

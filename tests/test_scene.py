@@ -9,7 +9,6 @@ from riveted_bearing import read_result, run, write_result
 from riveted_bearing.base.errors import UserError
 from riveted_bearing.base.shipped import shipped_scenes
 from riveted_bearing.base.units import scales_of, suffix, to_si
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History
 from riveted_bearing.running.scene import load_scene
 
@@ -17,11 +16,6 @@ VISCOSITY = {"m2/s": (1.0, 0.0), "mm2/s": (1e6, 0.0)}
 SPEED = scales_of("rad/s", {"rev/min": (30.0 / math.pi, 0.0)})
 TEMPERATURE = scales_of("K", {"degC": (1.0, -273.15)})
 MORE = {unit: scales_of(unit, {}) for unit in ("m", "N", "Pa", "1")}
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 @pytest.fixture

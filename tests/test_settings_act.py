@@ -40,11 +40,6 @@ FIRST_OF_GROUPS = list({name.partition(".")[0].partition("[")[0]: name for name 
 WALK = [pytest.param(name, marks=[] if name in FIRST_OF_GROUPS else pytest.mark.slow) for name in NAMES]
 
 
-@pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
 def others(model, name):
     """Values beside the FMU's own, the next ones first, as far as the variable table has room for them."""
     variable = (model.parameters | model.inputs)[name]

@@ -16,7 +16,6 @@ from bearing_model.rivet import rivet_table
 from rivet_model import table
 from riveted_bearing import build, run
 from riveted_bearing.base.toml_files import read_toml
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies.sweep import about_run, run_sweep
 from riveted_bearing.studies.sweep_file import plan_sweep
 
@@ -28,11 +27,6 @@ import paper_page as paper
 from figures import Estimate, Runs, estimate, ratio, rise, shipped_studies, study_sweep
 from pages import page_text
 from study import FIGURES
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 def shortened(name, model):

@@ -14,7 +14,6 @@ import pytest
 from commands import command, rows_kept
 
 from riveted_bearing import run
-from riveted_bearing.running.fmu import Model
 from riveted_bearing.studies import sweep as engine
 from riveted_bearing.studies.rows import Store, columns_of
 from riveted_bearing.studies.sweep import cluster, outcome, run_sweep
@@ -24,20 +23,6 @@ from riveted_bearing.studies.sweep_table import lines, sweep_table, write_page, 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = '[simulation]\nt_end = 2e-3\n[parameters]\nstart.settle = "0.5 ms"\n'  # 4 ms of processor time a run
 LONGER = SHORT.replace("2e-3", "0.1")  # 0.1 s a run: there is a middle to be killed in
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
-
-
-@pytest.fixture(scope="module")
-def client():
-    """Two worker processes of this machine."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("PYTHONPATH", str(ROOT))
-        with cluster(workers=2) as client:
-            yield client
 
 
 def plan(folder, model, text):

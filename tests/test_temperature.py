@@ -246,25 +246,6 @@ def test_temperatures_that_the_bearing_does_not_bear(folder, inputs, reason):
         Model.of(tight, inputs)
 
 
-@pytest.mark.c_only
-@pytest.mark.parametrize(
-    ("parameters", "reason"),
-    [
-        ({"oil.T_1": 380.0}, "oil.T_1 = 380 K: less than oil.T_2 = 373.15 K is allowed"),
-        ({"oil.nu_1": 4e-6}, "oil.nu_1 = 4e-06 m2/s: more than oil.nu_2"),
-    ],
-)
-def test_points_of_no_oil(folder, parameters, reason):
-    slave = Slave(folder)
-    for name, value in parameters.items():
-        slave.set(name, value)
-    slave.check("SetupExperiment", 0, 0.0, 0.0, 0, 0.0)
-    statuses = [slave.call("EnterInitializationMode"), slave.call("ExitInitializationMode")]
-    assert ERROR in statuses and any(reason in message for _, _, message in slave.messages), slave.messages
-    with pytest.raises(ValueError, match=reason.split(" ")[0]):
-        Model.of(parameters)
-
-
 # --------------------------------------------------------------------------------------------------------- during a run
 
 

@@ -16,7 +16,6 @@ from riveted_bearing.duty.assess import assess
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.tolerances import read_tolerances, scatter, write_scatter
 from riveted_bearing.duty.weibull import fit_weibull, write_weibull_plot
-from riveted_bearing.running.fmu import Model
 
 # h, failures of cages of 1,703 aircraft engines: Abernethy, Breneman, Medlin and Reinman (1983)
 CAGES = (230, 334, 423, 990, 1009, 1510)
@@ -38,11 +37,6 @@ RUNNING = {
 }
 RUNNING |= {1450: 27, 1550: 11, 1650: 6, 1850: 1, 2050: 2}  # h: engines without a failure
 Z = 9
-
-
-@pytest.fixture(scope="module")
-def model():
-    return Model()
 
 
 def test_field_lives_of_bearing_cages(tmp_path):

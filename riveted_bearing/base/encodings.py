@@ -15,13 +15,10 @@ MARKS = {
 
 def encoding_of(path, start):
     """UTF-8, UTF-16 or UTF-32 by the mark of the byte order or its zeros, else Latin-1 as Windows writes it."""
-    for mark, encoding in MARKS.items():
-        if start.startswith(mark):
-            return checked(path, encoding)
-    if len(start) > 3 and start[1:2] == b"\0" and start[:1] != b"\0":
-        return checked(path, "utf-16-le")
-    if len(start) > 3 and start[:1] == b"\0" and start[1:2] != b"\0":
-        return checked(path, "utf-16-be")
+    marked = next((encoding for mark, encoding in MARKS.items() if start.startswith(mark)), None)
+    zeros = [byte == 0 for byte in start[:2]] if len(start) > 3 else []
+    if encoding := marked or {(False, True): "utf-16-le", (True, False): "utf-16-be"}.get(tuple(zeros)):
+        return checked(path, encoding)
     if b"\0" in start:
         raise UserError(f"{path}: not a CSV table: it holds bytes that are no text")
     for encoding in ("utf-8", "cp1252"):

@@ -2,7 +2,10 @@
 
 import re
 import reprlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -43,9 +46,26 @@ def refusal(where: Any, key: Any, value: Any, reason: Any) -> UserError:
     return UserError(f"{where}: {key} = {reprlib.repr(value)}: {reason}")
 
 
+@contextmanager
+def refusing(where: Any, key: Any, value: Any) -> Iterator[None]:
+    """What is wrong inside, as the error for a value."""
+    try:
+        yield
+    except UserError as problem:
+        raise refusal(where, key, value, problem) from None
+
+
 def extra(name: str) -> str:
     """How to install what one of the package's extras brings: the package is in no index."""
     return f'pip install -e ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'
+
+
+def library(name: str, what: str) -> Any:
+    """A library of the extra "full"; UserError if it is missing; what: needs it."""
+    try:
+        return import_module(name)
+    except ImportError:
+        raise UserError(f"{what}: needs the library {name.partition('.')[0]}: {extra('full')}") from None
 
 
 def shortlist(names: Any, length: int = 12) -> str:

@@ -14,7 +14,7 @@ FORMATS = ("parquet", "csv", "mat")
 
 def one_line(problem: Any) -> Any:
     """An error of a library in words for a message of one line."""
-    return " ".join(repr(problem).split())[:300]
+    return " ".join(f"{problem}".split())[:300]
 
 
 def make_folder(folder: str | Path) -> None:

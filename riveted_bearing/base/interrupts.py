@@ -6,7 +6,7 @@ from multiprocessing import resource_tracker
 
 
 class held_interrupts:
-    """While this context lasts, Ctrl-C only sets `pending`.
+    """While this context lasts, Ctrl-C only sets `pending`, and does nothing if nobody asks for it.
 
     Python's handler would raise KeyboardInterrupt between any two instructions, also between a finished step and its
     place in the result, or in a callback of the FMU, where an exception is lost.  Only a program's main thread receives
@@ -27,19 +27,6 @@ class held_interrupts:
     def note(self, *_):
         """Handler of the signal."""
         self.pending = True
-
-
-class ignored_interrupts:
-    """While this context lasts, Ctrl-C does nothing."""
-
-    def __enter__(self):
-        self.main = threading.current_thread() is threading.main_thread()
-        if self.main:
-            self.before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-    def __exit__(self, *_):
-        if self.main:
-            signal.signal(signal.SIGINT, self.before)
 
 
 class kept_from_children(held_interrupts):

@@ -87,19 +87,21 @@ class Number(Rule):
 
 @dataclass(frozen=True, eq=False)
 class Count(Rule):
-    """A whole number of at least `least`; words: what is needed."""
+    """A whole number of at least `least`, and at most `most` if that is given; words: what is needed."""
 
     least: int = 1
     words: str = ""
+    most: int | None = None
 
     def read(self, value: Any) -> int:
         """The number; UserError for anything else."""
-        if isinstance(value, bool) or not isinstance(value, int) or value < self.least:
+        whole = isinstance(value, int) and not isinstance(value, bool)
+        if not whole or value < self.least or (self.most is not None and value > self.most):
             raise UserError(self.words or f"a whole number from {self.least} on is needed")
         return value
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        return {"type": "integer", "minimum": self.least}
+        return {"type": "integer", "minimum": self.least} | ({} if self.most is None else {"maximum": self.most})
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,13 +165,13 @@ def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault:
             prefix = f"{prefix}.{step}".lstrip(".")
     full = prefix if isinstance(key, int) else f"{prefix}.{key}".lstrip(".")  # an entry of a list is the list's
     if fault["type"] == "extra_forbidden":
-        return unknown(place, "key", key, keys_at(kind, above), f"{prefix}." if prefix else "")
+        return unknown(place, "key", key, [*fields_at(kind, above)], f"{prefix}." if prefix else "")
     if fault["type"] == "missing":
-        about = field_at(kind, [*above, key]).description
+        about = fields_at(kind, above)[key].description
         return UserError(f"{place}: {full} is needed{f': {about}' if about else ''}")
     if isinstance(key, int) and fault["type"] in ("model_type", "dict_type"):  # not a list of tables
         return UserError(f"{place}: {above[-1]}: write [[{above[-1]}]] with its keys below it")
-    if fault["type"] == "list_type" and is_of_tables(field_at(kind, [*above, key]).annotation):
+    if fault["type"] == "list_type" and is_of_tables(fields_at(kind, above)[key].annotation):
         return UserError(f"{place}: {full}: write [[{full}]] with its keys below it")
     error = fault.get("ctx", {}).get("error")
     return refusal(place, full, fault["input"], error or WORDS.get(fault["type"], fault["msg"]))
@@ -187,20 +189,12 @@ def is_of_tables(annotation: Any) -> bool:
     return model_of(annotation) is not None or Named in get_args(annotation)
 
 
-def field_at(kind: type[Section], place: list[Any]) -> Any:
-    """The field of a place in a document."""
-    *above, key = [step for step in place if isinstance(step, str)]
-    for step in above:
-        kind = model_of(kind.model_fields[step].annotation) or kind
-    return kind.model_fields[key]
-
-
-def keys_at(kind: type[Section], place: list[Any]) -> list[str]:
-    """Keys that a table at a place of a document may have."""
+def fields_at(kind: type[Section], place: list[Any]) -> Any:
+    """The fields of a table at a place of a document."""
     for step in place:
         if isinstance(step, str):
             kind = model_of(kind.model_fields[step].annotation) or kind
-    return [*kind.model_fields]
+    return kind.model_fields
 
 
 def json_schema(kind: type[Section]) -> dict[str, Any]:

@@ -9,6 +9,7 @@ import numpy as np
 
 from .encodings import encoding_of
 from .errors import UserError, extra
+from .files import one_line
 from .heads import split_head
 from .stamps import Stamps, is_stamp, may_turn, month_is_first, parse
 from .units import is_unit
@@ -400,11 +401,6 @@ def cell_text(cell, commas=False):
     if isinstance(cell, datetime | date | time):
         return cell.isoformat()
     return "" if cell is None else repr(cell) if isinstance(cell, float) else str(cell).strip()
-
-
-def one_line(problem):
-    """An error of a library in one line."""
-    return " ".join(f"{problem}".split())[:300]
 
 
 KINDS = {b"PAR1": ParquetRows, b"PK\x03\x04": SheetRows}  # by the first bytes of a file

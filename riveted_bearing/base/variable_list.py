@@ -2,6 +2,7 @@
 
 import math
 import re
+from fnmatch import fnmatchcase
 from typing import Any
 
 from bearing_model.generated import variables
@@ -20,20 +21,8 @@ def essentials() -> Any:
 
 
 def is_like(text: str, pattern: Any) -> bool:
-    """Whether a text matches a pattern in which * stands for any text: the pieces between, each at its first place."""
-    first, *others = pattern.split("*")
-    if not others:
-        return text == pattern
-    *middle, last = others
-    if len(text) < len(first) + len(last) or not text.startswith(first) or not text.endswith(last):
-        return False
-    at, end = len(first), len(text) - len(last)
-    for piece in middle:
-        found = text.find(piece, at, end)
-        if found < 0:
-            return False
-        at = found + len(piece)
-    return True
+    """Whether a text matches a pattern in which * stands for any text, and brackets for themselves."""
+    return fnmatchcase(text, re.sub(r"[\[?]", r"[\g<0>]", pattern))
 
 
 def matching(pattern: Any) -> Any:

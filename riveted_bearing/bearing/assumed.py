@@ -5,7 +5,6 @@ benchmarks/rules.py writes with docs/own_bearing.md.  How far a range moves stre
 running/screening.py measures it in the FMU at hand, and without it no amount is told.
 """
 
-import csv
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -14,6 +13,7 @@ from typing import Any
 
 from bearing_model.generated import variables
 
+from ..base.shipped import csv_rows
 from ..base.units import suffix
 from .oil import name_of
 from .origin import EXAMPLE
@@ -23,17 +23,14 @@ RULES = files("riveted_bearing") / "data" / "rules.csv"
 OF_RULES = "6309"  # in which benchmarks/rules.py measures the effects of values by rule
 OF_BRONZE = ("cage.mu", "cage.mu_land", "cage.modal_damping", "joint.mu")
 OF_ASPERITIES = ("oil.sigma_race",)  # move no stress in full film, where the film ratio alone moves with them
-OF_BUILD = (
-    "cage.D_o",
-    "cage.D_i",
-    "cage.width",
-)  # shape the stress table, as all of rivet.* do: another value needs a build
+OF_BUILD = ("cage.D_o", "cage.D_i", "cage.width")  # shape the stress table, as rivet.* do: another value needs a build
 TEMPERATURES = {  # usual range around the oil's temperature [K]
     "oil.T": (-25.0, 35.0, "oil from 60 to 120 degC, if it has 85 degC by assumption"),
     "cage.T": (-20.0, 25.0, "bearings that dissipate have parts 10 to 40 K apart"),
 }
 DEEPEST = 1.05  # clearance of a ribbon's pocket over that at which its sphere ends in the split
 SEEN = 2.0  # standard errors from which an effect is more than the seeds' scatter
+YOURS = "your own range"
 UNKNOWN = "not screened in this bearing (riveted-bearing build --screen, sensitivity --quick)"
 
 
@@ -91,19 +88,16 @@ class Assumed:
         least, digits = (1.0, ".0f") if percent else (0.1, ".1f")
         if max(high, -low) < least:
             return f"below {least:g} {unit}"
-        return (
-            " … ".join(
-                f"{end:+{digits}}" if abs(end) >= 0.5 * least else "0" for end in (min(low, 0.0), max(high, 0.0))
-            ).replace("-", "−")
-            + f" {unit}"
-        )
+        ends = (min(low, 0.0), max(high, 0.0))
+        texts = (f"{end:+{digits}}".replace("-", "−") if abs(end) >= 0.5 * least else "0" for end in ends)
+        return f"{' … '.join(texts)} {unit}"
 
 
 @cache
 def ranges():
     """Range by name of the values of the 6207, and by name of those by rule."""
     own = {name: Range(*entry) for name, entry in variables.ASSUMPTIONS.items()}
-    rows = csv.DictReader(RULES.read_text(encoding="utf-8").splitlines()[1:])
+    rows = csv_rows(RULES)
     return own, {row["name"]: Range(float(row["low"]), float(row["high"]), row["source"]) for row in rows}
 
 
@@ -136,8 +130,7 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
         if name.startswith("rivet."):
             yield assumed(name, "mm", 1e3, sizes.get(name), each, screening=screening)
         elif name in parameters:
-            unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
-            factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
+            unit, factor = shown_unit(name)
             yield assumed(name, unit, factor, parameters[name], each, parameters, screening)
     temperatures = {name: T - 273.15 for name, T in about.get("temperatures", {}).items()}
     for name, T in temperatures.items():
@@ -147,13 +140,16 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
             yield Assumed(name, "degC", T, *ends, source, (low, high), *known_effect(name, screening))
     for name, entry in screening.get("entries", {}).items():
         if entry["source"] == YOURS and name in parameters:
-            unit = variables.PARAMETERS[name].display or variables.PARAMETERS[name].unit
-            factor, _ = variables.UNITS[variables.PARAMETERS[name].unit][unit]
+            unit, factor = shown_unit(name)
             ends = (factor * entry["low"], factor * entry["high"])
             yield Assumed(name, unit, factor * parameters[name], *ends, YOURS, ends, *known_effect(name, screening))
 
 
-YOURS = "your own range"
+def shown_unit(name):
+    """Unit in which people read a parameter, and the factor to it."""
+    variable = variables.PARAMETERS[name]
+    unit = variable.display or variable.unit
+    return unit, variables.UNITS[variable.unit][unit][0]
 
 
 def known_effect(name, screening):

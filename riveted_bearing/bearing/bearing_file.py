@@ -27,7 +27,7 @@ from typing import Any
 from bearing_model.generated import variables
 from bearing_model.load_ratings import dynamic_rating, static_rating
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
 from ..base.toml_files import read_toml, section_of
@@ -61,16 +61,11 @@ def bearing_case(source: Any, rivet: Any = None, cage: Any = None) -> Case:
     designation = str(source)
     if designation in catalogue.entries() and designation not in shipped_bearings():
         description = f"Deep-groove ball bearing {designation} with {KINDS_OF_CAGE[cage or CAGES[0]]}"
-        path, own, document = (
-            f"catalogue bearing {designation}",
-            "yours",
-            {"designation": designation, "description": description},
-        )
-        bare = cage is None
+        path, own, bare = f"catalogue bearing {designation}", "yours", cage is None
+        document = {"designation": designation, "description": description}
     else:
-        path = find_bearing(source)
-        bare = designation in shipped_bearings() and cage is None
-        own, document = "shipped" if designation in shipped_bearings() else "yours", read_toml(path)
+        path, shipped = find_bearing(source), designation in shipped_bearings()
+        own, bare, document = "shipped" if shipped else "yours", shipped and cage is None, read_toml(path)
         check_designation(path, document)
         document = {"designation": path.name.removesuffix(".toml")} | document
     prefix = "rivet."
@@ -91,21 +86,14 @@ def with_cage(path, document, cage):
     if (cage is None and written != "ribbon") or cage == CAGES[0]:
         return document, ()
     if document.get("designation") == EXAMPLE and "bearing.D" in dict(flat(parameters)) and cage is not None:
-        raise refusal(
-            path,
-            "--cage",
-            cage,
-            f"the file is of the paper's bearing with its machined cage; name a file or {', '.join(['6205', '6309'])}",
-        )
+        reason = "the file is of the paper's bearing with its machined cage; name a file or 6205, 6309"
+        raise refusal(path, "--cage", cage, reason)
     of_cage = parameters.get("cage") if isinstance(parameters.get("cage"), dict) else {}
     result, usual = document | {"parameters": parameters | {"cage": of_cage | {"shape": "ribbon"}}}, []
     for part, material in (("cage", ribbon.MATERIAL), ("rivet", ribbon.RIVET_MATERIAL)):
         section = section_of(path, document, part)
-        if (
-            "material" not in section
-            and "material" not in of_cage
-            and not set(section) & set(materials.PARTS[part].properties)
-        ):
+        named = "material" in section or "material" in of_cage
+        if not named and not set(section) & set(materials.PARTS[part].properties):
             result[part] = {"material": material} | section
             usual.append(part)
     return result, tuple(usual)
@@ -189,22 +177,16 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
 
     by_catalogue = {key: value for key, value in (entry.data if entry else {}).items() if key not in data}
     own_balls = entry is not None and Z not in (None, catalogue.balls(entry)[0])
-    shape = (
-        (given.get("bearing.D", catalogue.balls(entry)[1]), given.get("bearing.d_m", entry.d_m)) if own_balls else ()
-    )
-    rated = {key: value for key, value in ratings(Z, *shape).items() if key not in data} if own_balls else {}
+    rated = {}
+    if own_balls:
+        shape = given.get("bearing.D", catalogue.balls(entry)[1]), given.get("bearing.d_m", entry.d_m)
+        rated = {key: value for key, value in ratings(Z, *shape).items() if key not in data}
     data |= by_catalogue | rated
     parts = Z, given, sizes | steel, inputs, data, entry
     all_Z, by_rule, rivet_by_rule, inputs_by_rule = rules(*parts)
     origin |= dict.fromkeys(by_catalogue, "catalogue") | dict.fromkeys(rated, "rule")
-    origin |= dict.fromkeys(
-        [
-            name
-            for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule)
-            if name not in origin
-        ],
-        "rule",
-    )
+    for name in ("Z", *by_rule, *(f"rivet.{name}" for name in rivet_by_rule), *inputs_by_rule):
+        origin.setdefault(name, "rule")
     if not entry and own != "shipped":
         known = {*([] if Z is None else ["Z"]), *given, *inputs, *inputs_by_rule}
         origin |= dict.fromkeys((name for name in OF_EXAMPLE if name not in known), EXAMPLE)
@@ -216,18 +198,8 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     check_limits(path, document, parts, lambda name: called(name, prefix), inside)
     check_guidance(path, values)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
-    return Case(
-        designation,
-        file.description,
-        all_Z,
-        values,
-        data,
-        rivet_by_rule | sizes | steel,
-        origin,
-        found,
-        bare,
-        oil=oil_name,
-    )
+    rivet = rivet_by_rule | sizes | steel
+    return Case(designation, file.description, all_Z, values, data, rivet, origin, found, bare, oil=oil_name)
 
 
 def check_boundary(path, document, data, entry):
@@ -264,11 +236,8 @@ def plain_names(tree):
 
 def material_section(path, document, part):
     """The keys of a part's section that are about its material."""
-    return {
-        key: value
-        for key, value in section_of(path, document, part).items()
-        if part != "rivet" or key in RIVET_MATERIAL
-    }
+    section = section_of(path, document, part).items()
+    return {key: value for key, value in section if part != "rivet" or key in RIVET_MATERIAL}
 
 
 def rivet_sizes(path, rivet):
@@ -301,9 +270,7 @@ def with_seats(path, tree, data, entry):
         size = data.get(which, getattr(entry, which, None))
         if size is None:
             raise refusal(path, f"parameters.{name}", value, f"it needs catalogue.{which}")
-        try:
+        with refusing(path, f"parameters.{name}", value):
             own = {key: seats.interference(name, value, size)}
-        except UserError as problem:
-            raise refusal(path, f"parameters.{name}", value, problem) from None
         found = {n: v for n, v in found.items() if n != name} | {group: found.get(group, {}) | own}
     return found

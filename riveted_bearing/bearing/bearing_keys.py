@@ -2,10 +2,10 @@
 
 from typing import Annotated, Any
 
-from pydantic import AfterValidator, BeforeValidator, Field, create_model
+from pydantic import AfterValidator, Field, create_model
 
 from ..base.errors import UserError
-from ..base.schema import Choice, Named, Number, Section, Text
+from ..base.schema import Choice, Count, Named, Number, Section, Text
 from . import catalogue, materials
 from .file_values import rivet_unit, unit_scales
 from .rules import RIVET
@@ -14,14 +14,8 @@ LARGEST_RIVET = 1.0  # m
 RIVET_MATERIAL = ("material", "source", *materials.PARTS["rivet"].properties)
 RIVET_SIZES = tuple(name for name in RIVET if name not in materials.PARTS["rivet"].geometry.values())
 Metres = Annotated[float | None, Number(unit_scales("m"), above=0.0)]
+BALLS = Count(5, "allowed: an integer from 5 to 32", 32)  # that an FMU can have
 Newtons = Annotated[float | None, Number(unit_scales("N"), above=0.0)]
-
-
-def balls(value: Any) -> int:
-    """A number of balls; ValueError for another one than the FMU can have."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 5 <= value <= 32:
-        raise UserError("allowed: an integer from 5 to 32")
-    return value
 
 
 def small(size: float) -> float:
@@ -70,7 +64,7 @@ class BearingFile(Section):
 
     designation: Any = Field(None, description="one of the catalogue's fills in what is not given")
     description: Text = ""
-    Z: Annotated[int | None, BeforeValidator(balls)] = Field(None, description="balls, 5 to 32")
+    Z: Annotated[int | None, BALLS] = Field(None, description="balls, 5 to 32")
     oil: Any = Field(None, description='kind of oil, such as "mineral ISO VG 32"')
     catalogue: Catalogue = Catalogue()
     parameters: Named = Field({}, description="start values of the FMU made from this file; inputs too")

@@ -8,13 +8,14 @@ have ball sizes within 2 % (RMS 2.4 %) of those that follow from another maker's
 known from measurements agree; makers differ in some bearings by a ball size or a ball (6305: 7 balls of 11.5 mm here).
 """
 
-import csv
 import math
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
 from bearing_model.load_ratings import dynamic_rating, static_rating
+
+from ..base.shipped import csv_rows
 
 TABLE = files("riveted_bearing") / "data" / "catalogue.csv"
 INCH = 25.4e-3
@@ -66,14 +67,11 @@ class Entry:
 @cache
 def entries():
     """All bearings of the catalogue by designation."""
-    lines = (line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     table = {}
-    for row in csv.DictReader(lines):
-        designation = row.pop("designation")
+    for row in csv_rows(TABLE):
         lengths = {key: round(1e-3 * float(row[key]), 9) for key in ("bore", "outside_diameter", "width")}
-        table[designation] = Entry(
-            designation, **lengths, **{key: round(1e3 * float(row[key]), 6) for key in ("C", "C_0")}
-        )
+        forces = {key: round(1e3 * float(row[key]), 6) for key in ("C", "C_0")}
+        table[row["designation"]] = Entry(row["designation"], **lengths, **forces)
     return table
 
 

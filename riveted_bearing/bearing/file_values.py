@@ -5,7 +5,7 @@ from typing import Any
 
 from bearing_model.generated import variables
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.units import scales_of, suffix, symbol_of, to_si
 
 BOUNDARY = ("bore", "outside_diameter", "width")
@@ -26,16 +26,14 @@ def shown(name, value, written, words=""):
     if name == "Z":
         return f"{value}"
     unit = unit_of(name)
-    symbol = (
-        (symbol_of(written) or unit) if written is not None else [*variables.UNITS[unit], *variables.UNITS[unit]][1]
-    )
+    read = (list(variables.UNITS[unit]) * 2)[1]  # in which people read it
+    symbol = read if written is None else symbol_of(written) or unit
     factor, offset = unit_scales(unit).get(symbol, (1.0, 0.0))
     number = factor * value + offset
     if words:
         digits = 3 - math.floor(math.log10(abs(number) or 1.0))
-        number = (math.floor if words == "at most" else math.ceil)(
-            number * 10.0**digits + (1e-9 if words == "at most" else -1e-9)
-        ) / 10.0**digits
+        to_side, rest = (math.floor, 1e-9) if words == "at most" else (math.ceil, -1e-9)
+        number = to_side(number * 10.0**digits + rest) / 10.0**digits
     return f"{number:.4g}{suffix(symbol)}"
 
 
@@ -65,46 +63,26 @@ def unit_scales(unit: str) -> Any:
 def start_values(path, section, tree, known):
     """Full names and values of one section of a bearing file, each checked."""
     for name, value in flat(tree):
-        if (
-            name not in known
-            and (
-                other := "inputs"
-                if name in variables.INPUTS
-                else "parameters"
-                if name in variables.PARAMETERS
-                else section
-            )
-            != section
-        ):
+        other = "inputs" if name in variables.INPUTS else "parameters" if name in variables.PARAMETERS else section
+        if other != section:
             raise UserError(f"{path}: {section}.{name}: does not belong into [{section}] but into [{other}]")
         if name not in known:
             raise unknown(path, section.removesuffix("s"), name, known)
         variable = known[name]
-        items = (
-            []
-            if variable.type in ("Real", "Integer")
-            else [item.name.lower() for item in getattr(variables, variable.type)]
-        )
+        plain = variable.type in ("Real", "Integer")
+        items = [] if plain else [item.name.lower() for item in getattr(variables, variable.type)]
         if items and value not in items:
             raise refusal(path, f"{section}.{name}", value, f"allowed: {', '.join(items)}")
         written = value
-        try:
+        with refusing(path, f"{section}.{name}", value):
             value = to_si(value, unit_scales(variable.unit)) if isinstance(value, str) and not items else value
-        except UserError as problem:
-            raise refusal(path, f"{section}.{name}", value, problem) from None
-        low, high = (
-            (-math.inf if variable.min is None else variable.min),
-            (math.inf if variable.max is None else variable.max),
-        )
+        low = -math.inf if variable.min is None else variable.min
+        high = math.inf if variable.max is None else variable.max
         whole = variable.type == "Integer"
         if not items and not (is_number(value) and low <= value <= high and (isinstance(value, int) or not whole)):
             what, text = ("an integer", "") if whole else ("a number", ", or a text with its unit")
-            raise refusal(
-                path,
-                f"{section}.{name}",
-                written,
-                f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}",
-            )
+            reason = f"not {what} in {span(low, high, variable.unit, symbol_of(written))}{text}"
+            raise refusal(path, f"{section}.{name}", written, reason)
         yield name, value
 
 

@@ -18,9 +18,10 @@ from importlib.resources import files
 
 from bearing_model.generated import variables
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.toml_files import positive
-from ..base.units import scales_of, suffix, symbol_of
+from ..base.units import scales_of, symbol_of
+from .file_values import span
 
 TABLE = files("riveted_bearing") / "data" / "materials.toml"
 OWN = "own"
@@ -34,6 +35,16 @@ SHOWN = {  # label, factor and unit of what people ask for first
     "density": ("", 1.0, "kg/m3"),
     "expansion": ("", 1e6, "1e-6/K"),
     "yield": ("yield", 1e-6, "MPa"),
+}
+
+
+OF_GEOMETRY = {  # begin of the members of the rivet table's geometry
+    "E": "E",
+    "nu": "nu",
+    "density": "rho",
+    "expansion": "alpha",
+    "yield": "yield",
+    "hardening": "hardening",
 }
 
 
@@ -61,14 +72,7 @@ PARTS = {
     "cage": Part(
         "bronze",
         {"E": "cage.E", "nu": "cage.nu", "density": "cage.rho"},
-        {
-            "E": "E_flange",
-            "nu": "nu_flange",
-            "density": "rho_flange",
-            "expansion": "alpha_flange",
-            "yield": "yield_flange",
-            "hardening": "hardening_flange",
-        },
+        {key: f"{name}_flange" for key, name in OF_GEOMETRY.items()},
         "cage.material",
     ),
     "rings": Part(
@@ -80,14 +84,7 @@ PARTS = {
     "rivet": Part(
         "15CrMn",
         {"strength": "fatigue.sigma_m", "endurance": "fatigue.sigma_D"},
-        {
-            "E": "E_rivet",
-            "nu": "nu_rivet",
-            "density": "rho_rivet",
-            "expansion": "alpha_rivet",
-            "yield": "yield_rivet",
-            "hardening": "hardening_rivet",
-        },
+        {key: f"{name}_rivet" for key, name in OF_GEOMETRY.items()},
     ),
 }
 
@@ -110,12 +107,9 @@ class Material:
 
     def words(self):
         """The material on one line."""
-        found = (
-            (label, f"{factor * self.values[key]:.4g}", unit)
-            for key, (label, factor, unit) in SHOWN.items()
-            if key in self.values
-        )
-        return f"{self.name}: {', '.join(' '.join(filter(None, words)) for words in found)}"
+        known = ((*shown, self.values[key]) for key, shown in SHOWN.items() if key in self.values)
+        texts = (" ".join(filter(None, (label, f"{factor * x:.4g}", unit))) for label, factor, unit, x in known)
+        return f"{self.name}: {', '.join(texts)}"
 
 
 @cache
@@ -157,15 +151,8 @@ def material_of(path, part, section, given, as_written):
     written = {key: section[key] for key in where.properties if key in section}
     own = {key: property_of(path, f"{part}.{key}", key, value) for key, value in written.items()}
     for key, parameter in where.parameters.items():
-        value = only_one(
-            path,
-            f"{part}.{key}",
-            own.get(key),
-            parameter,
-            given.get(parameter),
-            written.get(key),
-            as_written.get(parameter),
-        )
+        texts = written.get(key), as_written.get(parameter)
+        value = only_one(path, f"{part}.{key}", own.get(key), parameter, given.get(parameter), *texts)
         if value is not None:
             own[key] = value
     if chosen is None and own.keys() & where.geometry.keys():
@@ -199,12 +186,8 @@ def only_one(path, key, value, other, other_value, written=None, other_written=N
         same = code_of(value) == code_of(other_value)
     if not same:
         stands = other_value if other_written is None else other_written
-        raise refusal(
-            path,
-            key,
-            value if written is None else written,
-            f"{other} = {stands!r} stands under [parameters]: leave one of them out",
-        )
+        reason = f"{other} = {stands!r} stands under [parameters]: leave one of them out"
+        raise refusal(path, key, value if written is None else written, reason)
     return value
 
 
@@ -220,11 +203,8 @@ def base_of(path, part, chosen):
             raise UserError(
                 f"{path}: {part}.material: {', '.join(missing)} {'is' if len(missing) == 1 else 'are'} missing in the table of an own material"
             )
-        values = {
-            key: property_of(path, f"{part}.material.{key}", key, chosen[key])
-            for key in where.properties
-            if key in chosen
-        }
+        known = [key for key in where.properties if key in chosen]
+        values = {key: property_of(path, f"{part}.material.{key}", key, chosen[key]) for key in known}
         return values, dict.fromkeys(values, str(chosen.get("source", "the bearing file")))
     name = found_name(part, where.material if chosen is None else chosen)
     if name is None:
@@ -236,18 +216,13 @@ def base_of(path, part, chosen):
 def property_of(path, where, key, value):
     """SI value of a property, checked."""
     unit = UNITS[key]
-    try:
+    with refusing(path, where, value):
         number = positive(value, scales_of(unit, variables.UNITS[unit]))
         if key == "nu" and number >= 0.5:
             raise UserError("below 0.5 is allowed")
         variable = variables.PARAMETERS.get(PARTS[where.partition(".")[0]].parameters.get(key))
         if variable is not None and not (variable.min or 0.0) <= number <= (variable.max or math.inf):
-            symbol = symbol_of(value) or unit if isinstance(value, str) else unit
-            factor, offset = scales_of(unit, variables.UNITS[unit])[symbol]
-            low, high = (f"{factor * end + offset:.4g}" for end in (variable.min or 0.0, variable.max or math.inf))
-            raise UserError(f"{low} ... {high}{suffix(symbol)} is allowed")
-    except UserError as problem:
-        raise refusal(path, where, value, problem) from None
+            raise UserError(f"{span(variable.min or 0.0, variable.max or math.inf, unit, symbol_of(value))} is allowed")
     return number
 
 

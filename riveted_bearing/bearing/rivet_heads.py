@@ -5,12 +5,12 @@ The closing head, which riveting forms, is taken to have the dimensions of the s
 the head follows the shank by rule (scaling.py): the standards give its upper limit only.
 """
 
-import csv
 import math
 from functools import cache
 from importlib.resources import files
 
 from ..base.errors import refusal, unknown
+from ..base.shipped import csv_rows
 
 TABLE = files("riveted_bearing") / "data" / "rivet_heads.csv"
 
@@ -18,9 +18,8 @@ TABLE = files("riveted_bearing") / "data" / "rivet_heads.csv"
 @cache
 def heads():
     """{standard: {shank diameter [mm]: (head diameter, head height) [m]}}."""
-    lines = (line for line in TABLE.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     found = {}
-    for row in csv.DictReader(lines):
+    for row in csv_rows(TABLE):
         sizes = round(1e-3 * float(row["head_diameter"]), 9), round(1e-3 * float(row["head_height"]), 9)
         found.setdefault(row["standard"], {})[float(row["shank_diameter"])] = sizes
     return found

@@ -14,7 +14,7 @@ from pydantic import AfterValidator, Field
 from bearing_model.generated.variables import PARAMETERS, MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
 
-from ..base.errors import UserError, extra, refusal
+from ..base.errors import UserError, library, refusal
 from ..base.schema import Choice, Number, Section, checked
 from ..base.tables import Table, Wanted
 from ..base.toml_files import read_toml
@@ -203,22 +203,9 @@ def with_file(path, where, section):
     return section, (amplitude, cycles)
 
 
-def library():
-    """The class of pylife's S-N curves; UserError if the library is missing."""
-    try:
-        import pandas as pd
-        from pylife.materiallaws import WoehlerCurve
-    except ImportError:
-        raise UserError(f"sn: needs the library pylife: {extra('full')}") from None
-    return lambda **values: WoehlerCurve(pd.Series(values))
-
-
 def fkm():
     """The FKM guideline's constants for steel, and its support factor, from pylife."""
-    library()
-    from pylife.strength.fkm_linear.fkm_functions import FkmLinearFunctions
-
-    functions = FkmLinearFunctions()
+    functions = library("pylife.strength.fkm_linear.fkm_functions", "sn").FkmLinearFunctions()
     return functions, functions.get_material_constants(FKM_STEEL, "normal")[0]
 
 
@@ -248,7 +235,8 @@ def size_factor(file):
 def curve(strength):
     """pylife's S-N curve of a Strength: rule, survival and factors applied."""
     law = strength.law
-    plain = library()(SD=law.sigma_D * strength.factor, ND=law.N_D, k_1=law.k_1, k_2=law.k_2, TS=strength.T_S)
+    values = {"SD": law.sigma_D * strength.factor, "ND": law.N_D, "k_1": law.k_1, "k_2": law.k_2, "TS": strength.T_S}
+    plain = library("pylife.materiallaws", "sn").WoehlerCurve(library("pandas", "sn").Series(values))
     if strength.rule != "knee":
         plain = getattr(plain, f"miner_{strength.rule}")()
     return plain.transform_to_failure_probability(1.0 - strength.survival)

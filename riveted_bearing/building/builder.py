@@ -13,14 +13,12 @@ Intermediate files stay in BUILD, so that the next build of the same bearing com
 in the same folder waits for the first.
 """
 
-from __future__ import annotations
-
 import math
 import os
 import shutil
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bearing_model.generated import variables
 from rivet_model.geometry import Geometry
@@ -30,6 +28,7 @@ from ..base.errors import UserError, unknown
 from ..base.files import cache_folder, make_folder, write_atomically
 from ..base.toml_files import to_toml
 from ..bearing.bearing_file import CAGE_MEANT, bearing_case
+from ..bearing.case import Case
 from ..bearing.materials import PARTS
 from ..bearing.ribbon import is_ribbon
 from ..bearing.rules import RIVET
@@ -39,9 +38,6 @@ from ..running.summary import TABLE_TITLE
 from .compiler import alone_in, cmake, compile_target, compiler_platforms, execute, has_compiler, zig_version
 from .core import Core, beside
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
-
-if TYPE_CHECKING:
-    from ..bearing.case import Case
 
 SOURCES = (PACKAGE.parent, PACKAGE / "_source")  # a checkout, an installed package
 PLATFORMS = ("linux64", "win64", "darwin64", "aarch64-darwin")  # "all"
@@ -76,7 +72,10 @@ def build_fmu(
     make_folder(out.parent)
 
     def cores(modes):
-        of = [(platform, core_folder(sources, case.Z, modes, platform)) for platform in platforms or [None]]
+        of = [
+            (platform, made_folder(sources, "cores", f"z{case.Z:02}_{modes}_{platform or 'host'}"))
+            for platform in platforms or [None]
+        ]
         return [Core(sources, folder, case.Z, modes, platform) for platform, folder in of]
 
     expected = 8 * math.ceil((modes or default_count(case.Z)) / 8)
@@ -110,7 +109,8 @@ def build_fmu(
         compile_target(sources, folder, options, "fmu", say, wanted)
         finished = folder / FMU_NAME
         say("starting it once")
-        try_start(finished)
+        with Instance(Model(finished)) as instance:
+            instance.initialize(Scene(name="start values of the bearing"))
         write_atomically(out, lambda temporary: shutil.copyfile(finished, temporary))
         # the example uses the FMU of the checkout
         if out.resolve() == sources / "fmus" / FMU_NAME and not bearing and (sources / "examples").is_dir():
@@ -214,11 +214,6 @@ def build_folder(sources, bearing, cage=None):
     return made_folder(sources, "bearings", name)
 
 
-def core_folder(sources, Z, modes, platform):
-    """Folder in which a core is compiled, beside those of the bearings."""
-    return made_folder(sources, "cores", f"z{Z:02}_{modes}_{platform or 'host'}")
-
-
 def made_folder(sources, kind, name):
     """A build folder of a kind, in a checkout that can be written to or in the user's cache."""
     own = sources == PACKAGE.parent and os.access(sources, os.W_OK)
@@ -273,9 +268,3 @@ def kept(source, copy):
     if not copy.is_file() or copy.read_bytes() != source.read_bytes():
         write_atomically(copy, lambda temporary: shutil.copyfile(source, temporary))
     return copy
-
-
-def try_start(fmu):
-    """Initialize the FMU at its start values; UserError with its reason if it refuses."""
-    with Instance(Model(fmu)) as instance:
-        instance.initialize(Scene(name="start values of the bearing"))

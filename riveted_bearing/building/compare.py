@@ -9,11 +9,10 @@ parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the r
 seeds.
 """
 
-from __future__ import annotations
-
 import re
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -21,12 +20,10 @@ from bearing_model.generated import variables
 from bearing_model.solver import integrator
 
 from ..base.errors import UserError
+from ..running.fmu import Model
 from ..running.runner import simulate
+from ..running.scene import Scene
 from .reference import is_installed
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from ..running.scene import Scene
 
 POINTS = 20  # instants of the short horizon
 FINER = (1.0, 1e-2, 1e-4)  # tolerances of the FMU / the scene's
@@ -128,13 +125,9 @@ def compare(
     names = [name for name in model.outputs if family(name) in variables.OUTPUTS]
     near = replace(scene, t_end=short, step=short / POINTS, output_interval=None, outputs=tuple(names))
     runs = [through_fmu(model, near, tol) for tol in tolerances]
-    reference = through_reference(
-        runs[0].parameters,
-        near,
-        tolerance * REFERENCE_FINER,
-        method,
-        lambda share: progress("reference, short horizon", share),
-    )
+    parameters, finer = runs[0].parameters, tolerance * REFERENCE_FINER
+    say = partial(progress, "reference, short horizon")
+    reference = through_reference(parameters, near, finer, method, say)
     found = Comparison(scene.name, runs[0].data["time"], tolerances, channels(model, names, reference, runs))
     return with_statistics(found, model, scene, tolerance, long, seeds, progress) if long > 0.0 else found
 
@@ -219,30 +212,20 @@ def family(name):
 def with_statistics(found, model, scene, tolerance, long, seeds, progress):
     """The Comparison with its statistics."""
     settle = min(scene.parameters.get("start.settle", np.inf), SETTLED * long)
-    far = replace(
-        scene,
-        t_end=long,
-        output_interval=None,
-        outputs=(),
-        parameters=scene.parameters | {"start.settle": settle, "scene.statistics": "on"},
-    )
+    counted = scene.parameters | {"start.settle": settle, "scene.statistics": "on"}
+    far = replace(scene, t_end=long, output_interval=None, outputs=(), parameters=counted)
     runs = []
     for n in range(seeds):
         progress("FMU, long horizon", n / seeds)
         runs.append(through_fmu(model, far, tolerance, **{"start.seed": n + 1}))
-    first = runs[0].parameters
-    reference = through_reference(
-        first, far, tolerance * LONG_FINER, "RK45", lambda share: progress("reference, long horizon", share)
-    )
+    say = partial(progress, "reference, long horizon")
+    reference = through_reference(runs[0].parameters, far, tolerance * LONG_FINER, "RK45", say)
     rows = []
     for name, value in reference.statistics.items():
         if name in runs[0].summary and name != "stat.time":
             sample = np.array([run.summary[name] for run in runs])
-            rows.append(
-                Statistic(
-                    name, variables.OUTPUTS[name].unit, float(value), float(sample.mean()), float(sample.std(ddof=1))
-                )
-            )
+            figures = map(float, (value, sample.mean(), sample.std(ddof=1)))
+            rows.append(Statistic(name, variables.OUTPUTS[name].unit, *figures))
     return replace(found, statistics=rows, settle=settle, long=long, seeds=seeds, ledger=reference.ledger)
 
 
@@ -261,18 +244,10 @@ def short_table(found: Any) -> Any:
 def long_table(found: Any) -> Any:
     """Heads and rows of the statistics."""
     heads = ("", "unit", "reference", "FMU, mean", "scatter", "difference", "in scatters")
-    rows = [
-        (
-            row.name,
-            row.unit,
-            f"{row.reference:.5g}",
-            f"{row.mean:.5g}",
-            f"{row.scatter:.2g}",
-            f"{100.0 * row.difference:+.2f} %",
-            f"{row.deviation:+.1f}",
-        )
-        for row in found.statistics
-    ]
+    rows = []
+    for row in found.statistics:
+        values = f"{row.reference:.5g}", f"{row.mean:.5g}", f"{row.scatter:.2g}"
+        rows.append((row.name, row.unit, *values, f"{100.0 * row.difference:+.2f} %", f"{row.deviation:+.1f}"))
     return heads, rows
 
 

@@ -23,16 +23,15 @@ from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 
-from ..base.errors import UserError, refusal
+from ..base.errors import UserError, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
 from ..base.toml_files import positive, read_toml
 from ..bearing.bearing_file import bearing_case
-from ..bearing.bearing_keys import RIVET_SIZES
+from ..bearing.bearing_keys import BALLS, RIVET_SIZES
 from ..bearing.file_values import is_number, unit_scales
 from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
-OF_6207 = "in the cage of the 6207"
 CAGE_NAMES = {  # key of a geometry file -> of a bearing file
     "Z": "Z",
     "d_m": "bearing.d_m",
@@ -55,11 +54,8 @@ def rivet_curves(source: Any = None, bearing: Any = None) -> Any:
     if bearing is not None or path.suffix == ".toml":
         geometry = source_geometry(source, bearing)
         joint = condensed(geometry, path)
-        cage = (
-            f"in the cage of the {designation_of(bearing)}"
-            if bearing
-            else f"{OF_6207} where the file gives no other sizes"
-        )
+        whose = f"{bearing_case(bearing).designation}" if bearing else "6207 where the file gives no other sizes"
+        cage = f"in the cage of the {whose}"
         response, title = pictures.joint_response(joint), f"{path.name}: finite elements, {cage}"
     else:
         t = read_table(path)
@@ -77,11 +73,6 @@ def source_geometry(source: Any, bearing: Any) -> Any:
     if bearing is not None and Path(source).suffix != ".toml":
         raise UserError(f"--bearing {bearing}: {source} is a table, which is made for a cage already")
     return given_geometry(source, bearing)
-
-
-def designation_of(bearing):
-    """What a bearing (designation or file) is called."""
-    return bearing_case(bearing).designation
 
 
 def is_papers(geometry):
@@ -137,17 +128,8 @@ def cage_sizes(path, section):
     for name, value in section.items():
         if name not in CAGE_SIZES:
             continue
-        try:
-            yield name, whole(value) if name == "Z" else positive(value, unit_scales("m"))
-        except UserError as problem:
-            raise refusal(path, name, value, problem) from None
-
-
-def whole(value):
-    """The number of rivets, which is that of the balls."""
-    if isinstance(value, bool) or not isinstance(value, int) or not 5 <= value <= 32:
-        raise UserError("allowed: an integer from 5 to 32")
-    return value
+        with refusing(path, name, value):
+            yield name, BALLS.read(value) if name == "Z" else positive(value, unit_scales("m"))
 
 
 def called(name):

@@ -6,10 +6,10 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+from rich.progress import TimeElapsedColumn
 
 from .printing import note, print_paths
-from .terminal import command, console, messages
+from .terminal import CAGE, command, console, messages, progress_bar
 from .terminal import screen as screening_of
 
 TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second
@@ -41,10 +41,7 @@ def build(
             help="vibration modes of a cage half, a pair counted as two; default: about 5 a ball, 40 for 8 or 9"
         ),
     ] = None,
-    cage: Annotated[
-        str | None,
-        typer.Option(help="shape of the cage; default: the bearing file's, else machined", metavar="machined|ribbon"),
-    ] = None,
+    cage: CAGE = None,
     screen: Annotated[
         bool,
         typer.Option(
@@ -65,8 +62,7 @@ def build(
 
     for text in doubts(case_with(bearing, rivet, cage)):
         note(text)
-    columns = SpinnerColumn(), TextColumn("{task.description}"), BarColumn(bar_width=30), TimeElapsedColumn()
-    with Progress(*columns, console=messages, disable=not messages.is_terminal) as bar:
+    with progress_bar(TimeElapsedColumn()) as bar:
         task = bar.add_task("starting", total=None)
 
         told = []
@@ -78,14 +74,12 @@ def build(
             bar.update(task, description=text, total=1.0 if share else None, completed=share or 0.0)
 
         path = build_fmu(bearing, rivet, out, say, platform_names(platforms), table, modes, cage)
-    console.print(escape(Model(path).description.description), style="dim", soft_wrap=True)
-    console.print(str(path), style="cyan", soft_wrap=True)
+    console.print(escape(Model(path).description.description), style="dim")
+    console.print(str(path), style="cyan")
     if screen:
         screening_of(Model(path))
     shown = f"riveted-bearing rivet {shlex.quote(str(table_copy(bearing, cage)))}"
-    console.print(
-        f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim", soft_wrap=True
-    )
+    console.print(f"its stress curves and the modes of its cage as pictures: {escape(shown)}", style="dim")
     if rivet:
         from ..building.rivet import given_geometry, seat_note, write_drawing
 

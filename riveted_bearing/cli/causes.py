@@ -5,10 +5,11 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.table import Column, Table
 
+from ..base.errors import UserError
 from ..base.files import make_folder
 from ..base.toml_files import read_toml
+from .printing import print_paths, table
 from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
@@ -33,8 +34,7 @@ def causes(
     """Why did it break? Causes ranked by broken rivets, marks, hours and measurements, and what to inspect next; a second
     call does only missing runs.
     """
-    from ..base.errors import UserError
-    from ..identify.causes_page import ORDER, RANKED, order_rows, ranked_rows, verdict, write_json, write_page
+    from ..identify.causes_page import ORDER, RANKED, order_rows, ranked_rows, verdict, write_answer, write_page
     from ..identify.findings import plan_causes
     from ..identify.order import bench_of, run_order
     from ..identify.pool import mission_scene, run_pool
@@ -65,23 +65,14 @@ def causes(
     basis = list(bench.basis())
     print_basis(basis)
     if said is not None:
-        print_table(RANKED, ranked_rows(said)[:10])
-        console.print(escape(verdict(said)), soft_wrap=True)
+        console.print(table(RANKED, ranked_rows(said)[:10], left=len(RANKED)))
+        console.print(escape(verdict(said)))
         best = [f"{name} ({bits:.2f} bits)" for name, _, bits in said.inspections[:3]]
-        console.print(f"inspect next: {escape(', '.join(best))}", soft_wrap=True)
+        console.print(f"inspect next: {escape(', '.join(best))}")
     if states:
-        print_table(ORDER, order_rows(states))
-        console.print(f"end: {states[-1].end}", soft_wrap=True)
-    for label, path in (
-        ("results", write_json(study, said, pool, states, basis, folder / "causes.json")),
+        console.print(table(ORDER, order_rows(states), left=len(ORDER)))
+        console.print(f"end: {states[-1].end}")
+    print_paths(
+        ("results", write_answer(study, said, pool, states, basis, folder / "causes.json")),
         ("page", write_page(study, said, pool, states, basis, folder / "causes.html")),
-    ):
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
-
-
-def print_table(heads, rows):
-    """A table of texts."""
-    table = Table(heads[0], *(Column(head) for head in heads[1:]), box=None, pad_edge=False)
-    for row in rows:
-        table.add_row(*map(escape, row))
-    console.print(table)
+    )

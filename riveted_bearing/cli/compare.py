@@ -5,11 +5,10 @@ from typing import Annotated
 
 import typer
 from rich.markup import escape
-from rich.progress import BarColumn, Progress, SpinnerColumn, TextColumn
 
 from ..base.files import make_folder
 from .printing import print_paths, table
-from .terminal import FMU, SETTINGS, changes, command, console, messages, number_or_text, print_basis
+from .terminal import FMU, SETTINGS, changes, command, console, number_or_text, print_basis, progress_bar
 
 
 @command
@@ -52,13 +51,7 @@ def compare(
     plan = load_scene(scene, model, ("the command line", changes(model, settings or [], None, None, None)))
     horizons = {name: seconds(f"--{name}", number_or_text(text)) for name, text in (("short", short), ("long", long))}
     make_folder(out)
-    with Progress(
-        SpinnerColumn(),
-        TextColumn("{task.description}"),
-        BarColumn(bar_width=30),
-        console=messages,
-        disable=not messages.is_terminal,
-    ) as bar:
+    with progress_bar() as bar:
         task = bar.add_task("FMU, short horizon", total=1.0)
         found = compare_scene(
             model,
@@ -69,15 +62,13 @@ def compare(
             progress=lambda what, share: bar.update(task, description=what, completed=share),
         )
     console.print(
-        f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU",
-        soft_wrap=True,
+        f"[bold]{escape(plan.name)}[/]: FMU against reference over {1e3 * found.t[-1]:g} ms, at tolerances of the FMU"
     )
     print_basis(basis(model, [plan]))
     console.print(table(*short_table(found)))
     if found.statistics:
         console.print(
-            f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference",
-            soft_wrap=True,
+            f"\n[bold]Statistics[/] from {found.settle:g} to {found.long:g} s, {found.seeds} seeds of the FMU, one of the reference"
         )
         heads, rows = long_table(found)
         console.print(table(heads, rows, left=2))

@@ -40,7 +40,6 @@ def compare_designs(
     workers: WORKERS = None,
 ):
     """Designs under the same mission and seeds: ratios of lives and stresses with intervals, and what differs."""
-    from ..base.units import hours_text
     from ..duty.designs import compare_designs, read_designs
     from ..duty.designs_page import PAGE, write_page, write_record
 
@@ -58,7 +57,7 @@ def compare_designs(
     with design_runs(mission.stem, folder, scheduler, workers) as (client, progress):
         found = compare_designs(mission, chosen, folder, client, progress, say)
     print_warnings(found.warnings)
-    print_comparison(found, hours_text)
+    print_comparison(found)
     print_paths(("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE)))
 
 
@@ -71,31 +70,26 @@ def other_figures(found):
     return table(("design", "where it fails: static + swing", "raceways", ""), rows, left=1)
 
 
-def print_comparison(found, hours_text):
+def print_comparison(found):
     """Lives, ratios and what differs."""
+    from ..base.units import hours_text
     from ..duty.designs import ends_of
     from ..duty.designs_page import ratio_text, verdict
     from ..duty.page import interval_text
     from ..running.budget import digits, in_line
 
     names = [outcome.design.name for outcome in found.outcomes]
-    rows = (
-        (
-            name,
-            hours_text(outcome.estimate.life, digits(outcome.budgets)),
-            interval_text(*ends_of(outcome), few=digits(outcome.budgets)),
-            outcome.place,
-            ratio_text(outcome.life),
-            verdict(outcome),
-        )
-        for name, outcome in zip(names, found.outcomes, strict=True)
-    )
+    rows = []
+    for outcome in found.outcomes:
+        few = digits(outcome.budgets)
+        life = hours_text(outcome.estimate.life, few), interval_text(*ends_of(outcome), few=few)
+        rows.append((outcome.design.name, *life, outcome.place, ratio_text(outcome.life), verdict(outcome)))
     heads = "design", "life", f"{100 * found.confidence:g} % interval", "fails first", "life/first", ""
     console.print(table(heads, rows))
     console.print(other_figures(found))
     for outcome in found.outcomes:
         for budget in outcome.budgets.values():
-            console.print(f"[dim]{escape(outcome.design.name)}: {escape(in_line(budget))}[/]", soft_wrap=True)
+            console.print(f"[dim]{escape(outcome.design.name)}: {escape(in_line(budget))}[/]")
     differ = ((name, *texts) for name, texts in found.differences[:MOST_DIFFERENCES])
     console.print(table(("differs", *names), differ, left=1 + len(names)))
     if len(found.differences) > MOST_DIFFERENCES:

@@ -25,7 +25,7 @@ def cookbook(
         for name in sorted(pages):
             lines = pages[name].read_text(encoding="utf-8").splitlines()
             title = next(line for line in lines if line.startswith("# ")).removeprefix("# ")
-            console.print(f"{name:14} {title}", markup=False, soft_wrap=True)
+            console.print(f"{name:14} {title}", markup=False)
         return
     if page not in pages:
         raise unknown("cookbook", "page", page, sorted(pages))

@@ -63,6 +63,6 @@ def print_found(found):
     confidence = f"{100 * found.study.settings['confidence']:g} % interval"
     console.print(table(("parameter", "value", confidence, "searched", ""), parameter_rows(found)))
     console.print(table(("targets", "number", "error after the fit", "before"), error_rows(found)))
-    console.print("[dim]errors: RMS of (result - measured)/uncertainty with fresh seeds[/]", soft_wrap=True)
+    console.print("[dim]errors: RMS of (result - measured)/uncertainty with fresh seeds[/]")
     for note in found.notes:
-        console.print(escape(note), soft_wrap=True)
+        console.print(escape(note))

@@ -7,7 +7,7 @@ import typer
 from rich.markup import escape
 
 from .printing import note
-from .terminal import CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
+from .terminal import CAGE, CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
 
 
 @command
@@ -20,12 +20,7 @@ def info(
         ),
     ] = None,
     fmu: FMU = None,
-    cage: Annotated[
-        str | None,
-        typer.Option(
-            help="shape of the cage of a bearing; default: the file's, else machined", metavar="machined|ribbon"
-        ),
-    ] = None,
+    cage: CAGE = None,
     cleanliness: CLEANLINESS = None,
 ):
     """Geometry, masses, kinematic and fault frequencies, quasi-static loads and life."""
@@ -41,7 +36,7 @@ def info(
 
     case, scene, model = case_of(target, fmu, cage), None, None
     case = replace(case, cleanliness=chosen_cleanliness(cleanliness))
-    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}", soft_wrap=True)
+    console.print(f"[bold]{escape(case.designation)}[/]  {escape(case.description)}")
     if target is None and fmu is None:
         text = f"no bearing is named: this is the {EXAMPLE}, as an example; name a bearing or a scene, or an FMU with --fmu"
         note(text, to=console)
@@ -50,7 +45,7 @@ def info(
         scene = load_scene(target, model)
         print_basis(basis(model, [scene]))
     if case.bare:
-        console.print(escape(CAGE_MEANT), soft_wrap=True)
+        console.print(escape(CAGE_MEANT))
     for text in doubts(case):
         note(text, to=console)
     if case.alone:
@@ -59,10 +54,10 @@ def info(
         note(text, to=console)
     tables = info_tables(case)
     for title, table in tables:
-        console.print(f"\n[bold]{title}[/]", soft_wrap=True)
+        console.print(f"\n[bold]{title}[/]")
         console.print(table)
     if idle := without_effect(case, given_values(case, scene, model)):
-        console.print(f"\nwithout effect here: {escape(', '.join(idle))}", soft_wrap=True)
+        console.print(f"\nwithout effect here: {escape(', '.join(idle))}")
 
 
 def read_as_scene(names):

@@ -13,6 +13,7 @@ from rivet_model.geometry import Geometry
 from ..base.errors import UserError
 from ..bearing.ribbon import is_ribbon
 from ..running.summary import DEG, RPM
+from .printing import table
 
 BOUNDARY = ("bore", "outside_diameter", "width")
 ZERO = 273.15  # K of 0 degC
@@ -30,14 +31,14 @@ RIBBON = (
 
 def given_values(case, scene, model):
     """What the user set, as name and the value that would stand there otherwise, where the two differ."""
-    table = variables.PARAMETERS | variables.INPUTS
+    known = variables.PARAMETERS | variables.INPUTS
     if scene is not None:
         names = {**scene.parameters, **scene.inputs}
         others = {name: model.default((model.parameters | model.inputs)[name]) for name in names}
         others["scene.statistics"] = "on"  # as scene.load_scene has it without the user
     else:
         others = {
-            name: table[name].start for name, source in case.origin.items() if source == "yours" and name in table
+            name: known[name].start for name, source in case.origin.items() if source == "yours" and name in known
         }
     return {name: value for name, value in others.items() if case.values.get(name) != value}
 
@@ -51,7 +52,7 @@ def without_effect(case, others):
 def cells(case):
     """All figures of the tables as texts, None where there is no equilibrium."""
     try:
-        return [(title, *(list(column.cells) for column in table.columns)) for title, table in info_tables(case)]
+        return [(title, *(list(column.cells) for column in shown.columns)) for title, shown in info_tables(case)]
     except UserError:
         return None
 
@@ -62,7 +63,10 @@ def info_tables(case):
 
     state = case.equilibrium()
     return [
-        ("Geometry and masses", pairs(geometry(case))),
+        (
+            "Geometry and masses",
+            pairs([*told(case, geometry(case)), *preload(case), *materials(case), *told(case, masses(case))]),
+        ),
         ("Oil and temperatures", pairs(oil(case))),
         *([("Not given", sources(missing))] if (missing := not_given(case.origin)) else []),
         (f"Frequencies at {speeds_text(case.load)}", frequencies(case, state)),
@@ -71,61 +75,48 @@ def info_tables(case):
     ]
 
 
+def told(case, rows):
+    """Rows (label, value, unit, names ...) with the origin of the names."""
+    return ((label, value, unit, origins(case, *names)) for label, value, unit, *names in rows)
+
+
 def geometry(case):
-    """Name, value, unit and origin of what the bearing is; sizes at assembly temperature."""
+    """Label, value, unit and names of the bearing's sizes, at assembly temperature."""
     bearing, values, catalogue = case.bearing, case.values, case.catalogue
     if all(key in catalogue for key in BOUNDARY):
-        yield (
-            "bore x outside diameter x width",
-            " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY),
-            "mm",
-            origins(case, *BOUNDARY),
-        )
+        size = " x ".join(f"{1e3 * catalogue[key]:g}" for key in BOUNDARY)
+        yield "bore x outside diameter x width", size, "mm", *BOUNDARY
     if "C" in catalogue and "C_0" in catalogue:
-        yield (
-            "load ratings C, C_0",
-            f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}",
-            "kN",
-            origins(case, "C", "C_0"),
-        )
-    yield "balls", f"{case.Z} x {1e3 * values['bearing.D']:g}", "mm", origins(case, "Z", "bearing.D")
-    yield "pitch diameter", f"{1e3 * values['bearing.d_m']:g}", "mm", origins(case, "bearing.d_m")
-    yield (
-        "groove radius / ball diameter, inner, outer",
-        f"{bearing.f_i:g}, {bearing.f_e:g}",
-        "",
-        origins(case, "bearing.f_i", "bearing.f_e"),
-    )
-    yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", origins(case, "bearing.P_d")
+        forces = f"{1e-3 * catalogue['C']:g}, {1e-3 * catalogue['C_0']:g}"
+        yield "load ratings C, C_0", forces, "kN", "C", "C_0"
+    yield "balls", f"{case.Z} x {1e3 * values['bearing.D']:g}", "mm", "Z", "bearing.D"
+    yield "pitch diameter", f"{1e3 * values['bearing.d_m']:g}", "mm", "bearing.d_m"
+    ratios = f"{bearing.f_i:g}, {bearing.f_e:g}"
+    yield "groove radius / ball diameter, inner, outer", ratios, "", "bearing.f_i", "bearing.f_e"
+    yield "diametral clearance", f"{1e6 * values['bearing.P_d']:g}", "um", "bearing.P_d"
     omega = case.load.omega + case.load.frame_omega
     left, angle = bearing.clearance_at(omega), bearing.free_contact_angle(omega)
-    yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um", ""
-    yield "free contact angle at speed, temperatures and fits", f"{DEG * angle:.2f}", "deg", ""
+    yield "what is left of it at speed, temperatures and fits", f"{1e6 * left:.4g}", "um"
+    yield "free contact angle at speed, temperatures and fits", f"{DEG * angle:.2f}", "deg"
     for label, names in RIBBON if is_ribbon(values) else MACHINED:
-        yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", origins(case, *names)
+        yield label, ", ".join(f"{1e3 * values[name]:.4g}" for name in names), "mm", *names
     if case.rivet is not None:
-        rivet = [f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET]
-        yield (
-            "rivet: shank, head, head height, fillet",
-            ", ".join(rivet),
-            "mm",
-            origins(case, *(f"rivet.{name}" for name in RIVET)),
-        )
-    yield from preload(case)
+        sizes = ", ".join(f"{1e3 * case.rivet.get(name, getattr(Geometry, name)):.3g}" for name in RIVET)
+        yield "rivet: shank, head, head height, fillet", sizes, "mm", *(f"rivet.{name}" for name in RIVET)
+
+
+def materials(case):
+    """Label, value, unit and origin of the parts' materials."""
     for part, material in case.materials.items():
-        yield (
-            f"material of {'the ' + part if part in ('cage', 'rivet') else part}",
-            material.words(),
-            "",
-            "yours" if material.given else "default",
-        )
-    yield (
-        "mass of a ball, a cage half",
-        f"{1e3 * bearing.ball_mass:.3g}, {1e3 * values['cage.m']:.3g}",
-        "g",
-        origins(case, "cage.m"),
-    )
-    yield "mass of the inner ring and its share of shaft", f"{values['ring.m']:.3g}", "kg", origins(case, "ring.m")
+        label = f"material of {'the ' + part if part in ('cage', 'rivet') else part}"
+        yield label, material.words(), "", "yours" if material.given else "default"
+
+
+def masses(case):
+    """Label, value, unit and names of the bodies' masses."""
+    pair = f"{1e3 * case.bearing.ball_mass:.3g}, {1e3 * case.values['cage.m']:.3g}"
+    yield "mass of a ball, a cage half", pair, "g", "cage.m"
+    yield "mass of the inner ring and its share of shaft", f"{case.values['ring.m']:.3g}", "kg", "ring.m"
 
 
 def preload(case):
@@ -198,18 +189,12 @@ def origins(case, *names):
 
 def sources(missing):
     """Names of what was not given, by what stands for it."""
-    table = Table("", "", box=None, pad_edge=False, show_header=False)
-    for source, names in missing.items():
-        table.add_row(source, names)
-    table.add_row("default", "all other parameters: docs/parameters.md has each with its source")
-    return table
+    others = "default", "all other parameters: docs/parameters.md has each with its source"
+    return table(("", ""), [*missing.items(), others], left=2, show_header=False)
 
 
 def frequencies(case, state):
     """Cage, ball pass and ball spin frequencies, for pure radial contact and in the equilibrium."""
-    table = Table(
-        "", *(Column(text, justify="right") for text in ("alpha = 0", "as loaded")), "", box=None, pad_edge=False
-    )
     load, bearing = case.load, case.bearing
     nominal = fault_frequencies(load.omega, bearing.D, bearing.d_m, case.Z, omega_e=load.omega_e)
     loaded = state.frequencies
@@ -219,9 +204,8 @@ def frequencies(case, state):
         ("balls over the inner race (BPFI)", "BPFI"),
         ("spin of a ball (BSF)", "BSF"),
     )
-    for label, name in rows:
-        table.add_row(label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz")
-    return table
+    cells = ((label, f"{getattr(nominal, name):.1f}", f"{getattr(loaded, name):.1f}", "Hz") for label, name in rows)
+    return table(("", "alpha = 0", "as loaded", ""), cells)
 
 
 def speeds_text(load):
@@ -287,22 +271,12 @@ def life(L_10r, load):
 def balls(state):
     """One line per ball."""
     names = ("azimuth", "Q_i", "Q_e", "alpha_i", "alpha_e", "p_i", "p_e", "spin/roll i")
-    table = Table("ball", *(Column(name, justify="right") for name in names), box=None, pad_edge=False)
-    table.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
-    rows = zip(
-        state.psi,
-        state.Q_i,
-        state.Q_e,
-        state.alpha_i,
-        state.alpha_e,
-        state.p_i,
-        state.p_e,
-        state.spin_i,
-        state.omega_R,
-        strict=True,
-    )
+    shown = table(("ball", *names))
+    shown.add_row("", "deg", "N", "N", "deg", "deg", "MPa", "MPa", "", style="dim")
+    members = ("psi", "Q_i", "Q_e", "alpha_i", "alpha_e", "p_i", "p_e", "spin_i", "omega_R")
+    rows = zip(*(getattr(state, name) for name in members), strict=True)
     for j, (psi, Q_i, Q_e, alpha_i, alpha_e, p_i, p_e, spin, roll) in enumerate(rows, 1):
-        table.add_row(
+        shown.add_row(
             str(j),
             f"{DEG * psi:.0f}",
             f"{Q_i:.0f}",
@@ -313,7 +287,7 @@ def balls(state):
             f"{1e-6 * p_e:.0f}",
             f"{abs(spin / roll):.3f}" if Q_i > 0.0 and roll else "-",
         )
-    return table
+    return shown
 
 
 def fixed(value, digits):
@@ -323,9 +297,7 @@ def fixed(value, digits):
 
 def pairs(rows):
     """A table of names, values and units."""
-    table = Table(
-        "", Column("", justify="right"), "", Column("", style="dim"), box=None, pad_edge=False, show_header=False
-    )
+    shown = Table("", Column(justify="right"), "", Column(style="dim"), box=None, pad_edge=False, show_header=False)
     for row in rows:
-        table.add_row(*row)
-    return table
+        shown.add_row(*row)
+    return shown

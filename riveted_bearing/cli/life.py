@@ -63,9 +63,8 @@ def life(
     def say(found, target):
         reached.append(found)
         if messages.is_terminal:
-            messages.print(
-                f"[dim]round {len(reached)}: half-width {percent(found.half_width)} of life, wanted {percent(target)}[/]"
-            )
+            half = f"half-width {percent(found.half_width)} of life, wanted {percent(target)}"
+            messages.print(f"[dim]round {len(reached)}: {half}[/]")
 
     with design_runs(plan.name, folder, scheduler, workers) as (client, progress):
         runs = Runs(plan, model, folder, client, progress)
@@ -80,19 +79,11 @@ def life(
         from ..duty.weibull import write_weibull_plot
 
         files.append(("results", write_scatter(of_bearings, folder / RECORD)))
-        files.append(
-            (
-                "picture",
-                write_weibull_plot(
-                    of_bearings.law, f"{plan.name}: {tolerances.bearings} bearings", folder / "weibull.png"
-                ),
-            )
-        )
+        title = f"{plan.name}: {tolerances.bearings} bearings"
+        files.append(("picture", write_weibull_plot(of_bearings.law, title, folder / "weibull.png")))
     print_paths(*files)
     if old_sheet:
-        console.print(
-            f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]", soft_wrap=True
-        )
+        console.print(f"[dim]{SHEET} there is of an earlier life: riveted-bearing summary writes it again[/]")
 
 
 def write_life(found, folder, texts, warnings):
@@ -111,12 +102,12 @@ def print_life(found, remarks):
     """Life, interval, points and rivets on the terminal."""
     from ..duty.page import cards, part_rows
 
-    console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}", soft_wrap=True)
+    console.print(f"[bold]{escape(found.mission.name)}[/]  {escape(found.mission.description)}")
     print_basis(found.mission.basis)
     for title, value, remark in cards(found):
-        console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]", soft_wrap=True)
+        console.print(f"{title:21} [bold]{escape(value)}[/]  [dim]{escape(remark)}[/]")
     heads = "", "load", "speed", "in the mission", "simulated", "damage", "per", "share"
     console.print(table(heads, part_rows(found), left=3))
     print_budgets(list(found.budgets.values()))
     for remark in remarks:
-        console.print(f"[dim]{escape(remark)}[/]", soft_wrap=True)
+        console.print(f"[dim]{escape(remark)}[/]")

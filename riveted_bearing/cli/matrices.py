@@ -4,11 +4,10 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.progress import BarColumn, Progress, TextColumn
 
 from ..base.files import make_folder
 from .printing import note, print_paths, table
-from .terminal import FMU, command, console, messages, number_or_text, print_basis
+from .terminal import FMU, command, console, option_value, print_basis, progress_bar
 
 SPEEDS = 6  # up to that of the scene, if none is given
 
@@ -63,14 +62,17 @@ def matrices(
     plan = load_scene(scene, model)
     case = scene_case(scene, model)
     variable = model.inputs["shaft.omega"]
-    omegas = [speed_of(text, variable, model, to_si) for text in speeds or ()] or [
-        case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)
-    ]
+
+    def speed_of(value):
+        number = to_si(value, model.units[variable.unit])
+        model.check_range(number, variable)
+        return number
+
+    omegas = [option_value("--speed", text, speed_of) for text in speeds or ()]
+    omegas = omegas or [case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)]
     balanced = quasi_static_matrices(case, sorted(set(omegas)), loads or [1.0])  # refuses before anything is written
     make_folder(out)
-    with Progress(
-        TextColumn("matrices"), BarColumn(bar_width=30), console=messages, disable=not messages.is_terminal
-    ) as bar:
+    with progress_bar() as bar:
         task, found = bar.add_task("matrices", total=1.0), balanced if static else []
         whirls: list[float | None]
         whirls = [] if static else [2.0 * math.pi * f for f in sorted(set(frequencies or ()))] or [None]
@@ -97,18 +99,6 @@ def matrices(
         if len(whirls) < 2:
             paths.append(write_ross(of_load, out / name.replace("_ross", "_ross2"), tag=stem, basis=rows, version=2))
     print_paths(*(("written", path) for path in paths))
-
-
-def speed_of(text, variable, model, to_si):
-    """A speed [rad/s] from a text with its unit; UserError names what is allowed."""
-    from ..base.errors import UserError
-
-    try:
-        value = to_si(number_or_text(text), model.units[variable.unit])
-        model.check_range(value, variable)
-    except UserError as problem:
-        raise UserError(f"--speed {text}: {problem}") from None
-    return value
 
 
 def diagonals(found):

@@ -42,7 +42,8 @@ def optimize(
         found = search(plan, bench)
     budgets = best_budgets(found, bench, model)
     print_basis(bench.basis())
-    print_optimum(found, present_values(plan.box.names, bench.scene, model), parts_of_stress(found, bench))
+    present = [bench.scene.value(name, model) for name in plan.box.names]
+    print_optimum(found, present, parts_of_stress(found, bench))
     print_budgets([of_record(record) for record in budgets.values()])
     written = write_optimum(found, folder / "optimize.json", bench.basis(), budgets)
     print_paths(("results", written), ("picture", write_picture(found, folder / "optimize.png")))
@@ -57,18 +58,6 @@ def best_budgets(found, bench, model):
     screen(model)
     scene = bench.scene_at(found.study.box.names, found.points[found.candidates[found.best]])
     return known_result(model, scene, True).about["budget"]
-
-
-def present_values(names, scene, model):
-    """Values [SI] that the scene or the FMU has where nothing varies."""
-    return [
-        float(scene.inputs[name](0.0))
-        if name in scene.inputs
-        else scene.parameters[name]
-        if name in scene.parameters
-        else model.default((model.parameters | model.inputs)[name])
-        for name in names
-    ]
 
 
 def parts_of_stress(found, bench):
@@ -106,11 +95,9 @@ def print_optimum(found, present, parts=None):
         shown_points.add_row(*texts, style="bold" if best else None)
     console.print(shown_points)
     text = f"{len(found.points)} points searched; means ± standard error over {study.file.check_seeds} seeds that the search has not seen"
-    console.print(
-        f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]", soft_wrap=True
-    )
+    console.print(f"[dim]{text}{'' if found.best is not None else '; none of them keeps the limits'}[/]")
     if found.best is not None:
-        console.print(f"recommended: {escape(criterion(study))}", soft_wrap=True)
+        console.print(f"recommended: {escape(criterion(study))}")
     if found.best is not None and parts is not None and go_apart(parts[-1], parts[found.best]):
         was, now = ([shown(name, value) for name, value in zip(PARTS, row)] for row in (parts[-1], parts[found.best]))
         changes = ", ".join(f"{name} {a} to {b}" for name, a, b in zip(PARTS, was, now))

@@ -10,13 +10,13 @@ from .terminal import console, messages
 
 def note(text, word="[yellow]note:[/]", to=messages):
     """A sentence behind a word that says what it is."""
-    to.print(f"{word} {escape(str(text))}", soft_wrap=True)
+    to.print(f"{word} {escape(str(text))}")
 
 
 def print_paths(*files):
     """Label and path of each file that was written."""
     for label, path in files:
-        console.print(f"{label:8} [cyan]{escape(str(path))}[/]", soft_wrap=True)
+        console.print(f"{label:8} [cyan]{escape(str(path))}[/]")
 
 
 def table(heads, rows=(), left=1, **look):
@@ -51,11 +51,9 @@ def print_budgets(budgets):
     from ..running.budget import RULE, amounts, told, unsized_lines
 
     for budget in budgets:
-        console.print(
-            f"[bold]{FIGURES[budget.figure][0]} {told(budget)}[/]  [dim]90 % interval, by parts:[/]", soft_wrap=True
-        )
+        console.print(f"[bold]{FIGURES[budget.figure][0]} {told(budget)}[/]  [dim]90 % interval, by parts:[/]")
         console.print(table(("", "truth less number", ""), amounts(budget), left=3))
     for line in unsized_lines(budgets[0]) if budgets else ():
-        console.print(f"[dim]{escape(line)}[/]", soft_wrap=True)
+        console.print(f"[dim]{escape(line)}[/]")
     if budgets:
-        console.print(f"[dim]{RULE}[/]", soft_wrap=True)
+        console.print(f"[dim]{RULE}[/]")

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from .printing import print_paths
-from .terminal import command
+from .terminal import SENSITIVITY, command
 
 
 @command
@@ -15,9 +15,7 @@ def report(
     out: Annotated[
         Path | None, typer.Option(help="the page to write, a folder for several; default: beside the results")
     ] = None,
-    sensitivity: Annotated[
-        Path | None, typer.Option(help="sensitivity.json of `sensitivity`, or its folder: the pages name what decides")
-    ] = None,
+    sensitivity: SENSITIVITY = None,
     overlay: Annotated[
         Path | None,
         typer.Option(

@@ -39,9 +39,9 @@ def rivet(
     with messages.status("finite elements"):
         title, curves, joint = rivet_curves(source, bearing)
         paths = write_pictures(out, title, curves, joint)
-    console.print(f"[bold]{escape(title)}[/]", soft_wrap=True)
+    console.print(f"[bold]{escape(title)}[/]")
     for name, heads, rows in curve_tables(curves):
-        console.print(f"\n[bold]{name}[/]", soft_wrap=True)
+        console.print(f"\n[bold]{name}[/]")
         console.print(table(heads, rows, left=0))
     if text := seat_note(joint.geometry):
         note(text)

@@ -12,7 +12,7 @@ from rich.markup import escape
 from ..base.errors import UserError, extra, unknown
 from ..base.files import FORMATS, make_folder
 from ..base.interrupts import held_interrupts
-from ..base.shipped import shipped_scenes
+from ..base.shipped import find_scene, shipped_scenes
 from .printing import note, print_budgets, print_paths, table
 from .terminal import (
     FMU,
@@ -22,6 +22,7 @@ from .terminal import (
     command,
     console,
     messages,
+    option_value,
     print_basis,
     screen,
     simulation_progress,
@@ -61,6 +62,8 @@ def run(
     plot: Annotated[bool, typer.Option(help="write a picture beside the results")] = True,
 ):
     """Simulate a scene: progress, a summary, results with all parameters inside, and a picture."""
+    if scene is not None:
+        find_scene(scene)  # a wrong name is told before slow imports
     from ..bearing.plausible import odd_materials
     from ..running.fmu import Model
     from ..running.results import write_result
@@ -76,7 +79,7 @@ def run(
     if check:
         screen(model)
     if plan.accuracy is not None or check:
-        result = known_run(model, plan, check, time_of(within))
+        result = known_run(model, plan, check, within)
     with held_interrupts():  # from the first step until its results are written
         if plan.accuracy is None and not check:
             with simulation_progress(plan) as progress:
@@ -90,8 +93,7 @@ def run(
             paths.append(plot_result(result, target.with_suffix(".png")))
     print_paths(*zip(("results", "picture"), paths, strict=False))
     console.print(
-        f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play",
-        soft_wrap=True,
+        f"[dim]riveted-bearing report {escape(str(paths[0]))}[/]  a page with charts, life and the motion to play"
     )
     from ..running.in_run import break_lines
     from ..running.summary import accelerated
@@ -105,30 +107,17 @@ def run(
         raise typer.Exit(STOPPED)
 
 
-def time_of(within):
-    """Seconds of the option --within."""
-    from ..base.units import SECONDS, to_si
-    from .terminal import number_or_text
-
-    try:
-        return to_si(number_or_text(within), SECONDS)
-    except UserError as problem:
-        raise UserError(f"--within {within}: {problem}") from None
-
-
 def known_run(model, plan, check, within):
-    """The Result of a scene with how far its figures are known, by several runs."""
+    """The Result of a scene with how far its figures are known, by several runs of at most `within`, a text."""
+    from ..base.units import SECONDS, to_si
     from ..running.budget import known_result
 
-    count = 0
-
     def say(runs):
-        nonlocal count
-        count = runs
         if messages.is_terminal:
             messages.print(f"[dim]run {runs} done[/]")
 
-    return known_result(model, plan, check, within, say)
+    seconds = option_value("--within", within, lambda value: to_si(value, SECONDS))
+    return known_result(model, plan, check, seconds, say)
 
 
 def print_known(result):
@@ -162,7 +151,7 @@ def print_without_effect(model, scene, result):
     cost, scene = result.summary["wall_time"], replace(scene, accuracy=None)
     idle, until = without_effect(model, scene, result.about["set"], whole=all_figures(result), cost=cost)
     if idle:
-        console.print(escape(in_words(idle, until)), soft_wrap=True)
+        console.print(escape(in_words(idle, until)))
 
 
 def is_there(library, what):
@@ -207,14 +196,10 @@ def statistics_table(result):
     from ..running.summary import summary_rows
 
     share = computed_share(result)
-    rows = (
-        (
-            row.channel + ("" if row.every_step else " *"),
-            row.unit,
-            *(shown(row, value, share) for value in (row.mean, row.rms, row.p999, row.largest)),
-        )
-        for row in summary_rows(result)
-    )
+    rows = []
+    for row in summary_rows(result):
+        figures = (shown(row, value, share) for value in (row.mean, row.rms, row.p999, row.largest))
+        rows.append((row.channel + ("" if row.every_step else " *"), row.unit, *figures))
     return table(("", "unit", "mean", "RMS", "p99.9", "max"), rows, left=2)
 
 
@@ -248,10 +233,10 @@ def print_summary(result):
     )
 
     about, summary = result.about, result.summary
-    console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}", soft_wrap=True)
+    console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}")
     print_basis(about["basis"].items())
     for line in change_lines(result):
-        console.print(f"changes {escape(line)}", soft_wrap=True)
+        console.print(f"changes {escape(line)}")
     console.print(statistics_table(result) if has_statistics(result) else early_table(result))
     rivets = rivet_rows(result)
     if rivets:
@@ -266,38 +251,27 @@ def print_summary(result):
         console.print(
             f"[dim]after the first {result.parameters['start.settle']:g} s; every internal step, * at communication points only[/]"
         )
-    counters = {
-        name: f"{summary[f'solver.{name}']:,.0f}"
-        for name in ("steps", "rhs_evals", "error_tests_failed")
-        if f"solver.{name}" in summary
-    }
-    if counters:
-        console.print(
-            f"{counters['steps']} steps, {counters['rhs_evals']} evaluations of the equations, {counters['error_tests_failed']} steps rejected"
-        )
+    names = [f"solver.{name}" for name in ("steps", "rhs_evals", "error_tests_failed")]
+    if names[0] in summary:
+        steps, evaluations, rejected = (f"{summary[name]:,.0f}" for name in names)
+        console.print(f"{steps} steps, {evaluations} evaluations of the equations, {rejected} steps rejected")
     console.print(
         f"simulated {summary['simulated_time']:g} s in {summary['wall_time']:.2f} s, CPU time {summary['cpu_time']:.2f} s, "
-        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)",
-        soft_wrap=True,
+        f"[bold]real-time factor {summary['real_time_factor']:.2f}[/] (CPU time / simulated time)"
     )
     print_known(result)
     if rows := assumed_rows(result):
         moving = [row for row in rows if row.size("stress")] or rows
         meant = f"usual range: change of the worst head over it, {measured_in(rows)}"
-        texts = (
-            f"{row.name} {row.words[0]} ({': '.join(filter(None, (row.words[1], row.change('stress'))))})"
-            for row in moving
-        )
-        console.print(
-            f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]",
-            soft_wrap=True,
-        )
+        said = ((row.name, row.words[0], filter(None, (row.words[1], row.change("stress")))) for row in moving)
+        texts = (f"{name} {value} ({': '.join(span)})" for name, value, span in said)
+        console.print(f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]")
         if rest := [row for row in rows if row not in moving]:
-            console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]", soft_wrap=True)
+            console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]")
     for source, names in about.get("not_given", {}).items():
-        console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]", soft_wrap=True)
+        console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]")
     if names := assumed_as_bronze(result):
-        console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]", soft_wrap=True)
+        console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]")
     kinds = (settle_note, count_note, speed_note, flag_note, table_note, alone_note)
     for text in filter(None, (of(result) for of in kinds)):
         note(text)

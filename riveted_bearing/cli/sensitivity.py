@@ -91,23 +91,19 @@ def print_screening(model, record):
 
     scene = load_scene(None, model)
     values = {name: model.default(variable) for name, variable in model.parameters.items()} | scene.parameters
-    rows = sorted(
-        all_assumed(origin_of(model, scene), values), key=lambda row: (-row.size("damage"), -row.size("stress"))
-    )
-    console.print(f"[bold]{escape(model.bearing)}[/]", soft_wrap=True)
-    shown = (
-        (row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in rows if row.effect
-    )
-    console.print(
-        table(("assumed", "value", "range", "stress", "damage per hour", "source of the range"), shown, left=6)
-    )
+    rows = list(all_assumed(origin_of(model, scene), values))
+    rows.sort(key=lambda row: (-row.size("damage"), -row.size("stress")))
+    console.print(f"[bold]{escape(model.bearing)}[/]")
+    heads = "assumed", "value", "range", "stress", "damage per hour", "source of the range"
+    known = [row for row in rows if row.effect]
+    cells = ((row.name, *row.words, row.change("stress"), row.change("damage"), row.source) for row in known)
+    console.print(table(heads, cells, left=6))
     for line in {row.unknown: None for row in rows if not row.effect}:
         names = ", ".join(row.name for row in rows if row.unknown == line and not row.effect)
-        console.print(f"[dim]not covered: {names}: {escape(line)}[/]", soft_wrap=True)
+        console.print(f"[dim]not covered: {names}: {escape(line)}[/]")
     console.print(
         f"[dim]99.9 % quantile of the worst head, damage of the worst place; one at a time, {record['seeds']} common seeds of "
-        f"{record['t_end']:.3g} s; in {record['seconds']:.0f} s[/]",
-        soft_wrap=True,
+        f"{record['t_end']:.3g} s; in {record['seconds']:.0f} s[/]"
     )
     print_paths(("results", next(path for path in paths(model) if path.is_file())))
 
@@ -117,20 +113,15 @@ def print_indices(found, box):
     from ..design.sensitivity import order
     from ..running.responses import display_of, displayed, titled
 
-    ends = [
-        f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}"
-        for name, low, high in zip(box.names, box.low, box.high, strict=True)
-    ]
+    pairs = zip(box.names, box.low, box.high, strict=True)
+    ends = [f"{displayed(name, low):.4g} ... {displayed(name, high):.4g}" for name, low, high in pairs]
     for name in found.responses:
         morris, sobol = found.morris[name], found.sobol.get(name)
         factor = display_of(name)[1]
         noise = "" if morris["noise"] is None else f", seeds alone {factor * morris['noise']:.3g}"
-        share = (
-            ""
-            if sobol is None or sobol["noise"] is None
-            else f", seeds have {100 * sobol['noise']:.2g} % of the variance"
-        )
-        console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]", soft_wrap=True)
+        known = sobol is not None and sobol["noise"] is not None
+        share = f", seeds have {100 * sobol['noise']:.2g} % of the variance" if known else ""
+        console.print(f"\n[bold]{escape(titled(name))}[/]  [dim]mu* of Morris{noise}{share}[/]")
         rows = []
         for k in order(found, name):
             cells = [ends[k], *(f"{factor * morris[key][k]:.3g}" for key in ("mu_star", "mu_star_conf", "sigma"))]
@@ -142,6 +133,5 @@ def print_indices(found, box):
         console.print(table(heads, rows))
     console.print(
         "[dim]Not among the factors: shapes of which the FMU is built (stress table, cage half, rivet). They need an FMU of "
-        "their own (riveted-bearing build); compare-designs sets such FMUs side by side.[/]",
-        soft_wrap=True,
+        "their own (riveted-bearing build); compare-designs sets such FMUs side by side.[/]"
     )

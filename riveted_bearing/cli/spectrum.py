@@ -42,7 +42,6 @@ def spectrum(
     console.print(
         f"{found.channel} [{found.unit}]: band of the envelope {low} to {high} {found.axis_unit}, "
         f"resolution {found.resolution:.3g} {found.axis_unit}; amplitudes are those of the squared envelope",
-        soft_wrap=True,
         markup=False,
     )
     places, amplitude = f"[{found.axis_unit}]", f"amplitude [{squared(found.unit)}]"
@@ -55,7 +54,7 @@ def spectrum(
     console.print(table(heads, rows))
     names, until = idle_settings(run, found)
     if names:
-        console.print(escape(in_words(names, until)), soft_wrap=True)
+        console.print(escape(in_words(names, until)))
     print_paths(
         ("written", write_spectra(found, folder / f"{result.stem}_spectrum.csv")),
         ("written", plot_spectra(found, folder / f"{result.stem}_spectrum.png")),

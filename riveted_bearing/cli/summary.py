@@ -14,12 +14,13 @@ from .terminal import (
     CLEANLINESS,
     FMU,
     SCHEDULER,
+    SENSITIVITY,
     WORKERS,
     chosen_cleanliness,
     command,
     console,
     design_runs,
-    number_or_text,
+    option_value,
     print_warnings,
     screen,
 )
@@ -35,10 +36,7 @@ def summary(
     ],
     fmu: FMU = None,
     target: Annotated[str | None, typer.Option(help='life that is wanted, e.g. "10000 h"')] = None,
-    sensitivity: Annotated[
-        Path | None,
-        typer.Option(help="sensitivity.json of `sensitivity`, or its folder: names the assumptions that decide"),
-    ] = None,
+    sensitivity: SENSITIVITY = None,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -69,29 +67,22 @@ def summary(
         sheet, folder = sheet_of_mission(source, fmu, hours, decides, out, scheduler, workers)
         path = out or folder / SHEET
     write_sheet(sheet, path)
-    console.print(f"[bold]{escape(sheet.verdict[1])}[/]  {escape(sheet.verdict[2])}", soft_wrap=True)
+    console.print(f"[bold]{escape(sheet.verdict[1])}[/]  {escape(sheet.verdict[2])}")
     for check in sheet.checks:
         use = "" if check.use is None else f"utilisation {check.use:.2g}"
-        console.print(f"{check.title:32} {escape(check.value)}  [dim]{escape(check.allowed)}  {use}[/]", soft_wrap=True)
+        console.print(f"{check.title:32} {escape(check.value)}  [dim]{escape(check.allowed)}  {use}[/]")
     for fault, text in sheet.limits:
-        console.print(f"[{'yellow' if fault else 'dim'}]{escape(text)}[/]", soft_wrap=True)
+        console.print(f"[{'yellow' if fault else 'dim'}]{escape(text)}[/]")
     print_paths(("page", path))
 
 
 def target_hours(target):
     """Hours of the option --target."""
-    from ..base.units import to_si
+    from ..base.schema import Number
     from ..duty.mission_file import HOURS
 
-    if target is None:
-        return None
-    try:
-        hours = to_si(number_or_text(target), HOURS)
-    except UserError as problem:
-        raise UserError(f"--target {target}: {problem}") from None
-    if hours <= 0.0:
-        raise UserError(f"--target {target}: more than 0 h is needed")
-    return hours
+    wanted = Number(HOURS, above=0.0, words="more than 0 h is needed")
+    return None if target is None else option_value("--target", target, wanted.read)
 
 
 def sheet_of_mission(path, fmu, hours, decides, out, scheduler, workers):

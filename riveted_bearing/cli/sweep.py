@@ -51,8 +51,7 @@ def sweep(
     early = sum(status == "done" and time != time for status, time in zip(rows["status"], rows["stat.time"]))
     if early:
         messages.print(
-            f"[yellow]{early} runs have no statistics: they end at or before start.settle; set simulation.t_end higher[/]",
-            soft_wrap=True,
+            f"[yellow]{early} runs have no statistics: they end at or before start.settle; set simulation.t_end higher[/]"
         )
     if failed:
         raise typer.Exit(STOPPED)

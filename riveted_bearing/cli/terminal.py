@@ -15,7 +15,6 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColum
 from rich.text import Text
 
 from ..base.errors import UserError, extra, refusal, unknown
-from ..base.version import __version__
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
 # Libraries of the extra "full": a run needs none of them.
@@ -31,10 +30,19 @@ FULL = (
     "filelock",
     "rainflow",
 )
+
+
+class Terminal(Console):
+    """A console whose texts are wrapped by the terminal itself, so that paths stay whole; tables fit its width."""
+
+    def print(self, *objects, **options):
+        super().print(*objects, **{"soft_wrap": all(isinstance(each, str) for each in objects)} | options)
+
+
 program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_exceptions_enable=False)
 PIPE_WIDTH = 160  # characters, where there is no terminal to ask
-console = Console(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
-messages = Console(stderr=True, highlight=False)
+console = Terminal(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
+messages = Terminal(stderr=True, highlight=False)
 
 # Options that several commands have.
 FMU = Annotated[
@@ -55,6 +63,16 @@ WORKERS = Annotated[
     int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")
 ]
 
+CAGE = Annotated[
+    str | None,
+    typer.Option(
+        "--cage", help="shape of a bearing's cage; default: the file's, else machined", metavar="machined|ribbon"
+    ),
+]
+SENSITIVITY = Annotated[
+    Path | None,
+    typer.Option("--sensitivity", help="sensitivity.json of `sensitivity`, or its folder: names what decides"),
+]
 CLEANLINESS = Annotated[
     str | None,
     typer.Option(
@@ -69,15 +87,22 @@ def chosen_cleanliness(value):
     """The cleanliness of the option --cleanliness, None if it was not given."""
     from ..duty.raceways import cleanliness_of
 
+    return None if value is None else option_value("--cleanliness", value, cleanliness_of)
+
+
+def option_value(option, text, read):
+    """What an option's text means by read(its number or text); UserError naming both."""
     try:
-        return None if value is None else cleanliness_of(value)
+        return read(number_or_text(text))
     except UserError as problem:
-        raise UserError(f"--cleanliness {value}: {problem}") from None
+        raise UserError(f"{option} {text}: {problem}") from None
 
 
 def print_version(wanted: bool):
     """Print version, Python and platform, then end."""
     if wanted:
+        from ..base.version import __version__  # its library takes longer than the rest of the help
+
         console.print(
             f"riveted-bearing {__version__}, Python {platform.python_version()}, {platform.system()} {platform.machine()}"
         )
@@ -102,15 +127,14 @@ def guarded(function):
         try:
             return function(*arguments, **options)
         except UserError as problem:
-            messages.print(f"[bold red]error:[/] {escape(str(problem))}", soft_wrap=True)
+            messages.print(f"[bold red]error:[/] {escape(str(problem))}")
             raise typer.Exit(BAD_INPUT) from None
         except ModuleNotFoundError as problem:
             library = (problem.name or "").partition(".")[0]
             if library not in FULL:
                 raise
             messages.print(
-                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}",
-                soft_wrap=True,
+                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}"
             )
             raise typer.Exit(BAD_INPUT) from None
         except KeyboardInterrupt:
@@ -122,7 +146,7 @@ def guarded(function):
             if problem.strerror is None:
                 raise
             place = f"{problem.filename}: " if problem.filename else ""
-            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}", soft_wrap=True)
+            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}")
             raise typer.Exit(BAD_INPUT) from None
 
     return called
@@ -140,8 +164,7 @@ def resumable(folder):
         yield
     except KeyboardInterrupt:
         messages.print(
-            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others",
-            soft_wrap=True,
+            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others"
         )
         raise typer.Exit(INTERRUPTED) from None
 
@@ -213,13 +236,13 @@ def number_or_text(value):
 def print_basis(rows):
     """What the figures that follow rest on; what a scene has replaced stands out."""
     for name, text in rows:
-        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]", soft_wrap=True)
+        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]")
 
 
 def print_warnings(texts):
     """Sentences that a user must not miss, on stderr."""
     for text in texts:
-        messages.print(f"[yellow]warning: {escape(text)}[/]", soft_wrap=True)
+        messages.print(f"[yellow]warning: {escape(text)}[/]")
 
 
 @contextlib.contextmanager
@@ -243,70 +266,34 @@ class RealTimeFactor(ProgressColumn):
         return Text(f"{elapsed / task.completed:.2f} x real time" if task.completed else "")
 
 
-class Remaining(ProgressColumn):
-    """Wall time still needed at the speed so far."""
-
-    def render(self, task):
-        if not task.completed:
-            return Text("")
-        return Text(f"{(task.elapsed or 0.0) * (task.total / task.completed - 1.0):.0f} s left")
+def progress_bar(*columns, **options):
+    """A progress bar with these columns behind name and bar, on a terminal; nothing in a pipe."""
+    columns = TextColumn("{task.description}"), BarColumn(bar_width=30), *columns
+    return Progress(*columns, console=messages, disable=not messages.is_terminal, **options)
 
 
-class simulation_progress:
-    """Progress bar of a scene on a terminal, nothing in a pipe; a context manager that gives the function to call with
-    the simulated time [s].
+@contextlib.contextmanager
+def simulation_progress(scene):
+    """Progress bar of a scene: gives the function to call with the simulated time [s]."""
+    columns = TextColumn("{task.completed:.3f} of {task.total:g} s"), RealTimeFactor(), TimeRemainingColumn()
+    with progress_bar(*columns, transient=True) as bar:
+        task = bar.add_task(scene.name, total=scene.t_end)
+        yield lambda t: bar.update(task, completed=t)
+
+
+@contextlib.contextmanager
+def sweep_progress():
+    """Progress bars of sweeps: gives the function to call with a sweep's name and its numbers of runs done, failed and in
+    all.
     """
-
-    def __init__(self, scene):
-        self.bar = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=30),
-            TextColumn("{task.completed:.3f} of {task.total:g} s"),
-            RealTimeFactor(),
-            Remaining(),
-            console=messages,
-            disable=not messages.is_terminal,
-            transient=True,
-        )
-        self.task = self.bar.add_task(scene.name, total=scene.t_end)
-
-    def __enter__(self):
-        self.bar.start()
-        return lambda t: self.bar.update(self.task, completed=t)
-
-    def __exit__(self, *_):
-        self.bar.stop()
-
-
-class sweep_progress:
-    """Progress bars of sweeps on a terminal, nothing in a pipe; a context manager that gives the function to call with
-    a sweep's name and its numbers of runs done, failed and in all.
-    """
-
-    def __init__(self):
-        columns = (
-            TextColumn("{task.description}"),
-            BarColumn(bar_width=30),
-            MofNCompleteColumn(),
-            TextColumn("{task.fields[failed]}"),
-            TimeRemainingColumn(),
-        )
-        self.bar = Progress(
-            *columns, console=messages, disable=not messages.is_terminal, transient=True, speed_estimate_period=300.0
-        )
-
-    def __enter__(self):
-        self.bar.start()
+    columns = MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn()
+    with progress_bar(*columns, transient=True, speed_estimate_period=300.0) as bar:
         tasks = {}
 
         def progress(name, done, failed, total):
             if name not in tasks:  # runs that an earlier call has done do not count for the speed
-                tasks[name] = self.bar.add_task(name, total=total, completed=done, failed="")
-            self.bar.update(
-                tasks[name], total=total, completed=done + failed, failed=f"[red]{failed} failed[/]" if failed else ""
-            )
+                tasks[name] = bar.add_task(name, total=total, completed=done, failed="")
+            words = f"[red]{failed} failed[/]" if failed else ""
+            bar.update(tasks[name], total=total, completed=done + failed, failed=words)
 
-        return progress
-
-    def __exit__(self, *_):
-        self.bar.stop()
+        yield progress

@@ -32,6 +32,5 @@ def variables(
     console.print(shown)
     if pattern is None:
         console.print(
-            "[dim]riveted-bearing variables PATTERN finds others, e.g. oil, ball[3].*, slip; docs/parameters.md has them all with their sources[/]",
-            soft_wrap=True,
+            "[dim]riveted-bearing variables PATTERN finds others, e.g. oil, ball[3].*, slip; docs/parameters.md has them all with their sources[/]"
         )

@@ -68,11 +68,8 @@ class Box:
 
     def problem(self):
         """The box as SALib has it."""
-        return {
-            "num_vars": len(self.names),
-            "names": self.names,
-            "bounds": np.column_stack([self.low, self.high]).tolist(),
-        }
+        bounds = np.column_stack([self.low, self.high]).tolist()
+        return {"num_vars": len(self.names), "names": self.names, "bounds": bounds}
 
     def chosen(self, names):
         """The box of some of its names."""
@@ -89,14 +86,8 @@ class Bench:
     """
 
     def __init__(self, path, document, model, folder, client, progress=None):
-        self.path, self.document, self.model, self.folder, self.client, self.progress = (
-            Path(path),
-            document,
-            model,
-            Path(folder),
-            client,
-            progress,
-        )
+        self.path, self.document, self.model, self.folder = Path(path), document, model, Path(folder)
+        self.client, self.progress = client, progress
         shared = {key: value for key, value in document.items() if key in Seeded.model_fields}
         file = checked(Seeded, shared, path)
         common = {"inputs": file.inputs, "simulation": {"outputs": OUTPUTS} | file.simulation}
@@ -112,17 +103,8 @@ class Bench:
 
     def sweep(self, names, scenes):
         """The runs of scenes by key, in which the names vary."""
-        return Sweep(
-            self.path.stem,
-            self.description,
-            self.model,
-            self.fmu,
-            self.document,
-            tuple(names),
-            scenes,
-            (),
-            True,
-        )
+        about = self.path.stem, self.description, self.model, self.fmu, self.document
+        return Sweep(*about, tuple(names), scenes, grows=True)
 
     def basis(self):
         """What the runs asked for so far rest on; of a damage also the S-N curve, of the scene without what varies."""
@@ -141,22 +123,18 @@ class Bench:
     def scene_at(self, names, point):
         """The scene of one point."""
         settings = {name: self.plain(name, value) for name, value in zip(names, point, strict=True)}
-        return load_scene(
-            self.source, self.model, (str(self.path), self.common), (str(self.path), sections_of(settings, self.model))
-        )
+        changes = (str(self.path), self.common), (str(self.path), sections_of(settings, self.model))
+        return load_scene(self.source, self.model, *changes)
 
     def plain(self, name, value):
         """A value as the scene takes it: whole numbers for integer parameters."""
         variable = self.model.parameters.get(name)
-        return (
-            int(value)
-            if variable is not None and variable.type == "Integer" and float(value).is_integer()
-            else float(value)
-        )
+        whole = variable is not None and variable.type == "Integer" and float(value).is_integer()
+        return int(value) if whole else float(value)
 
-    def __call__(self, names, points, responses, seeds=None, to_the_stop=False):
-        """Responses of the points [n, d] with each seed, [n, seeds, m]; seeds: start.seed of the runs, None for those
-        of the study; to_the_stop: also of runs that the FMU ended, up to there, else NaN.
+    def __call__(self, names, points, responses, seeds=None):
+        """Responses of the points [n, d] with each seed, [n, seeds, m], NaN of runs that the FMU ended; seeds: start.seed of
+        the runs, None for those of the study.
         """
         seeds = list(range(self.first, self.first + self.seeds)) if seeds is None else list(seeds)
         keys = []
@@ -166,17 +144,12 @@ class Bench:
                 run = replace(scene, parameters=scene.parameters | {"start.seed": seed})
                 keys.append(key_of(run, self.fingerprint))
                 self.scenes[keys[-1]] = run
-        sweep = self.sweep(names, self.scenes)
-        rows = run_sweep(sweep, self.folder, self.client, self.progress, list(dict.fromkeys(keys)))
-        places = {key: i for i, key in enumerate(rows["key"])}
-        chosen = np.array([places[key] for key in keys])
-        for i in chosen:
-            if rows["status"][i] == "failed":
-                point = self.point_text(names, rows, i) or self.label
-                raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")
-        values = np.column_stack([response(self.path, rows, name)[chosen] for name in responses])
-        if not to_the_stop:
-            values[rows["status"][chosen] == "stopped"] = np.nan
+        rows = run_sweep(self.sweep(names, self.scenes), self.folder, self.client, self.progress, keys)
+        for i in np.flatnonzero(rows["status"] == "failed"):
+            point = self.point_text(names, rows, i) or self.label
+            raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")
+        values = np.column_stack([response(self.path, rows, name) for name in responses])
+        values[rows["status"] == "stopped"] = np.nan
         return values.reshape(len(points), len(seeds), len(responses))
 
     def point_text(self, names, rows, i):
@@ -199,8 +172,6 @@ def noise_variance(values):
     """Variance that the seeds leave in the mean of a point, for each response [m]; values [n, seeds, m]; nan with one
     seed.
     """
-    return (
-        values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1]
-        if values.shape[1] > 1
-        else np.full(values.shape[2], np.nan)
-    )
+    if values.shape[1] < 2:
+        return np.full(values.shape[2], np.nan)
+    return values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1]

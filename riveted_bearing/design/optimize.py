@@ -14,28 +14,24 @@ fresh seeds, and the answer and its confidence come from these alone. The search
 seed, so that a call after a stop reads the runs that are done and goes on from there.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
 
-from ..base.errors import UserError, extra, refusal, unknown
+from ..base.errors import UserError, library, refusal, unknown
 from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Named, checked
 from ..base.units import to_si
+from ..running.fmu import Model
 from ..running.responses import COLUMNS, display_of, displayed, shown, titled
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, picture
 from .bench import BenchFile, Box, Responses
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
 BAD = 1e30  # of an objective whose run was stopped
@@ -109,19 +105,15 @@ def plan_optimize(path: str | Path, document: dict[str, Any], model: Model) -> A
             limits[name] = to_si(value, model.units[variable.unit] if variable else {"1": (1.0, 0.0)})
         except UserError as problem:
             if variable is None and name != "damage":  # a misspelt name, rather than a column without a unit
-                raise unknown(
-                    path, "response", f"limits.{name}", [f"limits.{key}" for key in ("damage", *COLUMNS)]
-                ) from None
+                allowed = [f"limits.{key}" for key in ("damage", *COLUMNS)]
+                raise unknown(path, "response", f"limits.{name}", allowed) from None
             raise refusal(path, f"limits.{name}", value, problem) from None
     return Study(Path(path), file, Box(path, file.between, model), limits)
 
 
 def optuna_library() -> Any:
     """Optuna; UserError if it is missing."""
-    try:
-        import optuna
-    except ImportError:
-        raise UserError(f"optimize: needs the library Optuna: {extra('full')}") from None
+    optuna = library("optuna", "optimize")
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     return optuna
 
@@ -153,9 +145,8 @@ def mean_and_error(values):
 
 def criterion(study: Any) -> str:
     """In words, by which of the points simulated again one is recommended."""
-    wanted = [
-        f"{'least' if sign > 0 else 'largest'} {name}" for name, sign in zip(study.objectives, study.signs, strict=True)
-    ]
+    signs = zip(study.objectives, study.signs, strict=True)
+    wanted = [f"{'least' if sign > 0 else 'largest'} {name}" for name, sign in signs]
     limits = [f"{name} <= {shown(name, limit)}" for name, limit in study.limits.items()]
     kept = f", of those that keep {', '.join(limits)}" if limits else ""
     if len(wanted) == 1:
@@ -171,13 +162,8 @@ def explore(study, evaluate):
     points, values = [], []
     while len(points) < file.trials:
         trials = [found.ask() for _ in range(min(file.batch, file.trials - len(points)))]
-        batch = [
-            [
-                trial.suggest_float(name, low, high)
-                for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)
-            ]
-            for trial in trials
-        ]
+        box = list(zip(study.box.names, study.box.low, study.box.high, strict=True))
+        batch = [[trial.suggest_float(*one) for one in box] for trial in trials]
         means = evaluate(study.box.names, np.array(batch), study.responses).mean(axis=1)
         for trial, mean in zip(trials, means, strict=True):
             for name, over in zip(study.limits, excess(study, mean[None])[0], strict=True):
@@ -237,21 +223,19 @@ def write_optimum(found: Any, path: Path, basis: Any = (), budgets: Any = None) 
     error budgets.  Returns the path.
     """
     study = found.study
+
+    def figures(*pair):
+        named = (dict(zip(study.responses, values.tolist(), strict=True)) for values in pair)
+        return dict(zip(("mean", "standard_error"), named, strict=True))
+
     rows = [
-        {
-            "at": dict(zip(study.box.names, found.points[i].tolist(), strict=True)),
-            "mean": dict(zip(study.responses, mean.tolist(), strict=True)),
-            "standard_error": dict(zip(study.responses, error.tolist(), strict=True)),
-        }
+        {"at": dict(zip(study.box.names, found.points[i].tolist(), strict=True))} | figures(mean, error)
         for i, mean, error in zip(found.candidates, found.means, found.errors, strict=True)
     ]
     document = {
         "basis": dict(basis),
         "criterion": criterion(study),
-        "present": {
-            "mean": dict(zip(study.responses, found.present[0].tolist(), strict=True)),
-            "standard_error": dict(zip(study.responses, found.present[1].tolist(), strict=True)),
-        },
+        "present": figures(*found.present),
         "recommended": None if found.best is None else rows[found.best],
         "error_budget": budgets or {},
         "fresh_seeds": study.file.check_seeds,
@@ -265,12 +249,10 @@ def write_picture(found: Any, path: Path) -> Path:
     """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first
     two variables; returns the path.
     """
-    with plt.rc_context(STYLE):
-        figure, ax = plt.subplots(figsize=(6.6, 5.0), layout="constrained")
-        (pareto_panel if len(found.study.objectives) > 1 else single_panel)(ax, found)
-        figure.suptitle(f"{found.study.path.stem}: {len(found.points)} points searched", x=0.01, ha="left", fontsize=11)
+    with picture(path, (6.6, 5.0), f"{found.study.path.stem}: {len(found.points)} points searched") as figure:
+        (pareto_panel if len(found.study.objectives) > 1 else single_panel)(figure.subplots(), found)
         figure.legend(loc="outside lower center", ncols=3, fontsize=8)  # points lie anywhere on the panel
-        return save_figure(figure, path)
+    return path
 
 
 def pareto_panel(ax, found):
@@ -295,21 +277,14 @@ def single_panel(ax, found):
     variable, objective = found.study.box.names[0], found.study.objectives[0]
     x = displayed(variable, found.points[:, 0])
     ax.plot(x, displayed(objective, found.values[:, 0]), ".", color=MUTED, ms=7, label="searched")
-    candidates(
-        ax,
-        found,
-        x[found.candidates],
-        displayed(objective, found.means[:, 0]),
-        None,
-        display_of(objective)[1] * found.errors[:, 0],
-    )
+    means, errors = displayed(objective, found.means[:, 0]), display_of(objective)[1] * found.errors[:, 0]
+    candidates(ax, found, x[found.candidates], means, None, errors)
     ax.set(xlabel=titled(variable), ylabel=titled(objective))
 
 
 def candidates(ax, found, x, y, x_error, y_error):
     """Candidates with their standard errors over fresh seeds; the recommendation filled."""
-    ax.errorbar(
-        x, y, xerr=x_error, yerr=y_error, fmt="o", mfc="white", color=FORCE, ms=5, lw=0.9, label="again, fresh seeds"
-    )
+    look = {"fmt": "o", "mfc": "white", "color": FORCE, "ms": 5, "lw": 0.9}
+    ax.errorbar(x, y, xerr=x_error, yerr=y_error, label="again, fresh seeds", **look)
     if found.best is not None:
         ax.plot(x[found.best], y[found.best], "o", color=HEAD, ms=8, zorder=5, label="recommended")

@@ -17,27 +17,23 @@ variance that the seeds leave in a point's mean, delta the step of a trajectory;
 share s^2/V.  Both stand beside the indices.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, Field
 
-from ..base.errors import UserError, extra
+from ..base.errors import UserError, library
 from ..base.file_kinds import check_keys
 from ..base.files import write_json
 from ..base.schema import Count, Section, checked
+from ..running.fmu import Model
 from ..running.responses import display_of
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, picture
 from .bench import BenchFile, Box, Responses, noise_variance
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 
 def even(value: Any) -> Any:
@@ -129,14 +125,10 @@ def salib(command: str = "sensitivity") -> Any:
     """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
     missing.
     """
-    try:
-        from SALib.analyze import morris as analyze_morris
-        from SALib.analyze import sobol as analyze_sobol
-        from SALib.sample import morris as sample_morris
-        from SALib.sample import sobol as sample_sobol
-    except ImportError:
-        raise UserError(f"{command}: needs the library SALib: {extra('full')}") from None
-    return sample_morris, analyze_morris, sample_sobol, analyze_sobol
+    return [
+        library(f"SALib.{part}", command)
+        for part in ("sample.morris", "analyze.morris", "sample.sobol", "analyze.sobol")
+    ]
 
 
 def analyse(study: Any, evaluate: Any) -> Any:
@@ -152,10 +144,8 @@ def analyse(study: Any, evaluate: Any) -> Any:
         found = analyze_morris.analyze(problem, points, values.mean(axis=1)[:, i], num_levels=design.levels, seed=seed)
         morris[name] = {key: [float(x) for x in found[key]] for key in ("mu_star", "mu_star_conf", "sigma")}
         morris[name]["noise"] = float(2.0 * math.sqrt(noise[i] / math.pi) / step) if np.isfinite(noise[i]) else None
-    scale = [max(max(morris[name]["mu_star"]), 1e-300) for name in study.responses]
-    strength = np.max(
-        [np.array(morris[name]["mu_star"]) / size for name, size in zip(study.responses, scale, strict=True)], axis=0
-    )
+    effects = [np.array(morris[name]["mu_star"]) for name in study.responses]
+    strength = np.max([effect / max(effect.max(), 1e-300) for effect in effects], axis=0)
     chosen = [study.box.names[k] for k in np.argsort(-strength, kind="stable")[: sobol_design.factors]]
     sobol: dict[str, dict[str, Any]] = {}
     seeds = values.shape[1]
@@ -171,20 +161,10 @@ def analyse(study: Any, evaluate: Any) -> Any:
             found = analyze_sobol.analyze(box.problem(), means, calc_second_order=False, seed=seed)
             sobol[name] = {key: [float(x) for x in found[key]] for key in ("S1", "S1_conf", "ST", "ST_conf")}
             sobol[name]["noise"] = float(noise[i] / means.var()) if np.isfinite(noise[i]) else None
-    return Sensitivity(
-        study.path.stem,
-        study.file.description,
-        seeds,
-        tuple(study.responses),
-        tuple(study.box.names),
-        morris,
-        tuple(chosen),
-        sobol,
-        ranges={
-            name: [float(low), float(high)]
-            for name, low, high in zip(study.box.names, study.box.low, study.box.high, strict=True)
-        },
-    )
+    ends = zip(study.box.low.tolist(), study.box.high.tolist(), strict=True)
+    ranges = {name: list(pair) for name, pair in zip(study.box.names, ends, strict=True)}
+    about = study.path.stem, study.file.description, seeds, tuple(study.responses), tuple(study.box.names)
+    return Sensitivity(*about, morris, tuple(chosen), sobol, ranges=ranges)
 
 
 def complete(study, values):
@@ -212,18 +192,10 @@ def read_indices(path: str | Path) -> Any:
     path = Path(path)
     path = path / "sensitivity.json" if path.is_dir() else path
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
-        found = Sensitivity(**record)
-        whole = all(
-            len(found.morris[name][key]) == len(found.factors)
-            for name in found.responses
-            for key in ("mu_star", "mu_star_conf", "sigma")
-        )
-        whole = (
-            whole
-            and all("noise" in found.morris[name] for name in found.responses)
-            and len(found.factors) > 0 < len(found.responses)
-        )
+        found = Sensitivity(**json.loads(path.read_text(encoding="utf-8")))
+        of_responses, keys = [found.morris[name] for name in found.responses], ("mu_star", "mu_star_conf", "sigma")
+        lengths = {len(indices[key]) for indices in of_responses for key in keys}
+        whole = lengths == {len(found.factors)} != {0} and all("noise" in indices for indices in of_responses)
     except OSError as error:
         raise UserError(
             f"{path}: {error.strerror or error}; allowed is the sensitivity.json of `riveted-bearing sensitivity`, or its folder"
@@ -238,12 +210,9 @@ def read_indices(path: str | Path) -> Any:
 def write_picture(found: Any, path: Path) -> Path:
     """Write the picture: mu_star of each factor with its confidence and the noise, and Sobol indices; returns the path."""
     columns = 2 if found.sobol else 1
-    with plt.rc_context(STYLE):
-        height = 1.2 + max(2.2, 0.34 * len(found.factors) + 0.9) * len(found.responses)
-        figure, axes = plt.subplots(
-            len(found.responses), columns, figsize=(5.6 * columns, height), layout="constrained", squeeze=False
-        )
-        figure.suptitle(f"{found.name}: what decides, {found.seeds} seeds a point", x=0.01, ha="left", fontsize=11)
+    height = 1.2 + max(2.2, 0.34 * len(found.factors) + 0.9) * len(found.responses)
+    with picture(path, (5.6 * columns, height), f"{found.name}: what decides, {found.seeds} seeds a point") as figure:
+        axes = figure.subplots(len(found.responses), columns, squeeze=False)
         for row, name in zip(axes, found.responses, strict=True):
             screening_panel(row[0], found, name)
             if found.sobol:
@@ -251,7 +220,7 @@ def write_picture(found: Any, path: Path) -> Path:
         keys = {text: handle for ax in axes.flat for handle, text in zip(*ax.get_legend_handles_labels(), strict=True)}
         if keys:  # beside the panels, whose bars and errors lie anywhere
             figure.legend(keys.values(), keys, loc="outside lower center", ncols=len(keys))
-        return save_figure(figure, path)
+    return path
 
 
 def screening_panel(ax, found, name):
@@ -265,9 +234,8 @@ def screening_panel(ax, found, name):
     ax.grid(axis="y", visible=False)
     if indices["noise"] is not None:
         ax.axvline(factor * indices["noise"], color=HEAD, lw=1.2, ls="--", label="seeds alone")
-    ax.set(
-        title=f"{name}: effect over the range (Morris)", xlabel=f"mu*: change of the response{unit and f' [{unit}]'}"
-    )
+    label = f"mu*: change of the response{unit and f' [{unit}]'}"
+    ax.set(title=f"{name}: effect over the range (Morris)", xlabel=label)
     ax.set_xlim(left=0.0)
 
 
@@ -275,15 +243,8 @@ def sobol_panel(ax, found, name):
     """Bars of S1 and ST with their confidence; the share of the noise as a line."""
     indices, k = found.sobol[name], np.arange(len(found.chosen))
     for key, shift, colour in (("S1", -0.19, MIDDLE), ("ST", 0.19, MUTED)):
-        ax.barh(
-            k + shift,
-            indices[key],
-            xerr=indices[f"{key}_conf"],
-            color=colour,
-            height=0.34,
-            label=key,
-            error_kw={"ecolor": FORCE, "lw": 1.0},
-        )
+        look = {"color": colour, "height": 0.34, "error_kw": {"ecolor": FORCE, "lw": 1.0}}
+        ax.barh(k + shift, indices[key], xerr=indices[f"{key}_conf"], label=key, **look)
     ax.set_yticks(k, found.chosen)
     ax.invert_yaxis()
     ax.grid(axis="y", visible=False)

@@ -2,7 +2,6 @@
 runs.parquet and life.json.
 """
 
-import hashlib
 import json
 import math
 from dataclasses import dataclass, field, replace
@@ -72,25 +71,15 @@ class Runs:
         run_sweep.
         """
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
-        fmu = model.path.read_bytes()
-        fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
         self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
-                scene = started(replace(case.scene, outputs=outputs), model, first, s)
-                self.keys[c, s] = key_of(scene, fingerprint)
+                scene = started(replace(case.scene, outputs=outputs), model, mission.settings["seed"], s)
+                self.keys[c, s] = key_of(scene, model.digest)
                 scenes[self.keys[c, s]] = scene
-        self.sweep = Sweep(
-            mission.name,
-            mission.description,
-            model,
-            fmu,
-            mission.document,
-            ("start.seed",),
-            scenes,
-            (rainflow_columns, rainflow_fields),
-        )
+        about = mission.name, mission.description, model, model.path.read_bytes(), mission.document
+        self.sweep = Sweep(*about, ("start.seed",), scenes, (rainflow_columns, rainflow_fields))
         self.strengths, self.damages, self.matrices, self.cost, self.figures = {}, {}, {}, {}, {}
         self.per = {}  # of each run: what makes its damage one per hour of a point, or per event
 
@@ -98,30 +87,32 @@ class Runs:
         """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case
         without runs is asked for.
         """
-        wanted = [(c, s) for c, n in enumerate(counts) for s in range(n)]
-        missing = {self.keys[place] for place in wanted} - self.damages.keys()
-        if missing:
-            keys = list(dict.fromkeys(self.keys[place] for place in wanted))
-            rows = run_sweep(self.sweep, self.folder, self.client, self.progress, keys)
-            places = {key: i for i, key in enumerate(rows["key"])}
-            for c, s in wanted:
-                if (key := self.keys[c, s]) not in self.damages:
-                    self.take(c, s, key, rows, places[key])
+        self.simulate({(c, s): self.keys[c, s] for c, n in enumerate(counts) for s in range(n)})
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
 
     def finer(self, c):
         """Keys of the finer runs of case c, on its first seeds."""
-        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), []
+        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), {}
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
             scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
-            keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
-            self.sweep.scenes[keys[-1]] = scene
-        if missing := [key for key in keys if key not in self.damages]:
-            rows = run_sweep(self.sweep, self.folder, self.client, self.progress, missing)
-            places = {key: i for i, key in enumerate(rows["key"])}
-            for s, key in enumerate(keys):
-                self.take(c, s, key, rows, places[key])
-        return keys
+            keys[c, s] = key_of(scene, self.model.digest)
+            self.sweep.scenes[keys[c, s]] = scene
+        self.simulate(keys)
+        return list(keys.values())
+
+    def simulate(self, wanted):
+        """Do the runs that are missing of the keys wanted[case, seed], and read their damages."""
+        if self.damages.keys() >= set(wanted.values()):
+            return
+        rows = run_sweep(self.sweep, self.folder, self.client, self.progress, list(wanted.values()))
+        for i, ((c, s), key) in enumerate(wanted.items()):
+            if key not in self.damages:
+                self.take(c, s, key, rows, i)
+
+    def keys_of(self, c):
+        """Keys of the runs of case c that were asked for."""
+        keys = (self.keys[c, s] for s in range(self.mission.settings["max_seeds"]))
+        return [key for key in keys if key in self.damages]
 
     def take(self, c, s, key, rows, i):
         """Read the damage of one run, row i."""
@@ -133,9 +124,8 @@ class Runs:
             raise UserError(
                 f"{where}: the rivets' stress rests on closed forms, which are no base of a life: build --table coarse makes finite elements"
             )
-        own = np.array(
-            [[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in range(1, number_of_rivets(rows) + 1)]
-        )
+        rivets = range(1, 1 + sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows))
+        own = np.array([[rows[f"rivet[{k}].damage_{place}"][i] for place in PLACES] for k in rivets])
         law = fatigue_law({name: rows[name][i] for name in rows if name.startswith("fatigue.")})
         matrix = stored_cycles(rows, i)
         damage = own
@@ -161,7 +151,7 @@ class Runs:
         """
         found, own = 0.0, 0.0
         for c, case in enumerate(self.mission.cases):
-            keys = [key for s in range(self.mission.settings["max_seeds"]) if (key := self.keys[c, s]) in self.matrices]
+            keys = self.keys_of(c)
             for key in keys:
                 weight = self.mission.duty.weights[case.part] * self.per[key] / len(keys)
                 of_matrix, of_fmu = damages_counted(*self.matrices[key])
@@ -184,11 +174,6 @@ def place_text(place, rivets):
     return f"rivet {k + 1}, {where}" if rivets == "each" else f"{where}s of the rivets"
 
 
-def number_of_rivets(rows):
-    """Number of rivets that a sweep's rows have."""
-    return sum(name.startswith("rivet[") and name.endswith("].damage_head") for name in rows)
-
-
 def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: None) -> Life:
     """The Life of a mission from runs(counts), which returns for each case its damages [n, Z, 2].
 
@@ -206,19 +191,12 @@ def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: N
     used = used_cases(duty, kept).tolist()
     means = np.array([damages.mean(axis=0) for damages in samples])
     rates = np.zeros((len(mission.parts), *means.shape[1:]))
-    rates[kept] = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0].reshape(
-        len(kept), *means.shape[1:]
-    )
+    at_start = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0]
+    rates[kept] = at_start.reshape(len(kept), *means.shape[1:])
     own = [[used.index(c) for c in own_cases(mission, i) if c in used] for i in range(len(mission.parts))]
-    return Life(
-        mission,
-        found,
-        tuple(kept),
-        bounds,
-        tuple(int(sum(counts[place] for place in places)) for places in own),
-        tuple(samples[places[0]] if places else None for places in own),
-        rates,
-    )
+    runs_of = tuple(int(sum(counts[place] for place in places)) for places in own)
+    damages_of = tuple(samples[places[0]] if places else None for places in own)
+    return Life(mission, found, tuple(kept), bounds, runs_of, damages_of, rates)
 
 
 def own_cases(mission, i):
@@ -312,12 +290,8 @@ def bounded(mission, found, kept, rare):
 def bound(mission, rate, q, i):
     """Bound of the damage per hour of point i by that of point q; infinite if they differ in more than loads and speed."""
     known, rare = mission.parts[q], mission.parts[i]
-    if (
-        known.event
-        or known.factor != rare.factor
-        or known.values.keys() != rare.values.keys()
-        or mission.duty.weights[q] == 0.0
-    ):
+    alike = known.factor == rare.factor and known.values.keys() == rare.values.keys()
+    if known.event or not alike or mission.duty.weights[q] == 0.0:
         return math.inf
     ratio = 1.0
     for name, value in rare.values.items():

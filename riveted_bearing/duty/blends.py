@@ -66,8 +66,7 @@ def loosened(scene, factor, model):
     """The scene with its preload times the factor."""
     if factor == 1.0:
         return scene
-    preload = scene.parameters.get(PRELOAD, model.default(model.parameters[PRELOAD]))
-    return replace(scene, parameters=scene.parameters | {PRELOAD: factor * preload})
+    return replace(scene, parameters=scene.parameters | {PRELOAD: factor * scene.value(PRELOAD, model)})
 
 
 def mixture(path, parts, i, simulated):
@@ -76,7 +75,8 @@ def mixture(path, parts, i, simulated):
 
     The points that count differ from point i in numbers alone; raises UserError if point i is not between them.
     """
-    from scipy.spatial import Delaunay, QhullError
+    from scipy.interpolate import griddata
+    from scipy.spatial import QhullError
 
     own = parts[i].values
     comparable = [
@@ -93,30 +93,13 @@ def mixture(path, parts, i, simulated):
     if not axes or len(comparable) <= len(axes):
         raise outside
     grid = np.array([[parts[q].values[n] for n in axes] for q in comparable])
-    low, width = grid.min(axis=0), np.ptp(grid, axis=0)
-    if not np.all(width > 0.0):
+    try:
+        shares = griddata(grid, np.eye(len(grid)), [[own[n] for n in axes]], rescale=True).ravel()
+    except QhullError:
+        raise outside from None
+    if np.isnan(shares).any():
         raise outside
-    grid, target = (grid - low) / width, (np.array([own[n] for n in axes]) - low) / width
-    if len(axes) == 1:
-        order = np.argsort(grid[:, 0])
-        place = np.searchsorted(grid[order, 0], target[0])
-        if not grid[order[0], 0] <= target[0] <= grid[order[-1], 0]:
-            raise outside
-        corners = order[[max(place - 1, 0), max(place, 1)]]
-        near, far = grid[corners, 0]
-        shares = np.array([far - target[0], target[0] - near]) / (far - near)
-    else:
-        try:
-            net = Delaunay(grid)
-        except QhullError:
-            raise outside from None
-        simplex = int(net.find_simplex(target))
-        if simplex < 0:
-            raise outside
-        corners = net.simplices[simplex]
-        shares = net.transform[simplex, :-1] @ (target - net.transform[simplex, -1])
-        shares = np.append(shares, 1.0 - shares.sum())
-    return {comparable[c]: float(share) for c, share in zip(corners, shares, strict=True) if share > 0.0}
+    return {q: float(share) for q, share in zip(comparable, shares, strict=True) if share > 0.0}
 
 
 def is_close_kind(one, other):

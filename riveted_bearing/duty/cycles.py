@@ -27,17 +27,12 @@ def outputs_of(model):
 def rainflow_columns(result):
     """The rainflow matrices of a Result as columns of a sweep's row."""
     rivets = sum(name.startswith("rivet[") and name.endswith("].sigma_head") for name in result.data)
-    tables = [
-        (2 * (k - 1) + place, classed(stress_history(result, k, name)))
-        for k in range(1, rivets + 1)
-        for place, name in enumerate(CHANNELS)
-    ]
-    columns = [np.concatenate([np.full(len(table), channel) for channel, table in tables])]
-    columns += list(np.concatenate([table for _, table in tables]).T)
+    tables = [classed(stress_history(result, k, name)) for k in range(1, rivets + 1) for name in CHANNELS]
+    columns = [np.repeat(np.arange(len(tables)), list(map(len, tables))), *np.concatenate(tables).T]
     found = {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
-    blocks = (
-        block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]}) if has_statistics(result) else {}
-    )
+    blocks = {}
+    if has_statistics(result):
+        blocks = block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]})
     return found | {name: blocks.get(name.partition(".")[2], np.nan) for name in BLOCK_COLUMNS}
 
 

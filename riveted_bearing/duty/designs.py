@@ -140,10 +140,8 @@ def plan(path, design):
                 if name in dict(leaves(block.parameters, model.parameters)):
                     raise refusal(design.name, name, design.settings[name], f"{path}: a {kind} sets it too")
     common = common_parameters(path, model)
-    document |= {
-        "parameters": common | design.settings,
-        "life": section_of(path, document, "life") | {"skip": 0.0},
-    }
+    life = section_of(path, document, "life") | {"skip": 0.0}
+    document |= {"parameters": common | design.settings, "life": life}
     return plan_mission(Path(path).stem, document, model, Path(path))
 
 
@@ -180,49 +178,38 @@ def compare_designs(
         say(design.name)
         runs = Runs(mission, design.model, Path(folder) / f"design_{k + 1}", client, progress)
         assess(mission, runs)
-        own = np.array([counted(runs, c) for c in range(len(mission.cases))])
+        own = np.array([len(runs.keys_of(c)) for c in range(len(mission.cases))])
         counts = own if counts is None else np.maximum(counts, own)
         all_runs.append(runs)
     settings = missions[0].settings
     samples = [[places(damage, settings["rivets"]) for damage in runs(counts)] for runs in all_runs]
     found = [estimate(m.duty, s, settings["confidence"]) for m, s in zip(missions, samples)]
     rows = [responses_of(runs, counts) for runs in all_runs]
-    outcomes = [
-        Outcome(
-            design,
-            found[k],
-            place_text(found[k].place, settings["rivets"]),
-            life_ratio([samples[0], samples[k]], [found[0], found[k]], settings["confidence"]) if k else None,
-            {
-                part: {
-                    name: (values.mean(), ratio_of(rows[0][part][name], values, settings["confidence"]) if k else None)
-                    for name, values in of_part.items()
-                }
-                for part, of_part in rows[k].items()
-            },
-            max(
-                rows[k],
-                key=dict(zip((part.name for part in missions[k].parts), found[k].shares, strict=True)).__getitem__,
-            ),
-            missions[k].raceways(),
-            budgets_of(missions[k], found[k], range(len(missions[k].parts)), all_runs[k]),
-        )
-        for k, design in enumerate(designs)
-    ]
+    confidence = settings["confidence"]
+
+    def ratio(k, part, name, values):
+        return ratio_of(rows[0][part][name], values, confidence) if k else None
+
+    def outcome(k):
+        mission, of_life = missions[k], found[k]
+        place = place_text(of_life.place, settings["rivets"])
+        life = life_ratio([samples[0], samples[k]], [found[0], of_life], confidence) if k else None
+        responses = {
+            part: {name: (values.mean(), ratio(k, part, name, values)) for name, values in of_part.items()}
+            for part, of_part in rows[k].items()
+        }
+        shares = dict(zip((part.name for part in mission.parts), of_life.shares, strict=True))
+        deciding = max(rows[k], key=shares.__getitem__)
+        budgets = budgets_of(mission, of_life, range(len(mission.parts)), all_runs[k])
+        return Outcome(designs[k], of_life, place, life, responses, deciding, mission.raceways(), budgets)
+
+    outcomes = tuple(map(outcome, range(len(designs))))
     rests_on = rested_on(missions)
-    return Comparison(
-        Path(path).stem,
-        missions[0].description,
-        settings["confidence"],
-        tuple(counts.tolist()),
-        tuple(outcomes),
-        (
-            *(row for key, texts in rests_on.items() for row in differing(key, texts)),
-            *differences(designs, common_parameters(path, designs[0].model)),
-        ),
-        {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1},
-        tuple(warnings_of(all_runs, outcomes)),
-    )
+    differ = [row for key, texts in rests_on.items() for row in differing(key, texts)]
+    differ += differences(designs, common_parameters(path, designs[0].model))
+    basis = {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1}
+    about, warnings = (Path(path).stem, missions[0].description, confidence), tuple(warnings_of(all_runs, outcomes))
+    return Comparison(*about, tuple(counts.tolist()), outcomes, tuple(differ), basis, warnings)
 
 
 def warnings_of(all_runs, outcomes):
@@ -242,11 +229,6 @@ def rested_on(missions):
     """{line of the basis: its text in each mission}, of the lines that any mission has."""
     lines = [dict(mission.basis) for mission in missions]
     return {key: [own.get(key, "–") for own in lines] for key in LINES if any(key in own for own in lines)}
-
-
-def counted(runs, c):
-    """Number of runs of case c that have been asked for."""
-    return sum(runs.keys[c, s] in runs.damages for s in range(runs.mission.settings["max_seeds"]))
 
 
 def life_ratio(samples, found, confidence):
@@ -277,9 +259,7 @@ def responses_of(runs, counts):
         name = mission.parts[mission.cases[c].part].name
         if n and name not in found:
             chosen = [places_of[runs.keys[c, s]] for s in range(n)]
-            found[name] = {
-                response: np.asarray(rows[response], float)[chosen] for response in RESPONSES if response in rows
-            }
+            found[name] = {one: np.asarray(rows[one], float)[chosen] for one in RESPONSES if one in rows}
             for place, word in (("head", "head"), ("mid", "middle")):
                 parts = (part[chosen] for part in static_and_swing(rows, place))
                 found[name] |= dict(zip((f"{word}_static", f"{word}_swing"), parts, strict=True))

@@ -5,18 +5,20 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import NullFormatter
 
 from ..base.files import write_json
 from ..base.units import LONGEST, hours_text
 from ..running.accuracy import DECADES
-from ..running.budget import RULE, amounts, digits, told, unsized_lines
+from ..running.budget import digits
+from ..show import charts
 from ..show.pages import save_page
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, few_ticks
+from ..show.tornado import tornado
 from .designs import APART, HEAD_STRESS, RESPONSES, ends_of
 from .page import OPEN, interval_text, open_ends
 from .raceways import card, finite
 from .raceways import record as raceway_record
+from .verdict import clipped
 
 RECORD, PAGE = "designs.json", "designs.html"
 COLOURS = (FORCE, MIDDLE, HEAD, RING, MUTED)
@@ -132,22 +134,13 @@ def life_chart(fig, found):
             ax.plot(shown_ends(outcome), [k, k], color=colour, lw=3, solid_capstyle="butt")
             ax.plot(outcome.estimate.life, k, "o", color=colour, ms=7)
         else:
-            ax.text(
-                0.98,
-                k,
-                f"{hours_text(outcome.estimate.life)} →",
-                transform=ax.get_yaxis_transform(),
-                ha="right",
-                va="center",
-                color=colour,
-            )
+            look = {"transform": ax.get_yaxis_transform(), "ha": "right", "va": "center", "color": colour}
+            ax.text(0.98, k, f"{hours_text(outcome.estimate.life)} →", **look)
     ends = [x for outcome in told for x in shown_ends(outcome) if math.isfinite(x)]
     ax.set_xscale("log")
     if ends and max(ends) < 10.0 * min(ends):
-        ticks = np.unique([float(f"{x:.2g}") for x in np.geomspace(min(ends), max(ends), 4)])
-        ax.set_xticks(ticks, [f"{x:,.0f}" if 1e2 <= x < 1e7 else f"{x:.3g}" for x in ticks])
-        ax.xaxis.set_minor_formatter(NullFormatter())
-    ax.set_yticks(range(len(found.outcomes)), [short(outcome.design.name) for outcome in found.outcomes])
+        few_ticks(ax, np.geomspace(min(ends), max(ends), 4))
+    ax.set_yticks(range(len(found.outcomes)), [clipped(outcome.design.name, 26) for outcome in found.outcomes])
     ax.set(xlabel="life [h]", ylim=(len(found.outcomes) - 0.5, -0.5))
     ax.grid(axis="y", visible=False)
 
@@ -156,11 +149,6 @@ def shown_ends(outcome):
     """Ends of the interval of life [h] as the picture shows them, an open one at OPEN times the life."""
     life, low, high = ends_of(outcome)
     return max(low, life / OPEN), min(high, life * OPEN)
-
-
-def short(name, length=26):
-    """A design's name for an axis."""
-    return name if len(name) <= length else f"{name[: length - 1]}…"
 
 
 def ratio_chart(fig, found):
@@ -175,17 +163,22 @@ def ratio_chart(fig, found):
                 ax.plot([ratio.low, ratio.high], [y, y], color=COLOURS[k % len(COLOURS)], lw=2.4)
                 ax.plot(ratio.ratio, y, "o", color=COLOURS[k % len(COLOURS)], ms=5)
     ax.axvline(1.0, color=MUTED, lw=1.0, ls="--")
-    ax.set_yticks(range(len(names)), [short(name) for name in names])
+    ax.set_yticks(range(len(names)), [clipped(name, 26) for name in names])
     ax.set(xlabel=f"{RESPONSES[response][0]}, over the first design's", ylim=(len(names) - 0.5, -0.5))
     ax.grid(axis="y", visible=False)
 
 
 def write_page(found: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns its path."""
-    from ..show import charts
-    from ..show.tornado import tornado
+    heights = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
 
-    height = 1.1 + 0.45 * len(found.outcomes), 1.1 + 0.5 * len(found.outcomes[0].responses)
+    def picture(draw, height, label):
+        return charts.svg(draw, (4.9, height), label)
+
+    def wrong(k, budget):
+        label = "true life over the number [decades]"
+        return picture(lambda fig: tornado(fig, budget, -1.0, label), 2.6, f"How wrong the life of design {k} may be")
+
     return save_page(
         path,
         "designs.html",
@@ -195,27 +188,15 @@ def write_page(found: Any, path: Path) -> Path:
         interval_text=lambda outcome: interval_text(*ends_of(outcome), few=digits(outcome.budgets)),
         life_text=lambda outcome: hours_text(outcome.estimate.life, digits(outcome.budgets)),
         budgets=lambda outcome: list(outcome.budgets.values()),
-        amounts=amounts,
-        told_with_error=told,
-        unsized_lines=unsized_lines,
-        rule=RULE,
         ratio_text=ratio_text,
         verdict=verdict,
         charts={
             **{
-                f"wrong {k}": charts.svg(
-                    lambda fig, budget=outcome.budgets[DECADES]: tornado(
-                        fig, budget, -1.0, "true life over the number [decades]"
-                    ),
-                    (4.9, 2.6),
-                    f"How wrong the life of design {k + 1} may be",
-                )
+                f"wrong {k}": wrong(k + 1, outcome.budgets[DECADES])
                 for k, outcome in enumerate(found.outcomes)
                 if DECADES in outcome.budgets
             },
-            "life": charts.svg(lambda fig: life_chart(fig, found), (4.9, max(1.8, height[0])), "Life of the designs"),
-            "ratios": charts.svg(
-                lambda fig: ratio_chart(fig, found), (4.9, max(1.8, height[1])), "Head stress of the designs"
-            ),
+            "life": picture(lambda fig: life_chart(fig, found), max(1.8, heights[0]), "Life of the designs"),
+            "ratios": picture(lambda fig: ratio_chart(fig, found), max(1.8, heights[1]), "Head stress of the designs"),
         },
     )

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..base.errors import UserError
 from ..base.toml_files import leaves
-from .parts import part_of, settling
+from .parts import part_of
 
 
 def events(path, file, model):
@@ -16,7 +16,7 @@ def events(path, file, model):
         part = part_of(path, file, model, label, name, block, block.count)
         own = {name for name, _ in leaves(block.inputs, model.inputs)}
         names = own | (set(part.scene.inputs) if block.scene is not None else set())
-        settle = settling(part.scene, model)
+        settle = part.scene.value("start.settle", model)
         scene, warnings = event_in_time(path, label, block.after_settle, part.scene, settle, sorted(names))
         yield replace(part, event=True, scene=scene, warnings=warnings)
 
@@ -37,9 +37,8 @@ def event_in_time(path, label, moved, scene, settle, names):
         told = f"{label}: inputs.{name} changes from {begin:g} s to {end:g} s"
         over = end <= settle and history.value[0] == history.value[-1]
         if over or begin >= scene.t_end:
-            remedy = (
-                "set a longer t_end" if not over else "set later times, or after_settle = true, from which they count"
-            )
+            later = "set later times, or after_settle = true, from which they count"
+            remedy = later if over else "set a longer t_end"
             raise UserError(f"{path}: {told}, but {counted}: {remedy}")
         if begin < settle or end > scene.t_end:
             warnings.append(f"{told}, but {counted}: a part of the event does not count")

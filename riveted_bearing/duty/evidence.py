@@ -1,11 +1,9 @@
 """The figures that a sheet rests on, of a mission or of one run."""
 
-from __future__ import annotations
-
 import functools
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -15,19 +13,16 @@ from ..base.errors import UserError
 from ..bearing.strength import damage_of_matrix
 from ..running.budget import digits
 from ..running.budget import of_result as of_run
+from ..running.fmu import Model
 from ..running.rainflow import CHANNELS, cycle_damages, fatigue_law_at
 from ..running.runner import simulate
 from ..running.summary import breaks, columns, has_statistics, life_is_known, settled
-from .assess import part_duty, place_text, places, used_cases
+from .assess import Life, Runs, part_duty, place_text, places, used_cases
 from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
 from .page import ends_of, interval_text
 from .raceways import Raceways
 from .starts import started
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from .assess import Life, Runs
 
 
 @dataclass(frozen=True)
@@ -68,7 +63,9 @@ def of_mission(life: Life, runs: Runs, model: Model, progress: Any = lambda done
     chosen = [(i, c) for i in life.kept if (c := first_case(mission, i)) in used]
     for done, (i, c) in enumerate(chosen):
         progress(done, len(chosen))
-        damage = np.array(damages_of(runs, c)).reshape(-1, runs.damages[runs.keys[c, 0]].size)
+        damage = np.array([runs.damages[key] for key in runs.keys_of(c)]).reshape(
+            -1, runs.damages[runs.keys[c, 0]].size
+        )
         judged = damage
         if mission.settings["rivets"] == "each":
             judged = np.where(np.arange(damage.shape[1]) == life.estimate.place, damage, 0.0)
@@ -114,22 +111,14 @@ def first_case(mission, i):
     return int(np.flatnonzero(mission.duty.blends[0, i])[0])
 
 
-def damages_of(runs, c):
-    """Damages of the runs of a case that were asked for."""
-    keys = (runs.keys[c, s] for s in range(runs.mission.settings["max_seeds"]))
-    return [runs.damages[key] for key in keys if key in runs.damages]
-
-
 def scaled_lives(life, runs, used, x):
     """Shortest lives [h] of head and middle with all stresses x times as large: cycles of the rainflow matrices, scaled
     so that they give the counted damage at x = 1.
     """
     mission, means = life.mission, []
     for c in used:
-        keys = [key for s in range(mission.settings["max_seeds"]) if (key := runs.keys[c, s]) in runs.damages]
-        means.append(
-            places(np.array([scaled_damage(runs, key, x) for key in keys]), mission.settings["rivets"]).mean(axis=0)
-        )
+        damages = np.array([scaled_damage(runs, key, x) for key in runs.keys_of(c)])
+        means.append(places(damages, mission.settings["rivets"]).mean(axis=0))
     hours, _ = lives(part_duty(mission.duty, list(life.kept)), np.array(means))
     return float(hours[0::2].min()), float(hours[1::2].min())
 

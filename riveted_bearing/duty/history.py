@@ -41,11 +41,7 @@ def binned(path, time, columns, bins, gap=None):
     width = np.where(high > low, high - low, 1.0)
     edges = [edges_of(*ends, count) for *ends, count in zip(low, high, bins, strict=True)]
     bins = [len(ends) - 1 for ends in edges]
-    spent, sums, squares = (
-        np.zeros(np.prod(bins)),
-        np.zeros((np.prod(bins), len(columns))),
-        np.zeros((np.prod(bins), len(columns))),
-    )
+    spent, (sums, squares) = np.zeros(np.prod(bins)), np.zeros((2, np.prod(bins), len(columns)))
     before = None
     for _, block in table.blocks(time, *columns):
         whole = block if before is None else np.vstack([before, block])
@@ -63,9 +59,5 @@ def binned(path, time, columns, bins, gap=None):
         raise UserError(f"{path}: at least two samples are needed")
     means, squares = sums[seen] / spent[seen, None], squares[seen] / spent[seen, None]
     spread = np.sqrt(np.maximum(squares - means**2, 0.0))
-    return (
-        spent[seen],
-        np.column_stack(np.unravel_index(np.flatnonzero(seen), bins)),
-        low + width * means,
-        width * spread,
-    )
+    cells = np.column_stack(np.unravel_index(np.flatnonzero(seen), bins))
+    return spent[seen], cells, low + width * means, width * spread

@@ -48,11 +48,6 @@ class Duty:
     slopes: np.ndarray | None = None
 
 
-def simple_duty(weights):
-    """The Duty whose parts are simulated one by one and do not change over the hours."""
-    return Duty(np.asarray(weights, float), np.eye(len(weights))[None], np.zeros(1))
-
-
 def part_rates(duty, rates):
     """Rates of the parts at the hours of the duty [..., J, I, K] from those of the cases [..., C, K] at K places."""
     logs = np.log(np.maximum(rates, NO_DAMAGE))

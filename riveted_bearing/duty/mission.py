@@ -2,13 +2,11 @@
 the keys of the file, docs/life.md an example.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +18,7 @@ from ..bearing.assumed import given_names
 from ..bearing.strength import assumed, in_words, read_strength
 from ..running.basis import basis, fast_speeds
 from ..running.effects import acts, without_effect
+from ..running.fmu import Model
 from ..running.rainflow import fatigue_law
 from ..running.scene import own_names
 from ..running.scene_case import case_at
@@ -30,11 +29,8 @@ from .miner import Duty
 from .mission_file import FEWEST, MissionFile
 from .parts import FORCED
 from .points import points
-from .raceways import Raceways, cleanliness_of, of_parts, rated, slip_warning, why_unrated
+from .raceways import Raceways, of_parts, rated, slip_warning, why_unrated
 from .slow import slow_warnings
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 MOST_TRIED = 8  # parts in which a setting without effect in one is tried
 
@@ -155,37 +151,20 @@ def curves(path: Path, section: Any, scenes: Any, model: Model) -> Any:
     found = {}
     for scene in scenes:
         given = frozenset(name for name in given_names(model, scene) if name.startswith("fatigue."))
-        found[scene_law(scene, model), given] = None
+        law = {name: scene.value(name, model) for name in model.parameters if name.startswith("fatigue.")}
+        found[fatigue_law(law), given] = None
     strengths = ((read_strength(path, section, law), given) for law, given in found)
     return "; ".join(dict.fromkeys(f"{in_words(strength)}{assumed(strength, given)}" for strength, given in strengths))
-
-
-def scene_law(scene, model):
-    """The FatigueLaw of a scene's parameters."""
-    return fatigue_law(
-        {
-            name: scene.parameters.get(name, model.default(v))
-            for name, v in model.parameters.items()
-            if name.startswith("fatigue.")
-        }
-    )
 
 
 def life_settings(path, life):
     """The settings of a Life as a dict, what depends on each other checked."""
     settings = life.model_dump()
-    if life.max_seeds < FEWEST:
-        raise refusal(path, "life.max_seeds", life.max_seeds, f"at least {FEWEST} is allowed: fewer show no scatter")
     if "min_seeds" not in life.model_fields_set:
         settings["min_seeds"] = min(life.min_seeds, life.max_seeds)
     if not FEWEST <= settings["min_seeds"] <= life.max_seeds:
         bounds = f"allowed: {FEWEST} (fewer show no scatter) to {life.max_seeds} (life.max_seeds)"
         raise refusal(path, "life.min_seeds", life.min_seeds, bounds)
-    if life.cleanliness is not None:
-        try:
-            settings["cleanliness"] = cleanliness_of(life.cleanliness)
-        except UserError as problem:
-            raise refusal(path, "life.cleanliness", life.cleanliness, problem) from None
     return settings
 
 

@@ -2,9 +2,10 @@
 
 from typing import Annotated, Any
 
-from pydantic import ConfigDict, Field
+from pydantic import BeforeValidator, ConfigDict, Field
 
 from ..base.schema import Choice, Count, Named, Number, Section, Text, Truth
+from .raceways import cleanliness_of
 
 HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
 SHARES = {"1": (1.0, 0.0), "%": (100.0, 0.0)}
@@ -85,7 +86,7 @@ class Life(Section):
         0.25, description="of life: simulate until the interval is at most life/1.25 ... 1.25 life wide"
     )
     min_seeds: Annotated[int, Count()] = 6
-    max_seeds: Annotated[int, Count()] = 32
+    max_seeds: Annotated[int, Count(FEWEST, f"at least {FEWEST} is allowed: fewer show no scatter")] = 32
     seed: Annotated[int, Count()] = Field(1, description="first start.seed, common to all points")
     skip: Annotated[float, Number(SHARES, least=0.0, below=0.5)] = Field(
         0.01, description="share of the damage that rare points may have and yet be left out by a bound"
@@ -93,7 +94,9 @@ class Life(Section):
     rivets: Annotated[str, Choice(RIVETS)] = Field(
         "each", description="alike: every rivet takes every place in turn, so that rates are means over the rivets"
     )
-    cleanliness: Any = Field(None, description="of the oil, for the raceways' life; default: normal, assumed")
+    cleanliness: Annotated[Any, BeforeValidator(cleanliness_of)] = Field(
+        None, description="of the oil, for the raceways' life; default: normal, assumed"
+    )
 
 
 class Tolerance(Section):

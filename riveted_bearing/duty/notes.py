@@ -2,22 +2,17 @@
 which effects the life does not contain.
 """
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.units import hours_text
 from ..running.effects import in_words
 from . import raceways
-from .assess import part_duty
+from .assess import Life, Runs, part_duty
 from .miner import NO_DAMAGE, class_factors
 from .page import ends_of, open_ends, percent, width_text
-
-if TYPE_CHECKING:
-    from .assess import Life, Runs
 
 ENOUGH = 0.95  # of the damage that the FMU counts: with less in the matrices the life is too long
 WIDE, MATTERS = 1.3, 0.05  # factor of a class, and share in the damage from which it is named

@@ -1,28 +1,23 @@
 """The page of a mission: life with its confidence, who contributes, rivet by rivet, damage against load and speed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import matplotlib
 import numpy as np
 from scipy.stats import t as student
 
 from ..base.units import LONGEST, figure, hours_text
 from ..running.accuracy import DECADES
-from ..running.budget import RULE, amounts, digits, life_ends, told, unsized_lines
+from ..running.budget import digits, life_ends
 from ..running.summary import RPM
 from ..show import charts
 from ..show.pages import save_page
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, few_ticks, picture
 from ..show.tornado import tornado
+from .assess import Life
 from .raceways import card
-
-if TYPE_CHECKING:
-    from .assess import Life
 
 MOST_BARS = 14
 OPEN = 11.0  # times life: an end of the interval beyond it, or below life over it, says nothing
@@ -48,10 +43,6 @@ def write_page(life: Life, path: Path, notes: Any, warnings: Any = ()) -> Path:
             for name, (draw, size, label) in charts_of(life).items()
         },
         budgets=list(life.budgets.values()),
-        amounts=amounts,
-        told_with_error=told,
-        unsized_lines=unsized_lines,
-        rule=RULE,
     )
 
 
@@ -67,23 +58,14 @@ def cards(life: Life) -> Iterator[Any]:
     yield "Life of the rivets", hours_text(found.life, few), f"{life.place} · Miner's sum 1"
     if (ends := life_ends(life.budgets)) and found.life <= LONGEST:
         largest = ", ".join(part.name for part in life.budgets[DECADES].parts[:3])
-        yield (
-            "with all its errors",
-            " – ".join(hours_text(end, few) for end in ends),
-            f"90 %, by parts: {largest} first",
-        )
-    yield (
-        f"{100 * settings['confidence']:g} % interval",
-        interval_text(*ends_of(life), few=few),
-        f"of the runs, {width_text(life)}",
-    )
+        both = " – ".join(hours_text(end, few) for end in ends)
+        yield "with all its errors", both, f"90 %, by parts: {largest} first"
+    interval = interval_text(*ends_of(life), few=few)
+    yield f"{100 * settings['confidence']:g} % interval", interval, f"of the runs, {width_text(life)}"
     yield "Life of the raceways", *card(life.mission.raceways())
     yield "Mission", *mission_text(life)
-    yield (
-        "Runs",
-        f"{sum(life.counts)}",
-        f"{sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)} points and events simulated",
-    )
+    simulated = sum(part.scene is not None for part in life.mission.parts) - len(life.bounds)
+    yield "Runs", f"{sum(life.counts)}", f"{simulated} points and events simulated"
 
 
 def mission_text(life):
@@ -169,11 +151,8 @@ def time_text(hours, mission):
 def rate_at_place(life, i):
     """Damage of part i per hour or event at the place that fails first."""
     place = life.estimate.place
-    return (
-        life.rates[i].reshape(-1)[place]
-        if life.mission.settings["rivets"] == "each"
-        else life.rates[i, :, place].mean()
-    )
+    each = life.mission.settings["rivets"] == "each"
+    return life.rates[i].reshape(-1)[place] if each else life.rates[i, :, place].mean()
 
 
 def life_chart(fig, life):
@@ -191,11 +170,8 @@ def life_chart(fig, life):
     ax.axvline(found.life, color=HEAD, lw=1.8, label="life")
     ax.set_xscale("log")
     ax.set(xlabel="life [h]", ylabel="density of ln life", xlim=(hours[0], hours[-1]), ylim=(0.0, None))
-    low, high = np.log10(hours[[0, -1]])
-    if high - low < 1.0:
-        ticks = np.unique([float(f"{10**x:.2g}") for x in np.linspace(low, high, 5)[1:-1]])
-        ax.set_xticks(ticks, [f"{tick:,.0f}" if 1e3 <= tick < 1e7 else f"{tick:.3g}" for tick in ticks])
-        ax.xaxis.set_minor_formatter(matplotlib.ticker.NullFormatter())
+    if hours[-1] < 10.0 * hours[0]:
+        few_ticks(ax, np.geomspace(hours[0], hours[-1], 5)[1:-1])
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
 
 
@@ -218,14 +194,11 @@ def share_chart(fig, life):
     ax = fig.subplots()
     parts = [(life.mission.parts[i], share) for i, share in zip(life.kept, life.estimate.shares, strict=True)]
     parts.sort(key=lambda pair: -pair[1])
-    shown = parts[:MOST_BARS] if len(parts) <= MOST_BARS else parts[: MOST_BARS - 1]
-    names = [part.name for part, _ in shown] + (
-        [f"{len(parts) - len(shown)} others"] if len(shown) < len(parts) else []
-    )
-    shares = [share for _, share in shown] + (
-        [sum(share for _, share in parts[len(shown) :])] if len(shown) < len(parts) else []
-    )
-    colours = [RING if part.event else MIDDLE for part, _ in shown] + [MUTED] * (len(names) - len(shown))
+    shown = parts if len(parts) <= MOST_BARS else parts[: MOST_BARS - 1]
+    rows = [(part.name, share, RING if part.event else MIDDLE) for part, share in shown]
+    if rest := parts[len(shown) :]:
+        rows.append((f"{len(rest)} others", sum(share for _, share in rest), MUTED))
+    names, shares, colours = zip(*rows, strict=True)
     bars = ax.barh(range(len(names)), 100 * np.array(shares), color=colours, height=0.66)
     ax.bar_label(bars, [share_text(share) for share in shares], padding=3, fontsize=8)
     ax.set_yticks(range(len(names)), names)
@@ -240,14 +213,8 @@ def rivet_chart(fig, life):
     damage = np.einsum("i,ikp->kp", life.mission.duty.weights, life.rates)
     k = np.arange(1, len(damage) + 1)
     for place, colour, label in ((0, HEAD, "head fillet"), (1, MIDDLE, "middle of the shank")):
-        ax.bar(
-            k + 0.4 * place - 0.2,
-            np.maximum(damage[:, place], 1e-300),
-            width=0.36,
-            color=colour,
-            alpha=0.85,
-            label=label,
-        )
+        look = {"width": 0.36, "color": colour, "alpha": 0.85, "label": label}
+        ax.bar(k + 0.4 * place - 0.2, np.maximum(damage[:, place], 1e-300), **look)
     seen = damage[damage > 1e-299]
     if len(seen):
         ax.set_yscale("log")
@@ -290,38 +257,32 @@ def condition(values):
     return 1e-3 * math.hypot(*loads), RPM * (values.get("shaft.omega") or 0.0)
 
 
-CHARTS = {
-    "life": (life_chart, WIDE, "Life and its confidence"),
-    "shares": (share_chart, TALL, "Share of each point and event in the damage"),
-    "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
-    "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
-}
-
-
 def wrong_chart(fig, life):
     """What the life's error is made of."""
     tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades")
 
 
+CHARTS = {
+    "life": (life_chart, WIDE, "Life and its confidence"),
+    "shares": (share_chart, TALL, "Share of each point and event in the damage"),
+    "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
+    "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
+    "wrong": (wrong_chart, TALL, "How wrong the life may be, by parts"),
+}
+
+
 def charts_of(life):
-    """The charts that a Life has."""
-    wrong = {"wrong": (wrong_chart, TALL, "How wrong the life may be, by parts")}
-    return CHARTS | (wrong if DECADES in life.budgets else {})
+    """The charts that a Life has: only with an error budget one of it."""
+    return {name: chart for name, chart in CHARTS.items() if name != "wrong" or DECADES in life.budgets}
 
 
 def write_picture(life: Life, path: Path) -> Path:
     """The charts as one PNG, whole or not at all; returns the path."""
     shown = charts_of(life).values()
     rows = (len(shown) + 1) // 2
-    with plt.rc_context(STYLE):
-        whole = plt.figure(figsize=(11, 3.7 * rows), layout="constrained")
-        whole.suptitle(
-            f"{life.mission.name}: life {hours_text(life.estimate.life, digits(life.budgets))}, {life.place}",
-            x=0.01,
-            ha="left",
-            fontsize=11,
-        )
+    title = f"{life.mission.name}: life {hours_text(life.estimate.life, digits(life.budgets))}, {life.place}"
+    with picture(path, (11, 3.7 * rows), title) as whole:
         for part, (draw, _, label) in zip(whole.subfigures(rows, 2).ravel(), shown, strict=False):
             draw(part, life)
             part.suptitle(label, x=0.02, ha="left", fontsize=10, fontweight="bold")
-        return save_figure(whole, path)
+    return path

@@ -46,24 +46,13 @@ def part_of(path, file, model, label, name, block, weight):
         (f"{path}: {label}", settings_of(block)),
         ("a mission", {"parameters": {name: value for name, value in FORCED.items() if name in model.parameters}}),
     )
-    settle = settling(scene, model)
+    settle = scene.value("start.settle", model)
     if scene.t_end <= settle:
-        raise refusal(
-            f"{path}: {label}",
-            "simulation.t_end",
-            scene.t_end,
-            f"longer than start.settle = {settle:g} s is needed, before which damage does not count",
-        )
-    return Part(
-        name,
-        False,
-        weight,
-        None if getattr(block, "interpolate", False) else scene,
-        block.preload_factor,
-        values_of(scene, model),
-        loads(model, [scene]),
-        speeds(model, [scene]),
-    )
+        reason = f"longer than start.settle = {settle:g} s is needed, before which damage does not count"
+        raise refusal(f"{path}: {label}", "simulation.t_end", scene.t_end, reason)
+    simulated = None if getattr(block, "interpolate", False) else scene
+    words = loads(model, [scene]), speeds(model, [scene])
+    return Part(name, False, weight, simulated, block.preload_factor, values_of(scene, model), *words)
 
 
 def settings_of(block):
@@ -71,17 +60,10 @@ def settings_of(block):
     return {"simulation": block.simulation, "parameters": block.parameters, "inputs": block.inputs}
 
 
-def settling(scene, model):
-    """start.settle of a scene [s]."""
-    return scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
-
-
 def values_of(scene, model):
     """What of a scene can be compared and interpolated: constant inputs, its own or the FMU's, and its parameters, SI;
     None for inputs that vary.
     """
-    own = {name: model.default(variable) for name, variable in model.inputs.items()}
-    inputs = own | {
-        name: float(history.value[0]) if len(history.t) == 1 else None for name, history in scene.inputs.items()
-    }
+    varying = {name for name, history in scene.inputs.items() if len(history.t) > 1}
+    inputs = {name: None if name in varying else scene.value(name, model) for name in model.inputs}
     return inputs | {name: value for name, value in scene.parameters.items() if not isinstance(value, bool)}

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.tables import Wanted, read
 from ..base.toml_files import leaves
 from ..base.units import SECONDS, scale
@@ -35,9 +35,8 @@ def changed_points(path, file, model):
     ends = np.cumsum([block.hours for block in blocks])
     late = [change.at for change in changes if change.at >= ends[-1]]
     if late:
-        raise refusal(
-            path, "change.at", f"{late[0]:g} h", f"from 0 to below the {ends[-1]:g} h of all points is allowed"
-        )
+        reason = f"from 0 to below the {ends[-1]:g} h of all points is allowed"
+        raise refusal(path, "change.at", f"{late[0]:g} h", reason)
     found, begin = [], 0.0
     for i, (block, end) in enumerate(zip(blocks, ends, strict=True), 1):
         edges = [begin, *sorted({change.at for change in changes if begin < change.at < end}), float(end)]
@@ -97,19 +96,14 @@ def columns_of(path, where, section, model, further=()):
             if name not in variables:
                 raise unknown(f"{path}: {where}", kind.removesuffix("s"), name, variables)
             if not isinstance(value, dict) or "column" not in value or not set(value) <= {"column", "unit", *further}:
-                raise refusal(
-                    path,
-                    f"{where}.{name}",
-                    value,
-                    f"{{ column = ..., unit = ...{''.join(f', {key} = ...' for key in further)} }} is needed",
-                )
+                keys = ", ".join(f"{key} = ..." for key in ("column", "unit", *further))
+                raise refusal(path, f"{where}.{name}", value, f"{{ {keys} }} is needed")
             if any(not isinstance(value.get(key, ""), str) for key in ("column", "unit")):
                 raise refusal(path, f"{where}.{name}", value, "column and unit are texts")
             scales = model.units[variables[name].unit]
-            try:
-                scale(value["unit"], scales) if "unit" in value else None
-            except UserError as problem:
-                raise refusal(path, f"{where}.{name}.unit", value["unit"], problem) from None
+            if "unit" in value:
+                with refusing(path, f"{where}.{name}.unit", value["unit"]):
+                    scale(value["unit"], scales)
             found[name] = (kind, Wanted(value["column"], scales, value.get("unit", "")), value)
     if not found:
         raise UserError(f"{path}: {where}: inputs or parameters are needed, each with its column")
@@ -139,10 +133,8 @@ def history_points(path, file, model):
     record = path.parent / section.file
     columns = columns_of(path, "history", section, model, ("bins",))
     bins = [count_of(path, f"history.{name}.bins", entry.get("bins", 5)) for name, (*_, entry) in columns.items()]
-    if np.prod(bins, dtype=float) > MOST_CLASSES:
-        raise UserError(
-            f"{path}: history: {np.prod(bins, dtype=float):.3g} classes; at most {MOST_CLASSES} are allowed"
-        )
+    if (classes := np.prod(bins, dtype=float)) > MOST_CLASSES:
+        raise UserError(f"{path}: history: {classes:.3g} classes; at most {MOST_CLASSES} are allowed")
     gap = None if section.longest_gap is None else 3600.0 * section.longest_gap
     wanted = [column for _, column, _ in columns.values()]
     spent, cells, means, spreads = binned(record, Wanted(section.time, SECONDS), wanted, bins, gap)

@@ -8,22 +8,18 @@
 90 % of equal bearings reach such a life.
 """
 
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError, shortlist
 from ..base.units import hours_text
+from ..bearing.case import Case
 from ..running.scene_case import scene_case
-
-if TYPE_CHECKING:
-    from ..bearing.case import Case
 
 MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
 ASSUMED = "normal"  # cleanliness where nobody gave one
@@ -69,12 +65,8 @@ def rated(case: Case) -> Any:
     def modified(life, equivalent):
         return life * life_factor(kappa, e_C * C_u / equivalent) if equivalent > 0.0 and not math.isnan(kappa) else life
 
-    lives = {
-        "L_10": L_10,
-        "L_10m": modified(L_10, P),
-        "L_10r": state.L_10r,
-        "L_10mr": modified(state.L_10r, state.P_ref),
-    }
+    lives = {"L_10": L_10, "L_10m": modified(L_10, P)}
+    lives |= {"L_10r": state.L_10r, "L_10mr": modified(state.L_10r, state.P_ref)}
     least = case.catalogue.get("minimum_load", MINIMUM_LOAD * C)
     turns = abs(load.omega - load.omega_e) * 3600.0 / (2.0 * math.pi)
     return Rated(turns, max(F_r, F_a), least, kappa, lives)
@@ -156,10 +148,8 @@ class Raceways:
     def life(self, kind):
         """Life [h] of a kind of KINDS."""
         hours = sum(hours for _, hours, _ in self.points)
-        damage = sum(
-            hours * float(np.mean([each.turns / (1e6 * each.lives[kind]) for each in samples]))
-            for _, hours, samples in self.points
-        )
+        rates = (np.mean([each.turns / (1e6 * each.lives[kind]) for each in samples]) for *_, samples in self.points)
+        damage = sum(own * float(rate) for (_, own, _), rate in zip(self.points, rates, strict=True))
         return hours / damage if damage > 0.0 else math.inf
 
     @property
@@ -181,9 +171,8 @@ class Raceways:
     @property
     def least_load(self):
         """Least load over the minimum load, inf at rest."""
-        return min(
-            (each.load / each.least for _, _, s in self.points for each in s if each.turns > 0.0), default=math.inf
-        )
+        loads = (each.load / each.least for *_, s in self.points for each in s if each.turns > 0.0)
+        return min(loads, default=math.inf)
 
 
 def of_points(model, points, cleanliness=None):
@@ -250,9 +239,8 @@ def card(found: Any) -> Any:
     """Life of Raceways to see first and what it is, for a page: (value, remark)."""
     if found.untold:
         return "not judged", found.untold
-    return hours_text(
-        found.life("L_10mr")
-    ), f"L_10mr · {in_words(found.cleanliness)} · L_10r {hours_text(found.life('L_10r'))}"
+    modified, plain = (hours_text(found.life(kind)) for kind in ("L_10mr", "L_10r"))
+    return modified, f"L_10mr · {in_words(found.cleanliness)} · L_10r {plain}"
 
 
 def sentences(found):

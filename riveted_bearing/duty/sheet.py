@@ -10,13 +10,11 @@ seed whose run had the largest damage.  A result of `run` is judged as if it wen
     contact pressure      largest pressure over bearing.p_limit
 """
 
-from __future__ import annotations
-
 import hashlib
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -27,20 +25,18 @@ from ..running.accuracy import DECADES
 from ..running.fmu import Model
 from ..running.in_run import alone_note, change_lines
 from ..running.responses import display_of
+from ..running.results import Result
 from ..running.summary import settled, table_note
 from ..show import charts
 from ..show.pages import save_page
 from ..show.report import curve
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, plt
 from ..show.tornado import tornado
+from .assess import Life
 from .evidence import of_result
 from .page import mission_text, part_rows, share_text
 from .raceways import of_result as raceways_of
 from .verdict import CHARACTERS, LINES, checks, clipped, judged, limits_crossed
-
-if TYPE_CHECKING:
-    from ..running.results import Result
-    from .assess import Life
 
 MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 8, 3, 5, 4, 2
 
@@ -64,12 +60,6 @@ class Sheet:
     parts: tuple = ()
     remarks: tuple = ()
     files: tuple = ()
-
-
-# What a sheet rests on ------------------------------------------------------------------------------------------------
-
-
-# Verdict --------------------------------------------------------------------------------------------------------------
 
 
 def assumptions(result, figure, decides=None):

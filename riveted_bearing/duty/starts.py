@@ -18,10 +18,9 @@ def started(scene, model, first, s):
     start.settle leaves no time for a run-up.
     """
     parameters = scene.parameters | {"start.seed": first + s}
-    speed = scene.inputs.get(SPEED)
-    values = np.array([model.default(model.inputs[SPEED])]) if speed is None else speed.value
-    settle = parameters.get("start.settle", model.default(model.parameters["start.settle"]))
-    if s % 2 == 0 or values[0] == 0.0 or np.any(values != values[0]) or SETTLED * settle < RUN_UP:
+    speed, settle = scene.value(SPEED, model), scene.value("start.settle", model)
+    varies = SPEED in scene.inputs and np.any(scene.inputs[SPEED].value != speed)
+    if s % 2 == 0 or speed == 0.0 or varies or SETTLED * settle < RUN_UP:
         return replace(scene, parameters=parameters)
-    run_up = History(np.array([0.0, RUN_UP]), np.array([FROM, 1.0]) * values[0])
+    run_up = History(np.array([0.0, RUN_UP]), np.array([FROM, 1.0]) * speed)
     return replace(scene, parameters=parameters, inputs=scene.inputs | {SPEED: run_up})

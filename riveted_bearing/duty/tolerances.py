@@ -11,27 +11,22 @@ cage.guide_clearance = { distribution = "triangular", low = "0.15 mm", mode = "0
 joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68 % within median/factor ... median factor
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.files import write_json
 from ..base.toml_files import leaves
 from ..base.units import check_alike, to_si
-from .assess import Runs, places
+from ..running.fmu import Model
+from .assess import Life, Runs, places
 from .blends import Case, loosened
+from .mission import Mission
 from .weibull import Weibull, fit_weibull
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from .assess import Life
-    from .mission import Mission
 
 DISTRIBUTIONS = {
     "normal": ("mean", "sd"),
@@ -74,12 +69,8 @@ def read_tolerances(mission: Mission, model: Model) -> Any:
     given = dict(leaves(section.parameters, model.parameters))
     if not given:
         raise UserError(f"{path}: tolerance.parameters: name at least one parameter with its distribution")
-    return Tolerances(
-        section.bearings,
-        section.seeds,
-        section.share,
-        {name: distribution(path, name, entry, model) for name, entry in given.items()},
-    )
+    laws = {name: distribution(path, name, entry, model) for name, entry in given.items()}
+    return Tolerances(section.bearings, section.seeds, section.share, laws)
 
 
 def distribution(path, name, entry, model):
@@ -100,14 +91,10 @@ def distribution(path, name, entry, model):
     scales, values = model.units[variable.unit], []
     for key in DISTRIBUTIONS[kind]:
         allowed = {"1": (1.0, 0.0)} if key == "factor" else differences(scales) if key == "sd" else scales
-        try:
+        with refusing(path, f"{where}.{key}", entry[key]):
             values.append(to_si(entry[key], allowed))
-        except UserError as problem:
-            raise refusal(path, f"{where}.{key}", entry[key], problem) from None
-    try:
+    with refusing(path, where, entry):
         check_alike([entry[key] for key in DISTRIBUTIONS[kind] if key != "factor"], scales)
-    except UserError as problem:
-        raise refusal(path, where, entry, problem) from None
     first, *rest = values
     if kind == "normal" and rest[0] > 0.0:
         return stats.norm(first, rest[0])
@@ -117,12 +104,8 @@ def distribution(path, name, entry, model):
         return stats.uniform(first, rest[0] - first)
     if kind == "triangular" and first < rest[1] and first <= rest[0] <= rest[1]:
         return stats.triang((rest[0] - first) / (rest[1] - first), loc=first, scale=rest[1] - first)
-    raise refusal(
-        path,
-        where,
-        entry,
-        "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed",
-    )
+    reason = "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed"
+    raise refusal(path, where, entry, reason)
 
 
 def differences(scales):
@@ -167,27 +150,15 @@ def scatter(
     lives, noise = [], []
     for b in range(tolerances.bearings):
         own = samples[b * len(chosen) : (b + 1) * len(chosen)]
-        damage = places(
-            (rest + sum(weights[i] * runs.mean(axis=0) for i, runs in zip(chosen, own, strict=True)))[None],
-            settings["rivets"],
-        )[0]
+        weighted = [weights[i] * runs for i, runs in zip(chosen, own, strict=True)]
+        damage = places((rest + sum(runs.mean(axis=0) for runs in weighted))[None], settings["rivets"])[0]
         place = int(damage.argmax())
         lives.append(1.0 / damage[place])
-        at_place = [
-            weights[i] * places(runs, settings["rivets"])[:, place] for i, runs in zip(chosen, own, strict=True)
-        ]
+        at_place = [places(runs, settings["rivets"])[:, place] for runs in weighted]
         if tolerances.seeds > 1:
             spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
-            noise.append(
-                np.sum(
-                    (
-                        np.array([runs.mean() for runs in at_place])
-                        / damage[place]
-                        * relative_error(spread, tolerances.seeds)
-                    )
-                    ** 2
-                )
-            )
+            shares = np.array([runs.mean() for runs in at_place]) / damage[place]
+            noise.append(np.sum((shares * relative_error(spread, tolerances.seeds)) ** 2))
     lives = np.array(lives)
     share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
     return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))
@@ -220,12 +191,8 @@ def changed(mission, model, i, values):
         try:
             model.check_range(value, model.parameters[name])
         except UserError as problem:
-            raise refusal(
-                mission.path,
-                f"tolerance.{name}",
-                value,
-                f"a bearing drawn from the distribution is impossible: {problem}",
-            ) from None
+            reason = f"a bearing drawn from the distribution is impossible: {problem}"
+            raise refusal(mission.path, f"tolerance.{name}", value, reason) from None
     scene = replace(scene, parameters=scene.parameters | values)
     return loosened(scene, part.factor, model)
 

@@ -125,18 +125,13 @@ def fatigue_check(evidence, place, title, target):
     amplitude = f"amplitude up to {1e-6 * evidence.amplitudes[place]:.3g} MPa (R = −1)"
     if target and evidence.life is not None:
         x = reserve(evidence, place, target)
-        text = (
-            f"{x:.3g} times the stress" if SCALES[0] * 1.01 < x < SCALES[1] / 1.01 else f"over {x:.2g} times the stress"
+        times = f"{x:.3g}" if SCALES[0] * 1.01 < x < SCALES[1] / 1.01 else f"over {x:.2g}"
+        return Check(
+            title, amplitude, f"{times} times the stress at the target", 1.0 / x, "good" if x >= 1.0 else "bad"
         )
-        return Check(title, amplitude, f"{text} at the target", 1.0 / x, "good" if x >= 1.0 else "bad")
-    if evidence.knees[place] is None:
+    if (knee := evidence.knees[place]) is None:
         return Check(title, amplitude)
-    return Check(
-        title,
-        amplitude,
-        f"S–N curve's knee {1e-6 * evidence.knees[place]:.3g} MPa",
-        evidence.amplitudes[place] / evidence.knees[place],
-    )
+    return Check(title, amplitude, f"S–N curve's knee {1e-6 * knee:.3g} MPa", evidence.amplitudes[place] / knee)
 
 
 def raceway_checks(evidence, target):
@@ -144,14 +139,10 @@ def raceway_checks(evidence, target):
     found = evidence.raceways
     if found.untold:
         return
-    lives = found.lives
-    yield Check(
-        "Raceways",
-        life_text(found),
-        f"at least {hours_text(target)}" if target else "",
-        target / min(lives) if target else None,
-        raceways_judged(found, target) if target else "",
-    )
+    limits = ("", None, "")
+    if target:
+        limits = f"at least {hours_text(target)}", target / min(found.lives), raceways_judged(found, target)
+    yield Check("Raceways", life_text(found), *limits)
     if math.isfinite(least := found.least_load):
         slips = [slip for result in evidence.results.values() if (slip := mean_slip(result)) is not None]
         slip = f", cage slip up to {100.0 * max(slips):.2g} %" if slips else ""
@@ -198,13 +189,8 @@ def film_checks(results):
         value = found[part, race]
         where = f", {clipped(part, 18)}" if len(results) > 1 else ""
         state = "good" if value >= MIXED else "open"
-        yield Check(
-            "Oil film/roughness",
-            f"{value:.2g} ({race} race{where})",
-            f"at least {MIXED:g}, below it asperities carry",
-            None,
-            state,
-        )
+        allowed = f"at least {MIXED:g}, below it asperities carry"
+        yield Check("Oil film/roughness", f"{value:.2g} ({race} race{where})", allowed, None, state)
 
 
 def limits_crossed(results):

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from ..base.errors import UserError, extra
+from ..base.errors import UserError, library
 from ..base.units import hours_text
-from ..show.style import FORCE, HEAD, MIDDLE, STYLE, plt, save_figure
+from ..show.style import FORCE, HEAD, MIDDLE, few_ticks, picture
 
 
 @dataclass(frozen=True)
@@ -45,10 +45,7 @@ def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
 
     Raises UserError with fewer than three failures, times that are not positive, or if surpyval is missing.
     """
-    try:
-        import surpyval
-    except ImportError:
-        raise UserError(f"a Weibull law needs the library surpyval: {extra('full')}") from None
+    surpyval = library("surpyval", "a Weibull law")
     lives, suspended = np.asarray(lives, float), np.asarray(suspended, float)
     times = np.concatenate([lives, suspended])
     if len(lives) < 3 or np.ptp(lives) == 0.0:
@@ -78,25 +75,17 @@ def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
 
 def write_weibull_plot(law: Any, title: str, path: Path) -> Path:
     """Weibull paper: lives at their median ranks, the law as a straight line, B10 with its interval; returns the path."""
-    with plt.rc_context(STYLE):
-        figure, ax = plt.subplots(figsize=(6.4, 4.8), layout="constrained")
+    with picture(path, (6.4, 4.8), title) as figure:
+        ax = figure.subplots()
         first, last = (law.eta * (-np.log1p(-share)) ** (1.0 / law.beta) for share in (0.01, 0.99))
-        low, high = (
-            0.97 * min(law.lives.min(), law.b10_interval[0], first),
-            1.03 * max(law.lives.max(), law.b10_interval[1], last),
-        )
+        low = 0.97 * min(law.lives.min(), law.b10_interval[0], first)
+        high = 1.03 * max(law.lives.max(), law.b10_interval[1], last)
         t = np.geomspace(low, high, 100)
         ax.plot(t, (t / law.eta) ** law.beta, color=MIDDLE, lw=1.4, label=f"β {law.beta:.3g}, η {hours_text(law.eta)}")
         ax.plot(law.lives, -np.log1p(-law.ranks), "o", color=FORCE, ms=4, label="lives, median ranks")
         ax.plot(law.b10_interval, [-np.log(0.9)] * 2, color=HEAD, lw=2.0, solid_capstyle="butt")
-        ax.plot(
-            law.b10,
-            -np.log(0.9),
-            "o",
-            color=HEAD,
-            ms=7,
-            label=f"B10 {hours_text(law.b10)}, {100 * law.confidence:g} % interval",
-        )
+        label = f"B10 {hours_text(law.b10)}, {100 * law.confidence:g} % interval"
+        ax.plot(law.b10, -np.log(0.9), "o", color=HEAD, ms=7, label=label)
         shares = np.array([0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 0.8, 0.95, 0.99])
         ax.set(
             xscale="log",
@@ -107,11 +96,7 @@ def write_weibull_plot(law: Any, title: str, path: Path) -> Path:
             ylim=(0.6 * -np.log1p(-min(0.02, law.ranks.min())), 5.0),
         )
         ax.set_yticks(-np.log1p(-shares), [f"{100 * share:g} %" for share in shares])
-        ax.set_xticks(
-            ticks := np.unique([float(f"{x:.2g}") for x in np.geomspace(1.02 * low, 0.98 * high, 5)]),
-            [f"{tick:,.4g}" for tick in ticks],
-        )
+        few_ticks(ax, np.geomspace(1.02 * low, 0.98 * high, 5))
         ax.minorticks_off()
         ax.legend(loc="upper left")
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11)
-        return save_figure(figure, path)
+    return path

@@ -1,24 +1,19 @@
 """What an identification leaves: identify.json, the scene file identified.toml, and the page identify.html."""
 
-from __future__ import annotations
-
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from ..base.files import write_text
+from ..base.files import write_json, write_text
 from ..base.toml_files import to_toml
 from ..base.version import __version__
 from ..running.responses import display_of, displayed, titled
+from ..running.scene import Scene
 from ..show import charts
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED
-
-if TYPE_CHECKING:
-    from ..running.scene import Scene
 
 VERDICTS = {"both": "decided", "below": "bounded from below", "above": "bounded from above", "no": "not decided"}
 
@@ -42,19 +37,11 @@ def target_rows(found):
         unit, factor, offset = unit_of(target)
         mean, error = found.answer.mean[k], found.answer.error[k]
         share = f"{100.0 * (mean / target.value - 1.0):+.1f}" if target.value and not offset else ""
-        rows.append(
-            (
-                target.name + (f" [{unit}]" if unit else ""),
-                "held out" if target.held_out else "fitted",
-                f"{factor * target.value + offset:.4g}",
-                f"{factor * target.uncertainty:.2g}",
-                f"{factor * mean + offset:.4g}",
-                f"{factor * error:.2g}",
-                f"{found.answer.deviation[k]:+.2f}",
-                share,
-                f"{found.before.deviation[k]:+.2f}",
-            )
-        )
+        title = target.name + (f" [{unit}]" if unit else ""), "held out" if target.held_out else "fitted"
+        measured = f"{factor * target.value + offset:.4g}", f"{factor * target.uncertainty:.2g}"
+        result = f"{factor * mean + offset:.4g}", f"{factor * error:.2g}"
+        after, before = (f"{one.deviation[k]:+.2f}" for one in (found.answer, found.before))
+        rows.append((*title, *measured, *result, after, share, before))
     return rows
 
 
@@ -66,11 +53,8 @@ def unit_of(target):
     if target.operation == "over" or target.column.startswith(("band(", "line(")):
         return ("" if target.unit == "1" else target.unit), 1.0, 0.0
     unit, factor, offset = display_of(target.column)
-    return (
-        (unit or ("" if target.unit == "1" else target.unit)),
-        factor,
-        0.0 if target.operation == "minus" or target.column.startswith("std(") else offset,
-    )
+    difference = target.operation == "minus" or target.column.startswith("std(")
+    return unit or ("" if target.unit == "1" else target.unit), factor, 0.0 if difference else offset
 
 
 def error_rows(found: Any) -> Any:
@@ -78,11 +62,8 @@ def error_rows(found: Any) -> Any:
     rows = []
     for label, key in (("fitted", "fit"), ("held out", "held_out")):
         count = sum(target.held_out == (key == "held_out") for target in found.study.targets)
-        texts = [
-            "" if (pair := getattr(one, key)) is None else f"{pair[0]:.3g} ± {pair[1]:.1g}"
-            for one in (found.answer, found.before)
-        ]
-        rows.append((label, str(count), *texts))
+        pairs = (getattr(one, key) for one in (found.answer, found.before))
+        rows.append((label, str(count), *("" if pair is None else f"{pair[0]:.3g} ± {pair[1]:.1g}" for pair in pairs)))
     return rows
 
 
@@ -121,8 +102,7 @@ def write_answer(found: Any, basis: Any, path: Path) -> Path:
         "rounds": found.rounds,
         "notes": found.notes,
     }
-    text = json.dumps(document, indent=1) + "\n"
-    return write_text(path, text)
+    return write_json(path, document)
 
 
 def write_scene(found: Any, scene: Scene, path: Path) -> Path:
@@ -131,13 +111,11 @@ def write_scene(found: Any, scene: Scene, path: Path) -> Path:
     for key in ("output_interval", "tolerance"):
         if getattr(scene, key) is not None:
             simulation[key] = getattr(scene, key)
-    inputs = {name: plain(history) for name, history in scene.inputs.items()}
     document = {
         "description": f"{found.study.path.stem}: identified from {len(found.study.targets)} targets",
         "simulation": simulation,
         "parameters": dict(scene.parameters),
-        "inputs": {name: value for name, value in inputs.items() if not isinstance(value, dict)}
-        | {name: value for name, value in inputs.items() if isinstance(value, dict)},
+        "inputs": {name: plain(history) for name, history in scene.inputs.items()},  # numbers come first in TOML
     }
     lines = list(to_toml(document))
     for at, values in scene.changes:
@@ -161,18 +139,13 @@ def plain(history):
 def write_page(found: Any, basis: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns the path."""
     study = found.study
-    pictures = [
-        charts.svg(
-            lambda fig: deviations(fig, found), (6.4, 1.4 + 0.26 * len(study.targets)), "targets beside results"
-        ),
-        *(
-            charts.svg(lambda fig, p=parameter: profile(fig, found, p), (4.9, 2.7), f"profile of {parameter.name}")
-            for parameter in study.parameters
-        ),
-    ]
-    correlations = [
-        (name, *(f"{x:.2f}" for x in row)) for name, row in zip(study.names, found.correlations, strict=True)
-    ]
+    height = 1.4 + 0.26 * len(study.targets)
+    pictures = [charts.svg(lambda fig: deviations(fig, found), (6.4, height), "targets beside results")]
+    for parameter in study.parameters:
+        label = f"profile of {parameter.name}"
+        pictures.append(charts.svg(lambda fig, p=parameter: profile(fig, found, p), (4.9, 2.7), label))
+    pairs = zip(study.names, found.correlations, strict=True)
+    correlations = [(name, *(f"{x:.2f}" for x in row)) for name, row in pairs]
     effects = [(target.name, *(f"{x:.1f}" for x in found.effects[:, k])) for k, target in enumerate(study.targets)]
     return save_page(
         path,

@@ -1,24 +1,20 @@
 """Candidate causes: their ranges, the designs that are drawn from them, and the inspections that tell causes apart."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from pydantic import Field
 from scipy.stats import qmc
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import refusal, refusing, unknown
 from ..base.schema import Named, Section, Text, checked
 from ..base.toml_files import leaves, read_toml
 from ..base.units import scales_of, to_si
+from ..running.fmu import Model
+from ..running.scene import Scene
 from ..studies.sweep_file import bounds, known_names
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from ..running.scene import Scene
 
 SHIPPED = Path(__file__).resolve().parents[1] / "data" / "causes.toml"
 OWN = {  # names that are none of the FMU's, with their values where nothing is out of order
@@ -137,13 +133,11 @@ def cause_of(path, block, sound, names, model, scene):
 def range_of(where, name, spec, model, scene):
     """The Range of [low, high] or of a table, in data/causes.toml."""
     table = spec if isinstance(spec, dict) else {"from": spec[0], "to": spec[1]} if is_pair(spec) else {}
-    kinds = [kind for kind in ("times", "plus") if is_pair(table.get(kind))] + ["from"] * (
-        "from" in table and "to" in table
-    )
+    kinds = [kind for kind in ("times", "plus") if is_pair(table.get(kind))]
+    kinds += ["from"] * ("from" in table and "to" in table)
     if len(kinds) != 1 or not set(table) <= {"from", "to", "times", "of", "plus", "spacing"}:
-        raise refusal(
-            where, name, spec, "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed"
-        )
+        reason = "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed"
+        raise refusal(where, name, spec, reason)
     if kinds == ["from"]:
         low, high = pair_of(where, name, (table["from"], table["to"]), model)
     elif kinds == ["times"]:
@@ -176,12 +170,9 @@ def own_value(where, name, model, scene):
     name = name.replace("[*]", "[1]")
     if name in OWN:
         return OWN[name]
-    if name in scene.inputs:
-        return float(scene.inputs[name](0.0))
-    variable = (model.parameters | model.inputs).get(name)
-    if variable is None:
-        raise unknown(where, "parameter or input", name, [*model.parameters, *model.inputs])
-    return float(scene.parameters.get(name, model.default(variable)))
+    if name not in (known := [*model.parameters, *model.inputs]):
+        raise unknown(where, "parameter or input", name, known)
+    return float(scene.value(name, model))
 
 
 def quantity_of(path, block, names, model):
@@ -190,10 +181,8 @@ def quantity_of(path, block, names, model):
     if block.quantity not in names:
         raise unknown(where, "parameter or input", block.quantity, names)
     relative = isinstance(block.uncertainty, str) and block.uncertainty.strip().endswith("%")
-    try:
+    with refusing(where, "uncertainty", block.uncertainty):
         spread = to_si(block.uncertainty, scales_of("1", {}) if relative else scales_at(block.quantity, model))
-    except UserError as problem:
-        raise refusal(where, "uncertainty", block.uncertainty, problem) from None
     if not spread > 0.0:
         raise refusal(where, "uncertainty", block.uncertainty, "must be greater than 0")
     return Quantity(block.name, block.quantity, spread, relative, block.text)
@@ -213,9 +202,8 @@ def designs(cause: Cause, count: int, seed: Any, model: Model) -> list[dict[str,
     single = [name for name in cause.ranges if "[*]" not in name]
     shared = [name for name in single if name in cause.sound]
     own = [name for name in single if name not in cause.sound]
-    cubes = [
-        qmc.LatinHypercube(d=max(len(n), 1), rng=s).random(count) for n, s in ((cause.sound, seed), (own, seed + 1))
-    ]
+    names = (cause.sound, seed), (own, seed + 1)
+    cubes = [qmc.LatinHypercube(d=max(len(n), 1), rng=s).random(count) for n, s in names]
     places = [cause.sound.index(name) for name in shared]
     unit = np.hstack([cubes[0][:, places], cubes[1][:, : len(own)]])
     rng, known = np.random.default_rng(seed), [*model.parameters, *model.inputs]

@@ -1,47 +1,27 @@
 """What `causes` leaves: causes.json, and the page causes.html for the report of a laboratory."""
 
-from __future__ import annotations
-
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..base.files import write_atomically
+from ..base.files import write_json
 from ..base.units import hours_text
 from ..base.version import __version__
 from ..running.responses import display_of
 from ..show import charts
 from ..show.pages import save_page
 from ..show.plot import FORCE, HEAD, MIDDLE, MUTED
-from .findings import NONE
-from .order import plain
+from .findings import NONE, Study
+from .order import State, plain
 from .pool import RESPONSES
-from .posterior import heavy, sound_medians
-
-if TYPE_CHECKING:
-    from .findings import Study
-    from .order import State
-    from .posterior import Answer, Predicted
+from .posterior import Answer, Predicted, heavy, sound_medians
 
 STRONG = 2.0  # a finding that changes the odds by this speaks for or against a cause
 FEW = 4.0  # designs: below it the Monte Carlo interval itself is a guess
 LEAST = 0.01  # probability below which a cause is named without words
 RANKED = ("cause", "probability", "Monte Carlo interval", "90 % set", "for it", "against it")
-PREDICTED = (
-    "cause",
-    "hours, median",
-    "80 %",
-    "broke within",
-    "middles",
-    "beside a gap",
-    "loose",
-    "pocket",
-    "side",
-    "land",
-    "face",
-)
+PREDICTED = ("cause", "hours, median", "80 %", "broke within", "middles", "beside a gap", "loose", *RESPONSES)
 
 
 def ranked_rows(said: Answer) -> Any:
@@ -55,16 +35,8 @@ def ranked_rows(said: Answer) -> Any:
         known = said.posterior[k] >= LEAST
         inside = "yes" if k in said.credible else ""
         share = f"{100 * said.posterior[k]:.0f} %" if known else "< 1 %"
-        rows.append(
-            (
-                said.names[k],
-                share,
-                f"{100 * low:.0f} ... {100 * high:.0f} %",
-                inside,
-                ", ".join(speaks[:4]),
-                ", ".join(denies[:4]),
-            )
-        )
+        shares = share, f"{100 * low:.0f} ... {100 * high:.0f} %", inside
+        rows.append((said.names[k], *shares, ", ".join(speaks[:4]), ", ".join(denies[:4])))
     return rows
 
 
@@ -153,7 +125,7 @@ def cause_rows(study: Study) -> Any:
     ]
 
 
-def write_json(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
+def write_answer(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
     """Write the answer as JSON, whole or not at all; returns the path."""
     document: dict[str, Any] = {"version": __version__, "description": study.file.description, "basis": dict(basis)}
     document["findings"] = dict(finding_rows(study))
@@ -179,26 +151,22 @@ def write_json(study: Study, said: Answer | None, pool: Any, states: Any, basis:
         }
     if states:
         document["order"] = [plain(state) for state in states]
-    text = json.dumps(document, indent=1) + "\n"
-    write_atomically(path, lambda temporary: temporary.write_text(text, encoding="utf-8"))
-    return path
+    return write_json(path, document)
 
 
 def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
     """Write the page, whole or not at all; returns the path."""
-    pictures = [("What was found", charts.svg(lambda fig: cage(fig, study), (4.2, 4.2), "rivets on the table"))]
+    pictures = []
+
+    def add(title, draw, about, size, label):
+        pictures.append((title, charts.svg(lambda fig: draw(fig, about), size, label)))
+
+    add("What was found", cage, study, (4.2, 4.2), "rivets on the table")
     if said is not None:
-        size = (4.6, 0.8 + 0.19 * len(said.names))
-        pictures.append(("Causes", charts.svg(lambda fig: bars(fig, said), size, "probability of each cause")))
-        size = (4.6, 0.8 + 0.19 * len(said.inspections))
-        pictures.append(
-            ("What to inspect next", charts.svg(lambda fig: gains(fig, said), size, "expected information"))
-        )
+        add("Causes", bars, said, (4.6, 0.8 + 0.19 * len(said.names)), "probability of each cause")
+        add("What to inspect next", gains, said, (4.6, 0.8 + 0.19 * len(said.inspections)), "expected information")
     if states:
-        size = (2.3 * len(states), 2.7)
-        pictures.append(
-            ("What breaks next", charts.svg(lambda fig: cascade(fig, states), size, "rivets in order of breakage"))
-        )
+        add("What breaks next", cascade, states, (2.3 * len(states), 2.7), "rivets in order of breakage")
     return save_page(
         path,
         "causes.html",
@@ -230,11 +198,10 @@ def order_rows(states: list[State] | None) -> Any:
     """States in order: what is gone, what breaks next."""
     rows = []
     for state in states or ():
-        next_one = (
-            ("none", "", "", "")
-            if state.rivet is None
-            else (str(state.rivet), str(state.place), hours_text(state.hours), f"{100 * (state.sure or 0.0):.0f} %")
-        )
+        next_one = ("none", "", "", "")
+        if state.rivet is not None:
+            sure = f"{100 * (state.sure or 0.0):.0f} %"
+            next_one = str(state.rivet), str(state.place), hours_text(state.hours), sure
         gone = ", ".join(map(str, state.gone)) or "none"
         rows.append((gone, *next_one, f"{state.stress.max() / 1e6:.0f}", f"{1e6 * state.dislocation:.1f}"))
     return rows
@@ -256,12 +223,12 @@ def ring(ax, Z):
     return np.cos(angle), np.sin(angle)
 
 
-KINDS = {
-    "head": (HEAD, "o"),
-    "middle": (MIDDLE, "o"),
-    "unknown": (FORCE, "o"),
-    "loose": ("none", "o"),
-    "missing": (MUTED, "x"),
+KINDS = {  # of rivets: colour, marker, in words
+    "head": (HEAD, "o", "head"),
+    "middle": (MIDDLE, "o", "middle"),
+    "unknown": (FORCE, "o", "broken, place unknown"),
+    "loose": ("none", "o", "loose"),
+    "missing": (MUTED, "x", "never set"),
 }
 
 
@@ -273,19 +240,12 @@ def cage(fig, study):
     kind_of = {k: name for name in KINDS for k in found.places[name] or ()}
     for k in range(1, Z + 1):
         kind = kind_of.get(k)
-        colour, marker = KINDS[kind] if kind else (MUTED, ".")
+        colour, marker, _ = KINDS[kind] if kind else (MUTED, ".", "")
         plain_edge = {} if marker == "x" else {"edgecolor": FORCE if kind else "none"}
         ax.scatter(x[k - 1], y[k - 1], s=150 if kind else 60, color=colour, marker=marker, zorder=3, **plain_edge)
         first = f" ({found.order.index(k) + 1}.)" if k in found.order else ""
         ax.text(1.33 * x[k - 1], 1.33 * y[k - 1], f"{k}{first}", ha="center", va="center", fontsize=9)
-    words = {
-        "head": "head",
-        "middle": "middle",
-        "unknown": "broken, place unknown",
-        "loose": "loose",
-        "missing": "never set",
-    }
-    said = [(name, f"{found.counts[name]} {text}") for name, text in words.items() if found.counts[name]]
+    said = [(name, f"{found.counts[name]} {text}") for name, (*_, text) in KINDS.items() if found.counts[name]]
     for i, (name, text) in enumerate(said):
         height = 0.12 * (len(said) - 1) - 0.24 * i
         colour = KINDS[name][0] if KINDS[name][0] != "none" else FORCE

@@ -18,27 +18,23 @@
 What is missing is not known.  "about" makes an uncertainty three times as large, that of the hours a factor of two.
 """
 
-from __future__ import annotations
-
 import operator
 from dataclasses import dataclass, field
 from functools import cached_property, reduce
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BeforeValidator, Field
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import Choice, Count, Named, Number, Section, checked
 from ..base.units import to_si
 from ..design.bench import Seeded
+from ..running.fmu import Model
+from ..running.scene import Scene
 from .candidates import Inspection, OwnCause, candidates, scales_at
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from ..running.scene import Scene
 
 HOURS = {"h": (1.0, 0.0), "d": (1.0 / 24.0, 0.0), "years": (1.0 / 8766.0, 0.0)}
 ABOUT, ABOUT_HOURS = 3.0, np.log10(2.0)
@@ -214,10 +210,8 @@ def findings_of(path, file, Z, quantities, model):
     hours = None
     if file.hours is not None:
         about, text = is_about(file.hours)
-        try:
+        with refusing(path, "hours", file.hours):
             value = Number(HOURS, above=0.0).read(text)
-        except UserError as problem:
-            raise refusal(path, "hours", file.hours, problem) from None
         if value > file.within:
             raise refusal(path, "hours", file.hours, f"at most within = {file.within:g} h is allowed")
         hours = (np.log10(value), ABOUT_HOURS if about else 0.0)
@@ -227,10 +221,8 @@ def findings_of(path, file, Z, quantities, model):
             raise unknown(f"{path}: measured", "inspection", name, quantities)
         one = quantities[name]
         about, text = is_about(given)
-        try:
+        with refusing(path, f"measured.{name}", given):
             value = to_si(text, scales_at(one.quantity, model))
-        except UserError as problem:
-            raise refusal(path, f"measured.{name}", given, problem) from None
         measured[name] = (value, float(one.sd(value)) * (ABOUT if about else 1.0))
     marks = {name: value == "heavy" for name, value in vars(file.marks).items() if value is not None}
     looked = frozenset(name for name in ("loose", "missing") if getattr(file, name) is not None)

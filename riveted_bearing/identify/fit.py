@@ -19,8 +19,7 @@ from scipy.optimize import least_squares
 from scipy.stats import chi2, qmc
 from threadpoolctl import threadpool_limits
 
-from ..base.errors import UserError
-from ..design.sensitivity import salib
+from ..base.errors import UserError, library
 from .surrogate import Surrogate, Together, pruned
 
 FRESH = 1000  # added to start.seed: seeds that the search has not seen
@@ -192,20 +191,9 @@ def found_by(study, evaluate, start):
     fresh = range(study.settings["seed"] + FRESH, study.settings["seed"] + FRESH + study.settings["check_seeds"])
     again = evaluate(np.vstack([study.values(best), start]), fresh)
     answer, untuned = (check(study, point, one) for point, one in zip([study.values(best)[0], start], again))
-    found = Found(
-        study,
-        intervals,
-        C / np.sqrt(np.outer(np.diag(C), np.diag(C))),
-        widened,
-        misfit,
-        effects(study, objective, u, values, best),
-        screen,
-        answer,
-        untuned,
-        u,
-        rounds,
-        [],
-    )
+    correlations = C / np.sqrt(np.outer(np.diag(C), np.diag(C)))
+    changes = effects(study, objective, u, values, best)
+    found = Found(study, intervals, correlations, widened, misfit, changes, screen, answer, untuned, u, rounds, [])
     found.notes.extend(notes(found, objective, best))
     return found
 
@@ -215,25 +203,20 @@ def screen_points(study):
     settings, d = study.settings["screen"], len(study.parameters)
     problem = {"num_vars": d, "names": study.names, "bounds": [[0.0, 1.0]] * d}
     if settings["method"] == "morris":
-        sample_morris, *_ = salib("identify")
-        return sample_morris.sample(
-            problem, settings["trajectories"], num_levels=settings["levels"], seed=study.settings["seed"]
-        )
-    salib("identify")
-    from SALib.sample import latin
-
-    return latin.sample(problem, settings["count"], seed=study.settings["seed"])
+        morris, count = library("SALib.sample.morris", "identify"), settings["trajectories"]
+        return morris.sample(problem, count, num_levels=settings["levels"], seed=study.settings["seed"])
+    return library("SALib.sample.latin", "identify").sample(problem, settings["count"], seed=study.settings["seed"])
 
 
 def screening(study, u, values):
     """Morris' mean effects {target: {parameter: mu_star}} in units of the target; nothing for another design."""
     if study.settings["screen"]["method"] != "morris" or np.isnan(values).any():
         return {}
-    _, analyze_morris, *_ = salib("identify")
+    morris = library("SALib.analyze.morris", "identify")
     problem = {"num_vars": len(study.names), "names": study.names, "bounds": [[0.0, 1.0]] * len(study.names)}
     levels, found = study.settings["screen"]["levels"], {}
     for k, target in enumerate(study.targets):
-        effect = analyze_morris.analyze(problem, u, values[:, :, k].mean(axis=1), num_levels=levels, seed=1)
+        effect = morris.analyze(problem, u, values[:, :, k].mean(axis=1), num_levels=levels, seed=1)
         found[target.name] = dict(zip(study.names, map(float, effect["mu_star"]), strict=True))
     return found
 
@@ -342,9 +325,8 @@ def effects(study, objective, u, values, best):
 def check(study, values, figures):
     """The Check of figures [seeds, targets] at parameter values."""
     if not np.isfinite(figures).all():
-        raise UserError(
-            f"{study.path}: runs with fresh seeds were stopped by the FMU at {dict(zip(study.names, values))}"
-        )
+        place = dict(zip(study.names, values))
+        raise UserError(f"{study.path}: runs with fresh seeds were stopped by the FMU at {place}")
     wanted = np.array([target.value for target in study.targets])
     sigma = np.array([target.uncertainty for target in study.targets])
     mean, n = figures.mean(axis=0), len(figures)

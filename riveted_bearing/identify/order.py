@@ -66,9 +66,8 @@ def state_of(bench, rivets, gone):
     if len(gone) == rivets:
         return State(tuple(gone), np.zeros((rivets, 2)), np.zeros(rivets), 0.0, 0), None
     numbers = range(1, rivets + 1)
-    names = [f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")] + [
-        f"stat.rivet_head_p999[{k}]" for k in numbers
-    ]
+    names = [f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")]
+    names += [f"stat.rivet_head_p999[{k}]" for k in numbers]
     names += ["simulated_time", "start.settle", "max(cage.dislocation)", "max(event.joint_open)"]
     values = bench([f"rivet[{k}].intact" for k in gone], [[0.0] * len(gone)], names)[0]  # [seeds, names]
     if np.isnan(values).any(axis=1).all():
@@ -78,9 +77,8 @@ def state_of(bench, rivets, gone):
     hours *= float(bench.scene.parameters.get("fatigue.acceleration", 1.0))
     rates = values[:, : 2 * rivets].reshape(-1, rivets, 2) / hours[:, None, None]
     stress = values[:, 2 * rivets : 3 * rivets].mean(axis=0)
-    return State(
-        tuple(gone), rates.mean(axis=0), stress, float(np.max(values[:, -2])), int(np.max(values[:, -1]))
-    ), rates
+    largest = float(np.max(values[:, -2])), int(np.max(values[:, -1]))
+    return State(tuple(gone), rates.mean(axis=0), stress, *largest), rates
 
 
 def follow(state_at, breaks, seed=1, missing=(), within=np.inf):
@@ -94,10 +92,8 @@ def follow(state_at, breaks, seed=1, missing=(), within=np.inf):
         if missing and not states:
             damage[np.array(missing) - 1] = -np.inf
         hours, first = next_break(damage, state.rates)
-        end = end_of(
-            state, rates, len(gone) - len(missing) >= breaks, hours, within - sum(each.hours for each in states)
-        )
-        if end:
+        left = within - sum(each.hours for each in states)
+        if end := end_of(state, rates, len(gone) - len(missing) >= breaks, hours, left):
             return [*states, replace(state, end=end)]
         resampled = rates[rng.integers(len(rates), size=(RESAMPLES, len(rates)))].mean(axis=1)
         sure = float(np.mean([next_break(damage, each)[1] == first for each in resampled]))

@@ -10,29 +10,22 @@ of one lot.  A strength s multiplies a damage rate by s^-k; k is the slope of th
 the same damage with one cycle a turn.
 """
 
-from __future__ import annotations
-
-import hashlib
 import json
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
 
 from ..base.errors import UserError
-from ..running.fmu import Instance
+from ..running.fmu import Instance, Model
 from ..running.scene import Scene, load_scene
 from ..studies.sweep import run_sweep, unpacked
 from ..studies.sweep_file import Sweep, beside, key_of, sections_of
 from .candidates import OWN, designs
-from .findings import rivets_of
+from .findings import Study, rivets_of
 from .order import next_break
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from .findings import Study
 
 SETTLE, WINDOW, SETTLE_AGAIN, WINDOW_AGAIN = 9.0, 21.0, 3.0, 9.0  # turns of the shaft
 SCATTER = np.log(1.25) / 2.563  # of the logarithm of a rivet's strength: 90 % over 10 % is 1.25, FKM
@@ -53,11 +46,7 @@ class Followed(Scene):
 
 def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followed:
     """The Followed of a scene: its times in turns of its own shaft."""
-    omega = (
-        scene.inputs["shaft.omega"](0.0)
-        if "shaft.omega" in scene.inputs
-        else model.default(model.inputs["shaft.omega"])
-    )
+    omega = scene.value("shaft.omega", model)
     if not abs(omega) > 0.0:
         raise UserError(f"{scene.name}: shaft.omega = 0: nothing breaks at rest")
     for name, history in scene.inputs.items():
@@ -65,16 +54,13 @@ def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followe
             raise UserError(f"{scene.name}: {name} varies in time: give the point of the mission that does the damage")
     if scene.changes:
         raise UserError(f"{scene.name}: change: parameters that change in the run are not for causes")
-    turn = 2.0 * np.pi / abs(float(omega))
+    turn = 2.0 * np.pi / abs(omega)
     settle = np.ceil(SETTLE * turn / scene.step) * scene.step
     t_end = settle + (WINDOW + breaks * (SETTLE_AGAIN + WINDOW_AGAIN) + 1.0) * turn
     values = {name: value for name, value in vars(scene).items() if name != "t_end"}
     kept = {name: value for name, value in scene.parameters.items() if name not in ACCELERATED}
-    values["parameters"] = kept | {
-        "start.settle": float(settle),
-        "scene.stress": "fatigue",
-        "scene.statistics": "off",
-    }
+    forced = {"start.settle": float(settle), "scene.stress": "fatigue", "scene.statistics": "off"}
+    values["parameters"] = kept | forced
     values["outputs"] = ()
     return Followed(**values, t_end=float(t_end), breaks=breaks, turn=turn, strengths=strengths)
 
@@ -141,7 +127,7 @@ class Cage:
         numbers = range(1, self.Z + 1)
         self.gone = [k for k in numbers if scene.parameters.get(f"rivet[{k}].intact", 1) == 0]
         self.strengths = np.array(scene.strengths) if len(scene.strengths) else np.ones((self.Z, 2))
-        self.curve = [float(scene.parameters.get(name, model.default(model.parameters[name]))) for name in CURVE]
+        self.curve = [float(scene.value(name, model)) for name in CURVE]
         self.damage = instance.reader([f"rivet[{k}].damage_{place}" for k in numbers for place in ("head", "mid")])
         sides = [name for name in model.outputs if name.endswith("].Q_cx")]
         self.watched = instance.reader([*MEANS, "cage.dislocation", *sides])
@@ -207,9 +193,8 @@ def sampled(study: Study, model: Model, document: Any, count: int | None = None,
             strengths[:, 0] *= min(1.0, design.get("model.formed", 1.0))
             settings = {name: value for name, value in design.items() if name not in OWN}
             settings["start.seed"] = int(rng.integers(1, 2**31))
-            scene = load_scene(
-                source, model, (str(study.path), common), (str(study.path), sections_of(settings, model))
-            )
+            changes = (common, sections_of(settings, model))
+            scene = load_scene(source, model, *((str(study.path), document) for document in changes))
             scene = replace(followed(scene, model, file.breaks, strengths.tolist()), name=cause.name)
             found.append((number, i, design, strengths, scene))
     return found
@@ -219,28 +204,14 @@ def run_pool(
     study: Study, model: Model, document: Any, folder: Any, client: Any, progress: Any = None, **of: Any
 ) -> list[Sample]:
     """The Samples of a study; those of an earlier call are read from the folder."""
-    fmu = model.path.read_bytes()
     planned = sampled(study, model, document, **of)
-    fingerprint = hashlib.sha256(fmu).hexdigest()
-    keys = [key_of(scene, fingerprint) for *_, scene in planned]
+    keys = [key_of(scene, model.digest) for *_, scene in planned]
     scenes = {key: scene for key, (*_, scene) in zip(keys, planned, strict=True)}
-    sweep = Sweep(
-        study.path.stem,
-        study.file.description,
-        model,
-        fmu,
-        document,
-        (),
-        scenes,
-        (None, history_field),
-        True,
-        perform_history,
-    )
-    rows = run_sweep(sweep, folder, client, progress)
-    places = {key: i for i, key in enumerate(rows["key"])}
+    about = study.path.stem, study.file.description, model, model.path.read_bytes(), document
+    sweep = Sweep(*about, (), scenes, (None, history_field), grows=True, perform=perform_history)
+    rows = run_sweep(sweep, folder, client, progress, keys)
     samples = []
-    for key, (cause, number, design, strengths, _) in zip(keys, planned, strict=True):
-        row = places[key]
+    for row, (cause, number, design, strengths, _) in enumerate(planned):
         history = json.loads(str(rows["history"][row])) if rows["status"][row] == "done" else {"states": []}
         if history["states"]:
             samples.append(Sample(cause, number, design, history, strengths))
@@ -253,10 +224,8 @@ def check_starts(study, planned, samples, rows):
     for number, cause in enumerate(study.causes):
         started = sum(sample.cause == number for sample in samples)
         if 2 * started < sum(plan[0] == number for plan in planned):
-            failed = zip(rows["message"], rows["scene"], rows["status"], strict=True)
-            why = next(
-                (m for m, name, status in failed if name == cause.name and status == "failed"), "they stop at once"
-            )
+            failed = rows["message"][(rows["scene"] == cause.name) & (rows["status"] == "failed")]
+            why = next(iter(failed), "they stop at once")
             raise UserError(f"{study.path}: cause {cause.name}: most designs do not run: {why}")
 
 

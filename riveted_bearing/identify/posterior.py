@@ -24,22 +24,16 @@ Carlo error.  "None of these" predicts each finding evenly: all numbers of middl
 six decades, marks by a coin, values anywhere.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.special import betaln, comb
 from scipy.stats import norm
 
 from .candidates import SOUND, own_value, quantity_at
-from .findings import LOOSE, NONE
-from .pool import CURVE, RESPONSES, weakened
-
-if TYPE_CHECKING:
-    from .findings import Findings, Study
-    from .pool import Sample
+from .findings import LOOSE, NONE, Findings, Study
+from .pool import CURVE, RESPONSES, Sample, weakened
 
 TRUST = 20.0  # broken rivets, as many as a design's own prediction is worth
 SURE = (0.02, 0.98)  # of a mark
@@ -123,26 +117,14 @@ def predicted(sample: Sample, study: Study, model: Any, scene: Any) -> Predicted
     missing = tuple(k for k in range(1, Z + 1) if design.get(f"rivet[{k}].intact", 1) == 0)
     with np.errstate(divide="ignore"):
         decades = np.log10(total)
-    return Predicted(
-        sample.cause,
-        decades,
-        np.array(middle),
-        np.array(beside),
-        1.0 / (1.0 + formed ** curve[2]),
-        tuple(order),
-        missing,
-        float(np.mean(preload * np.array(factors) < LOOSE)),
-        {name: sample.history.get(name, np.nan) for name in RESPONSES},
-        {
-            name: quantity_at(q.quantity, design, own_or(q.quantity, study, model, scene))
-            for name, q in study.quantities.items()
-        },
-    )
-
-
-def own_or(quantity, study, model, scene):
-    """The mission's own value of a quantity; 0 for the range of several."""
-    return 0.0 if "[*]" in quantity else own_value(study.path, quantity, model, scene)
+    values = {}
+    for name, q in study.quantities.items():
+        own = 0.0 if "[*]" in q.quantity else own_value(study.path, q.quantity, model, scene)
+        values[name] = quantity_at(q.quantity, design, own)
+    shares = np.array(middle), np.array(beside), 1.0 / (1.0 + formed ** curve[2])
+    loose = float(np.mean(preload * np.array(factors) < LOOSE))
+    marks = {name: sample.history.get(name, np.nan) for name in RESPONSES}
+    return Predicted(sample.cause, decades, *shares, tuple(order), missing, loose, marks, values)
 
 
 def touches(rivet, gone, Z):
@@ -266,9 +248,8 @@ def answer(study: Study, pool: list[Predicted], seed: int = 1, inspect: bool = T
 
     K = range(len(study.causes))
     L = np.array([*(of_cause(product, k) * density[:, k].prod() for k in K), evenly * np.prod(even)])
-    resampled = np.stack(
-        [*(of_cause(product, k, draws[k]) * density[:, k].prod() for k in K), np.full(RESAMPLES, L[-1])], axis=1
-    )
+    drawn = (of_cause(product, k, draws[k]) * density[:, k].prod() for k in K)
+    resampled = np.stack([*drawn, np.full(RESAMPLES, L[-1])], axis=1)
     posterior, resampled = normalized(study.prior * L), normalized(study.prior * resampled)
     single = {name: np.array([*(of_cause(value, k) for k in K), other]) for name, (value, other) in values.items()}
     single |= {f"measured: {name}": np.append(density[q], even[q]) for q, name in enumerate(found.measured)}
@@ -337,9 +318,8 @@ def inspections(study, pool, members, weights, posterior, sound):
     for name in RESPONSES:
         if name not in found.marks:
             p = heavy([one.responses[name] for one in pool], sound[name])
-            heavy_of = [float(normalized(weights[m]) @ p[m]) if weights[m].sum() > 0.0 else 0.5 for m in members] + [
-                0.5
-            ]
+            heavy_of = [float(normalized(weights[m]) @ p[m]) if weights[m].sum() > 0.0 else 0.5 for m in members]
+            heavy_of.append(0.5)
             bits.append((f"mark: {name}", "wear mark", information(P, np.array([[h, 1.0 - h] for h in heavy_of]))))
     return sorted(bits, key=lambda one: -one[2])
 

@@ -70,15 +70,7 @@ class Rig:
     def start(self):
         """Values of the parameters in the scene itself, [d]."""
         scene = self.scene_at((), (), self.needed[0])
-        found = []
-        for name in self.study.names:
-            if name in scene.parameters:
-                found.append(float(scene.parameters[name]))
-            elif name in scene.inputs:
-                found.append(float(scene.inputs[name].value[0]))
-            else:
-                found.append(float(self.model.default((self.model.parameters | self.model.inputs)[name])))
-        return np.array(found)
+        return np.array([float(scene.value(name, self.model)) for name in self.study.names])
 
     def basis(self):
         """Lines on which the runs rest."""
@@ -96,17 +88,12 @@ class Rig:
                     run = replace(scene, parameters=scene.parameters | {"start.seed": int(seed)})
                     keys.append(key_of(run, self.fingerprint))
                     self.scenes[keys[-1]] = run
-        sweep = self.sweep(self.scenes)
-        rows = run_sweep(sweep, self.folder, self.client, self.progress, list(dict.fromkeys(keys)))
-        places = {key: i for i, key in enumerate(rows["key"])}
-        chosen = np.array([places[key] for key in keys])
-        for i in chosen:
-            if rows["status"][i] == "failed":
-                raise UserError(f"{self.study.path}: a run failed: {rows['message'][i]}")
+        rows = run_sweep(self.sweep(self.scenes), self.folder, self.client, self.progress, keys)
+        for why in rows["message"][rows["status"] == "failed"]:
+            raise UserError(f"{self.study.path}: a run failed: {why}")
         figures = {}
         for column in {target.column for target in self.study.targets}:
-            values = response(self.study.path, rows, column)[chosen].copy()
-            values[rows["status"][chosen] == "stopped"] = np.nan
+            values = np.where(rows["status"] == "stopped", np.nan, response(self.study.path, rows, column))
             figures[column] = values.reshape(len(points), len(self.needed), len(seeds))
         return np.stack(
             [figure_of(target, figures[target.column], self.needed) for target in self.study.targets], axis=-1

@@ -3,27 +3,23 @@
 A weight is 1/uncertainty^2.  Without an uncertainty a target has no weight and is refused.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import AfterValidator, BeforeValidator, Field
 from scipy.stats import norm
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
-from ..base.schema import Choice, Count, Named, Section, checked
+from ..base.schema import Choice, Count, Named, Number, Section, checked
 from ..base.toml_files import leaves
 from ..design.sensitivity import even
+from ..running.fmu import Model
 from ..running.scene import load_scene
 from ..studies.sweep_file import Settings, beside, bounds, known_names
 from .targets import Reader, SeriesBlock, TargetBlock, quantity, spread
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
 
 PARAMETER = ("low", "high", "scale", "mean", "sd")
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
@@ -34,13 +30,6 @@ def so_many(value):
     if isinstance(value, bool) or not isinstance(value, int) or value < 0 or value == 1:
         raise UserError("0 (none), or from 2 on (each so many-th), is allowed")
     return value
-
-
-def fraction(value):
-    """A number between 0 and 1; ValueError for anything else."""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0.0 < value < 1.0:
-        raise UserError("a number between 0 and 1 is needed")
-    return float(value)
 
 
 class Screen(Section):
@@ -79,7 +68,7 @@ class IdentifyFile(Settings):
     held_out: Annotated[int, BeforeValidator(so_many)] = Field(
         3, description="each so many-th target is kept from the fit; 0: none"
     )
-    confidence: Annotated[float, BeforeValidator(fraction)] = 0.95
+    confidence: Annotated[float, Number(above=0.0, below=1.0, words="a number between 0 and 1 is needed")] = 0.95
     parameter: Named = Field(
         {}, description="[lowest, highest] by name, or { low, high, scale = log, mean, sd } with a normal prior"
     )
@@ -168,7 +157,9 @@ def plan_identify(path: str | Path, document: dict[str, Any], model: Model) -> A
     settings |= {"screen": dict(file.screen), "search": dict(file.search)}
     points = points_of(path, file)
     parameters = parameters_of(path, file.parameter, model, points)
-    scenes = [scene_of(path, file, model, changes) for _, changes in points]
+    common = {"simulation": file.simulation, "parameters": file.parameters, "inputs": file.inputs}
+    source = beside(path, file.scene)
+    scenes = [load_scene(source, model, (str(path), common), (str(path), changes)) for _, changes in points]
     reader = Reader(path, model, points, scenes, file.held_out)
     for i, block in enumerate(file.target, 1):
         reader.target(f"target {i}", block)
@@ -180,17 +171,8 @@ def plan_identify(path: str | Path, document: dict[str, Any], model: Model) -> A
         )
     if all(target.held_out for target in reader.targets):
         raise UserError(f"{path}: all targets are held out: nothing to fit")
-    measures = tuple(dict.fromkeys(reader.measures))
-    return Study(
-        path,
-        file.description,
-        parameters,
-        reader.targets,
-        points,
-        measures,
-        tuple(dict.fromkeys(reader.outputs)),
-        settings,
-    )
+    measures, outputs = (tuple(dict.fromkeys(names)) for names in (reader.measures, reader.outputs))
+    return Study(path, file.description, parameters, reader.targets, points, measures, outputs, settings)
 
 
 def points_of(path, file):
@@ -210,15 +192,10 @@ def parameters_of(path, section, model, points):
     for name, value in leaves(section, known):
         if name not in known or name.startswith(NOT_FOUND):
             raise unknown(path, "parameter or input", name, [key for key in known if not key.startswith(NOT_FOUND)])
-        table = (
-            value
-            if isinstance(value, dict)
-            else dict(zip(("low", "high"), value))
-            if isinstance(value, list) and len(value) == 2
-            else None
-        )
+        pair = isinstance(value, list) and len(value) == 2
+        table = dict(zip(("low", "high"), value)) if pair else value
         where = f"parameter.{name}"
-        if table is None or not {"low", "high"} <= set(table):
+        if not isinstance(table, dict) or not {"low", "high"} <= set(table):
             raise refusal(path, where, value, "[lowest, highest] or { low = ..., high = ... } is needed")
         for key in table:
             if key not in PARAMETER:
@@ -226,10 +203,8 @@ def parameters_of(path, section, model, points):
         low, high = bounds(path, where.removeprefix("parameter."), (table["low"], table["high"]), model)
         variable = (model.parameters | model.inputs)[name]
         for end in (low, high):
-            try:
+            with refusing(path, where, value):
                 model.check_range(end, variable)
-            except UserError as problem:
-                raise refusal(path, where, value, problem) from None
         if not low < high:
             raise refusal(path, where, value, "the lowest value must be below the highest")
         scale = table.get("scale", "linear")
@@ -254,9 +229,3 @@ def parameters_of(path, section, model, points):
         if both := own & {parameter.name for parameter in found}:
             raise UserError(f"{path}: {', '.join(sorted(both))}: to be found, but point {name} sets it")
     return found
-
-
-def scene_of(path, file, model, changes):
-    """The scene of an operating point, before the outputs that the targets need."""
-    common = {"simulation": file.simulation, "parameters": file.parameters, "inputs": file.inputs}
-    return load_scene(beside(path, file.scene), model, (str(path), common), (str(path), changes))

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import Field
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.schema import Count, Named, Number, Section, Truth
 from ..base.tables import Table, Wanted
 from ..base.toml_files import leaves
@@ -77,17 +77,8 @@ class Target:
 
 def quantity(path, key, value, scales):
     """An SI value; UserError naming the key."""
-    try:
+    with refusing(path, key, value):
         return to_si(value, scales)
-    except UserError as problem:
-        raise refusal(path, key, value, problem) from None
-
-
-def text_of(path, key, value):
-    """A text; UserError naming the key."""
-    if not isinstance(value, str):
-        raise refusal(path, key, value, "a text is needed")
-    return value
 
 
 def spread(path, key, value, scales, mean):
@@ -197,19 +188,11 @@ class Reader:
         if not 0.0 < width < 2.0 * f:
             raise refusal(where, "width", block.width, "more than 0 and less than twice the frequency is allowed")
         if min(width, f - 0.5 * width) < lowest:
-            raise refusal(
-                where,
-                "width",
-                block.width,
-                f"at least {lowest:.4g} Hz, as for the lower end, is allowed with this length of the run after start.settle",
-            )
+            reason = f"at least {lowest:.4g} Hz, as for the lower end, is allowed with this length of the run after start.settle"
+            raise refusal(where, "width", block.width, reason)
         if f + 0.5 * width > highest:
-            raise refusal(
-                where,
-                "frequency",
-                block.frequency,
-                f"at most {highest:.4g} Hz is allowed, half the rate of the run's samples",
-            )
+            reason = f"at most {highest:.4g} Hz is allowed, half the rate of the run's samples"
+            raise refusal(where, "frequency", block.frequency, reason)
         measure = Measure("line", block.line, f - 0.5 * width, f + 0.5 * width)
         self.measures.append(measure)
         return measure.column, unit, scales
@@ -217,8 +200,7 @@ class Reader:
     def limits(self, point):
         """Lowest and highest frequency [Hz] of a run's spectrum."""
         scene = self.scenes[point]
-        settle = scene.parameters.get("start.settle", self.model.default(self.model.parameters["start.settle"]))
-        length = scene.t_end - settle
+        length = scene.t_end - scene.value("start.settle", self.model)
         return 1.05 * FEWEST / length if length > 0.0 else np.inf, 0.5 / (scene.step * scene.stride)
 
     def series(self, where, block):
@@ -238,9 +220,9 @@ class Reader:
             raise refusal(where, "statistics", kinds, f"a list of {', '.join(allowed)} is needed")
         for channel, wanted in columns.items():
             unit, scales = self.channel(where, "channel", channel)
-            t, values = table.series(
-                time, Wanted(text_of(where, f"columns.{channel}", wanted), scales), gap=block.longest_gap
-            )
+            if not isinstance(wanted, str):
+                raise refusal(where, f"columns.{channel}", wanted, "a text is needed")
+            t, values = table.series(time, Wanted(wanted, scales), gap=block.longest_gap)
             if len(t) < 16 * SEGMENTS:
                 raise UserError(f"{file}: {len(t)} rows: at least {16 * SEGMENTS} times are needed")
             head = table.heads[table.place(wanted)]
@@ -257,12 +239,10 @@ class Reader:
         highest = min(highest, 0.5 * (len(t) - 1) / (t[-1] - t[0])) * (1.0 - 1e-9)
         most = int(np.log2(max(highest / lowest, 1.0)))
         if count > most:
-            raise refusal(
-                where,
-                "bands",
-                count,
-                f"at most {most} octaves lie between {lowest:.4g} and {highest:.4g} Hz, which run and series both have",
+            reason = (
+                f"at most {most} octaves lie between {lowest:.4g} and {highest:.4g} Hz, which run and series both have"
             )
+            raise refusal(where, "bands", count, reason)
         return [Measure("band", channel, *map(float, ends)) for ends in bands(lowest, highest, count)]
 
     def measured(self, where, block, measure, point, t, values, unit, file, column):
@@ -283,12 +263,10 @@ class Reader:
                 sensor = spread(where, "uncertainty", block.uncertainty, scales, value)
             scatter = float(np.hypot(scatter, sensor))
         if not scatter > 0.0:
-            raise UserError(
-                f'{file}: column "{column}": {measure.column} does not scatter, its uncertainty is 0: give one'
-            )
+            words = f"{measure.column} does not scatter, its uncertainty is 0: give one"
+            raise UserError(f'{file}: column "{column}": {words}')
         if measure.kind not in plain:
             self.measures.append(measure)
         unit = "1" if measure.kind == "band" else unit
-        self.add(
-            where, block, measure.column, point, measure.column, value, scatter, unit, origin=f"{file.name}: {column}"
-        )
+        origin = f"{file.name}: {column}"
+        self.add(where, block, measure.column, point, measure.column, value, scatter, unit, origin=origin)

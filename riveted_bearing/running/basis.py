@@ -2,10 +2,8 @@
 pages and files.
 """
 
-from __future__ import annotations
-
 import itertools
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,11 +11,9 @@ from ..base.errors import UserError, shortlist
 from ..bearing import oil as oils
 from ..bearing.plausible import fast
 from . import preload as preloads
+from .fmu import Model
 from .inputs import History
 from .scene import in_words
-
-if TYPE_CHECKING:
-    from .fmu import Model
 
 LOADS = (
     *(f"shaft.{name}" for name in ("F_x", "F_y", "F_z", "M_y", "M_z", "tilt_y", "tilt_z")),
@@ -33,32 +29,23 @@ def basis(model: Model, scenes: Any, curve: str = "") -> Any:
     range; curve: the S-N curve in words.
     """
     scenes = list(scenes)
+    names = dict.fromkeys(s.name if s.source else "none: the FMU's own parameters and inputs" for s in scenes)
     replaced = dict.fromkeys(text for scene in scenes for text in scene.replaced)
-    return [
-        ("bearing", model.bearing),
-        ("FMU", f"{model.path}, SHA-256 {model.digest[:12]}"),
-        (
-            "scene",
-            ", ".join(
-                dict.fromkeys(
-                    scene.name if scene.source else "none: the FMU's own parameters and inputs" for scene in scenes
-                )
-            ),
-        ),
-        *([("replaced", f"the scene has {shortlist(replaced)}")] if replaced else []),
-        ("loads", loads(model, scenes)),
-        ("speed", speeds(model, scenes)),
-        *(
-            [("not reached", "; ".join(late))]
-            if (late := list(dict.fromkeys(t for s in scenes for t in s.outside())))
-            else []
-        ),
-        ("oil", oil(model, scenes)),
-        ("temperatures", temperatures(model, scenes)),
-        ("preload", preload(model, scenes)),
-        *([("S-N curve", curve)] if curve else []),
-        *([("damage", faster)] if (faster := accelerated(model, scenes)) else []),
-    ]
+    lines = {
+        "bearing": model.bearing,
+        "FMU": f"{model.path}, SHA-256 {model.digest[:12]}",
+        "scene": ", ".join(names),
+        "replaced": f"the scene has {shortlist(replaced)}" if replaced else "",
+        "loads": loads(model, scenes),
+        "speed": speeds(model, scenes),
+        "not reached": "; ".join(dict.fromkeys(text for scene in scenes for text in scene.outside())),
+        "oil": oil(model, scenes),
+        "temperatures": temperatures(model, scenes),
+        "preload": preload(model, scenes),
+        "S-N curve": curve,
+        "damage": accelerated(model, scenes),
+    }
+    return [(name, text) for name, text in lines.items() if text]
 
 
 def accelerated(model, scenes):
@@ -73,12 +60,8 @@ def values(model, scenes, name):
     """All values that a parameter or an input has in the runs of the scenes, SI."""
     own = model.default((model.parameters | model.inputs)[name])
     given = ((scene.parameters | scene.inputs).get(name, own) for scene in scenes)
-    return np.concatenate(
-        [
-            value.reached(scene.t_end) if isinstance(value, History) else np.atleast_1d(value)
-            for scene, value in zip(scenes, given, strict=True)
-        ]
-    )
+    pairs = zip(scenes, given, strict=True)
+    return np.concatenate([v.reached(s.t_end) if isinstance(v, History) else np.atleast_1d(v) for s, v in pairs])
 
 
 def text(model, scenes, name):
@@ -98,12 +81,8 @@ def loads(model: Model, scenes: Any) -> Any:
 def speeds(model: Model, scenes: Any) -> Any:
     """Speed of the inner ring, and those of the outer ring and the frame unless they are zero."""
     first, *others = SPEEDS
-    return ", ".join(
-        [
-            text(model, scenes, first),
-            *(f"{name} {text(model, scenes, name)}" for name in others if np.any(values(model, scenes, name))),
-        ]
-    )
+    turning = (f"{name} {text(model, scenes, name)}" for name in others if np.any(values(model, scenes, name)))
+    return ", ".join([text(model, scenes, first), *turning])
 
 
 def fast_speeds(model: Model, scenes: Any) -> tuple[str, ...]:
@@ -153,17 +132,11 @@ def viscosity(model, scene, T):
 
 def preload(model, scenes):
     """Preload of the rivets as given and at the cage's temperature."""
-    pairs = [
-        pair
-        for scene in scenes
-        for pair in itertools.product(
-            extremes(values(model, [scene], preloads.PRELOAD)), extremes(values(model, [scene], preloads.TEMPERATURE))
-        )
-    ]
-    words = (
-        lambda numbers, name=name: in_words(model, name, numbers) for name in (preloads.PRELOAD, preloads.TEMPERATURE)
-    )
-    return preloads.in_words(preloads.of_fmu(model), list(dict.fromkeys(pairs)), *words)
+    names, pairs = (preloads.PRELOAD, preloads.TEMPERATURE), {}
+    for scene in scenes:
+        pairs |= dict.fromkeys(itertools.product(*(extremes(values(model, [scene], name)) for name in names)))
+    words = (lambda numbers, name=name: in_words(model, name, numbers) for name in names)
+    return preloads.in_words(preloads.of_fmu(model), list(pairs), *words)
 
 
 def temperatures(model, scenes):

@@ -4,21 +4,16 @@ Runs are the same to the last bit where nothing acts.  So a value acts if the FM
 most values do in the first steps, others once damage and statistics count, and the rest is tried over the whole run.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError
+from .fmu import Model
+from .results import Result
 from .runner import simulate
-from .scene import ALWAYS
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .results import Result
-    from .scene import Scene
+from .scene import ALWAYS, Scene
 
 FIRST = 5  # communication steps
 COUNTED = 0.01  # s after start.settle
@@ -56,7 +51,7 @@ def without_effect(
     figures(result): what counts of a run, {name: array}; prepared(scene): what the command runs of it; whole: figures of the whole
     run, if they are known; cost: of a whole run [s].
     """
-    settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+    settle = scene.value("start.settle", model)
     for length in (FIRST * scene.step, settle + COUNTED, scene.t_end):
         end = min(length, scene.t_end)
         if length == scene.t_end and len(names) * cost > LONGEST:

@@ -1,17 +1,13 @@
 """Parameters that changed and rivets that broke while the bearing ran, in words."""
 
-from __future__ import annotations
-
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bearing_model.generated import variables
 
 from ..base.units import scales_of, suffix
+from .results import Result
 from .summary import breaks, rivets_of
-
-if TYPE_CHECKING:
-    from .results import Result
 
 ALONE = (
     "all rivets are gone: the halves come apart, held by pockets and lands alone, and there is no stress of rivets; "

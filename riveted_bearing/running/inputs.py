@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base import tables
 from ..base.errors import UserError, shortlist
 from ..base.toml_files import seconds
 from ..base.units import SECONDS, canonical, check_alike, scale, symbol_of, to_si
@@ -86,6 +85,8 @@ def from_points(value, scales):
 
 def from_column(value, scales, folder):
     """A History from { file = "...", column = "..." }: a table with times in s or in the unit of their head."""
+    from ..base import tables  # not for a run without files
+
     check_entries(value, COLUMN, ("file", "column"))
     gap = seconds("longest_gap", value["longest_gap"]) if "longest_gap" in value else None
     t, values = tables.Table(folder / value["file"]).series(

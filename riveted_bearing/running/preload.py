@@ -4,19 +4,14 @@ k = k_stack (alpha_flange - alpha_rivet) grip (bearing_model/rivet/rivet_rom.py)
 is the temperature at which the rivets are set.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from weakref import WeakKeyDictionary
 
 from ..base.errors import UserError
-from .fmu import Instance
+from .fmu import Instance, Model
 from .inputs import History
 from .scene import Scene
-
-if TYPE_CHECKING:
-    from .fmu import Model
 
 PRELOAD, TEMPERATURE, OUTPUT = "joint.preload", "cage.T", "rivet[1].P"
 TRIALS = (293.15, 303.15)  # temperatures at which an FMU tells its preload [K]

@@ -2,10 +2,8 @@
 of bearing_model.instance.fatigue.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import rainflow
@@ -13,10 +11,8 @@ import rainflow
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle, fatigue_law_in_hole, strengthened
 
+from .results import Result
 from .summary import settled
-
-if TYPE_CHECKING:
-    from .results import Result
 
 CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
 

@@ -144,7 +144,7 @@ def read_result(path: str | Path) -> Result:
     except UserError:
         raise
     except Exception as problem:  # each library has its own errors for a damaged file
-        raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {one_line(problem)}") from None
+        raise UserError(f"{path}: not a result of riveted-bearing, or damaged: {one_line(repr(problem))}") from None
 
 
 def digest_of(result):

@@ -1,12 +1,10 @@
 """Run a scene through the FMU, step by step, and keep its outputs."""
 
-from __future__ import annotations
-
 import itertools
 import platform
 import time
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from fmpy import __version__ as fmpy_version
@@ -19,15 +17,11 @@ from ..base.version import __version__
 from ..bearing.assumed import TEMPERATURES, given_names, is_example, ruled_names
 from ..bearing.origin import not_given
 from .basis import basis, values
-from .fmu import Instance
+from .fmu import Instance, Model
 from .record import Record
 from .results import Result
-from .scene import own_names
+from .scene import Scene, own_names
 from .screening import known
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .scene import Scene
 
 PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 

@@ -3,29 +3,24 @@
 Inputs are evaluated at the communication points and held over each step.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
-from ..base import tables
-from ..base.errors import UserError, is_file, refusal, unknown
+from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
-from ..base.shipped import SHIPPED, shipped_scenes
+from ..base.shipped import find_scene
 from ..base.toml_files import leaves, read_toml, whole_name
 from ..base.units import suffix
 from ..base.variable_list import is_like
 from ..bearing import seats
 from ..bearing.oil import OF_PROPERTY, PARTS_TEMPERATURES, check_given, merged, named
+from .fmu import Model
 from .inputs import input_history, unit_of
 from .scene_file import SceneFile, Simulation
-
-if TYPE_CHECKING:
-    from .fmu import Model
 
 SIMULATION = (*Simulation.model_fields,)
 SIMULATED = ("scene.", "solver.", "start.")  # begin of the parameters that say how to simulate, not what
@@ -53,6 +48,12 @@ class Scene:
     units: dict = field(default_factory=dict)  # units in which values were written, by full variable name
     oil: str = ""  # name of the oil that its file names
     changes: tuple = ()  # (time [s], {name: value}) of parameters that change in the run, in the order of time
+
+    def value(self, name, model):
+        """A parameter, or an input at the start, as the scene or else the FMU has it: SI value or item name."""
+        if name in self.inputs:
+            return float(self.inputs[name](0.0))
+        return self.parameters.get(name, model.default(model.parameters.get(name) or model.inputs[name]))
 
     @property
     def stride(self):
@@ -167,18 +168,6 @@ def replacements(of_file, scene, model):
             yield f"{name} {there} for {here}"
 
 
-def find_scene(source):
-    """The file of a scene given by path or by shipped name."""
-    if str(source) in shipped_scenes():
-        return SHIPPED / f"{source}.toml"
-    path = Path(source)
-    if is_file(path):
-        return path
-    if path.suffix:
-        raise UserError(f"{source}: no such scene file")
-    raise unknown("scene", "name", source, shipped_scenes())
-
-
 def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
     check_keys(where, document, SceneFile.model_fields, "scene")
@@ -254,10 +243,8 @@ def read_section(where, kind, section, variables, others, value_of):
             raise refusal(where, f"{kind}.{name}", value, "gravity along X is -frame.a_x of [inputs]: write it there")
         if name not in variables:
             raise unknown(where, kind.removesuffix("s"), whole_name(name, value), variables)
-        try:
+        with refusing(where, f"{kind}.{name}", value):
             settings[name] = value_of(value, variables[name])
-        except UserError as problem:
-            raise refusal(where, f"{kind}.{name}", value, problem) from None
     return settings
 
 
@@ -285,10 +272,9 @@ def surface_parameters(where, surfaces, model, folder):
     """Waviness of the races from measured profiles by parameter name."""
     found = {}
     for race, profile in surfaces:
-        try:
-            found |= profile_waves(race, profile, model, folder) if profile else {}
-        except UserError as problem:
-            raise refusal(where, f"surfaces.{race}", profile.model_dump(exclude_defaults=True), problem) from None
+        if profile:
+            with refusing(where, f"surfaces.{race}", profile.model_dump(exclude_defaults=True)):
+                found |= profile_waves(race, profile, model, folder)
     return found
 
 
@@ -297,6 +283,7 @@ def profile_waves(race, profile, model, folder):
 
     The mean height is left out: it belongs to the groove's diameter.
     """
+    from ..base import tables
     from ..bearing.surfaces import waves_of
 
     angle, height = tables.read(
@@ -319,10 +306,8 @@ def read_simulation(where, simulation, model):
     """The settings of [simulation] that are given."""
     settings = {key: getattr(simulation, key) for key in simulation.model_fields_set}
     if "outputs" in settings:
-        try:
+        with refusing(where, "simulation.outputs", settings["outputs"]):
             settings["outputs"] = select(settings["outputs"], model)
-        except UserError as problem:
-            raise refusal(where, "simulation.outputs", settings["outputs"], problem) from None
     return settings
 
 

@@ -1,9 +1,7 @@
 """Cases of scenes and FMUs at their start, and whatever `info` may be asked for."""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..base.errors import UserError, is_file
 from ..base.file_kinds import OF_BEARINGS
@@ -15,11 +13,8 @@ from ..bearing.case import Case
 from ..bearing.designations import known_bearings, shipped_bearings, unknown_designation
 from ..bearing.origin import EXAMPLE
 from ..bearing.rules import SHAPE
-from .scene import load_scene
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .scene import Scene
+from .fmu import Model
+from .scene import Scene, load_scene
 
 
 def is_bearing(source: Any) -> bool:

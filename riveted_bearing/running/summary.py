@@ -1,18 +1,14 @@
 """The main figures of a run, as rows of mean, RMS, p99.9 and largest value."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..bearing.plausible import fast
 from ..bearing.ribbon import is_guided_by_balls
-
-if TYPE_CHECKING:
-    from .results import Result
+from .results import Result
 
 RPM = 30.0 / np.pi  # rev/min per rad/s
 DEG = 180.0 / np.pi

@@ -19,6 +19,11 @@ OF_BALLS = ("x", "r", "Q_i", "Q_e", "Q_c")
 STRESS = "sigma_head_peak"
 DRAWN = 0.13  # largest clearance as drawn / ball diameter
 BENT = 0.25  # largest motion of a half at a rivet by its modes as drawn / ball diameter
+SIZES = (
+    *(f"bearing.{name}" for name in ("D", "d_m", "P_d")),
+    *(f"cage.{name}" for name in ("D_o", "D_i", "width", "sheet")),
+    *(f"cage.{name}" for name in ("pocket_clearance", "guide_clearance", "pocket_depth", "pocket_fillet")),
+)
 FLEX = tuple(f"flex_{h}_{name}" for h in (0, 1) for name in "xrt")  # of rivets, outputs of elastic halves
 
 
@@ -33,11 +38,6 @@ def number_of_balls(result):
     return sum(name.startswith("ball[") and name.endswith("].dD") for name in result.parameters)
 
 
-def flexes(Z):
-    """Channels that hold the motion of both halves by their modes."""
-    return [f"rivet[{k}].{name}" for k in range(1, Z + 1) for name in FLEX]
-
-
 def frames(result):
     """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
 
@@ -48,7 +48,9 @@ def frames(result):
     missing = [name for name in needed(Z) if name not in result.data]
     if missing or len(result.data["time"]) < 2:
         return None, missing
-    bends = result.parameters.get("scene.cage") == "elastic" and all(name in result.data for name in flexes(Z))
+    bends = result.parameters.get("scene.cage") == "elastic" and all(
+        f"rivet[{k}].{name}" in result.data for k in range(1, Z + 1) for name in FLEX
+    )
     stride = thinning(len(result.data["time"]), Z, bends)
     rows = slice(None, None, stride)
     data = result.data
@@ -77,23 +79,7 @@ def frames(result):
         "land": not is_guided_by_balls(p),
         "bend": magnification(result, forms) if bends else 0.0,
         "widening": widening,
-        "bearing": {
-            name: p[name]
-            for name in (
-                "bearing.D",
-                "bearing.d_m",
-                "bearing.P_d",
-                "cage.D_o",
-                "cage.D_i",
-                "cage.width",
-                "cage.pocket_clearance",
-                "cage.guide_clearance",
-                "cage.sheet",
-                "cage.pocket_depth",
-                "cage.pocket_fillet",
-            )
-            if name in p
-        },
+        "bearing": {name: p[name] for name in SIZES if name in p},
         "settle": p.get("start.settle", 0.0),
         "gone": gone_from(result),
     }, []

@@ -55,9 +55,8 @@ def svg(draw, size, label):
     )
     prefix = re.sub(r"\W+", "-", label)
     text = re.sub(r'(id="|url\(#|href="#)', rf"\g<1>{prefix}-", text)  # ids are shared by all charts of a page
-    opening = (
-        rf'<svg viewBox="\1" role="img" aria-label="{html.escape(label)}" xmlns:xlink="http://www.w3.org/1999/xlink">'
-    )
+    about = f'role="img" aria-label="{html.escape(label)}" xmlns:xlink="http://www.w3.org/1999/xlink"'
+    opening = rf'<svg viewBox="\1" {about}>'
     return re.sub(r'<svg [^>]*?viewBox="([^"]*)"[^>]*>', opening, text, count=1)
 
 
@@ -76,13 +75,18 @@ def thinned(result, buckets=BUCKETS):
     return replace(result, data=data)
 
 
+def few_rows(result, names):
+    """The result thinned, with the named channels alone."""
+    return thinned(replace(result, data={"time": result.data["time"]} | wanted(result, names)))
+
+
 def over_time(panel):
     """A panel of plot.py alone."""
     draw, names = panel
 
     def chart(figure, result):
         ax = figure.subplots()
-        few = thinned(replace(result, data={"time": result.data["time"]} | wanted(result, names)))
+        few = few_rows(result, names)
         draw(ax, 1e3 * few.data["time"], {name: few.data[name] for name in names if name in few.data})
         plot.mark_settling(ax, few)
         plot.show_settled(ax, few)
@@ -117,9 +121,8 @@ def spectra(figure, result):
     for name, frequency in frequencies(result).items():
         if ax.get_xlim()[0] < frequency < ax.get_xlim()[1]:
             ax.axvline(frequency, color=MUTED, lw=0.8, ls=":")
-            ax.annotate(
-                name, (frequency, 1.0), xycoords=("data", "axes fraction"), fontsize=7, va="bottom", ha="center"
-            )
+            look = {"xycoords": ("data", "axes fraction"), "fontsize": 7, "va": "bottom", "ha": "center"}
+            ax.annotate(name, (frequency, 1.0), **look)
     ax.legend(loc="lower left")
 
 
@@ -255,14 +258,8 @@ def section(figure, result):
     ax.text(0.0, 0.5 * d_m + 0.12 * D, f"ball {D:.5g}", ha="center", fontsize=8, zorder=5)
     if p.get("cage.shape") != "ribbon":
         ax.plot([0.0, 0.0], [size["D_i"], size["D_o"]], color=FORCE, lw=0.6, ls=":", zorder=4)
-    marks = {  # side, radius, text
-        "bore": (1, size["bore"], "bore"),
-        "outside": (1, size["outside"], "outside"),
-        "d_m": (1, 0.5 * d_m, "pitch"),
-        "D_o": (-1, size["D_o"], "cage"),
-        "D_i": (-1, size["D_i"], "cage"),
-    }
-    for side, radius, text in marks.values():
+    marks = [(1, size["bore"], "bore"), (1, size["outside"], "outside"), (1, 0.5 * d_m, "pitch")]
+    for side, radius, text in [*marks, (-1, size["D_o"], "cage"), (-1, size["D_i"], "cage")]:
         ax.plot([side * (size["half"] if side < 0 else end), side * 1.18 * end], [radius] * 2, color=FORCE, lw=0.5)
         place = "left" if side > 0 else "right"
         given = text not in ("bore", "outside") or p.get(f"ring.{text}", 0.0)
@@ -296,18 +293,14 @@ def force_histogram(figure, result):
         bins = np.geomspace(max(touching.min(), 1e-3), touching.max() * 1.001, 40)
         pockets.hist(touching, bins, weights=np.full(len(touching), 100.0 / len(force)), color=FORCE, alpha=0.85)
         pockets.set_xscale("log")
-    pockets.set(
-        xlabel="pocket force [N]",
-        ylabel="share of time [%]",
-        title=f"touching {100 * len(touching) / len(force):.1f} %",
-    )
+    title = f"touching {100 * len(touching) / len(force):.1f} %"
+    pockets.set(xlabel="pocket force [N]", ylabel="share of time [%]", title=title)
     for name, colour, label in (("Q_e", FORCE, "outer"), ("Q_i", MIDDLE, "inner")):
         names = columns(result, "ball[", f"].{name}")
         if names:
             load = np.concatenate([result.data[n][late] for n in names])
-            races.hist(
-                load, 40, weights=np.full(len(load), 100.0 / len(load)), histtype="step", color=colour, label=label
-            )
+            share = np.full(len(load), 100.0 / len(load))
+            races.hist(load, 40, weights=share, histtype="step", color=colour, label=label)
     races.set(xlabel="race load [N]")
     races.set_yscale("log")
     races.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -346,14 +339,18 @@ def stress_over_time(figure, result):
 def heat_map(figure, rows, extent, xlabel, ticks=None):
     """One row a rivet, in MPa."""
     ax, count = figure.subplots(), len(rows)
-    image = ax.imshow(
-        rows, aspect="auto", origin="lower", extent=(*extent, 0.5, count + 0.5), cmap="viridis", interpolation="none"
-    )
+    field(figure, ax, rows, (*extent, 0.5, count + 0.5), "MPa")
     ax.set(xlabel=xlabel, ylabel="rivet", yticks=range(1, count + 1, 1 + count // 12))
     if ticks:
         ax.set_xticks(ticks)
+
+
+def field(figure, ax, rows, ends, label, **options):
+    """Numbers as colours between the ends (left, right, lower, upper), with their scale."""
+    look = {"aspect": "auto", "origin": "lower", "cmap": "viridis", "interpolation": "none"}
+    image = ax.imshow(rows, extent=ends, **look, **options)
     ax.grid(False)
-    figure.colorbar(image, ax=ax, label="MPa", pad=0.02).outline.set_visible(False)
+    figure.colorbar(image, ax=ax, label=label, pad=0.02).outline.set_visible(False)
 
 
 def rainflow_matrix(figure, cycles):
@@ -363,29 +360,15 @@ def rainflow_matrix(figure, cycles):
     keep = span > 0.0
     x, y = np.linspace(0.0, max(span.max(), 1e-3), 33), np.linspace(mean.min(), max(mean.max(), mean.min() + 1e-3), 25)
     table, *_ = np.histogram2d(mean[keep], span[keep], [y, x], weights=count[keep])
-    image = ax.imshow(
-        np.where(table > 0, table, np.nan),
-        aspect="auto",
-        origin="lower",
-        extent=(x[0], x[-1], y[0], y[-1]),
-        cmap="viridis",
-        interpolation="none",
-        norm=LogNorm(0.5, max(table.max(), 1.0)),
-    )
+    ends, norm = (x[0], x[-1], y[0], y[-1]), LogNorm(0.5, max(table.max(), 1.0))
+    field(figure, ax, np.where(table > 0, table, np.nan), ends, "cycles", norm=norm)
     ax.set(xlabel="range [MPa]", ylabel="mean [MPa]")
-    ax.grid(False)
-    figure.colorbar(image, ax=ax, label="cycles", pad=0.02).outline.set_visible(False)
 
 
 def energy(figure, result):
     """Power loss and the residual of the energy balance."""
     ax = figure.subplots()
-    few = thinned(
-        replace(
-            result,
-            data={"time": result.data["time"]} | wanted(result, ["bearing.power_loss", "bearing.energy_residual"]),
-        )
-    )
+    few = few_rows(result, ["bearing.power_loss", "bearing.energy_residual"])
     ax.plot(1e3 * few.data["time"], few.data["bearing.power_loss"], color=RING, lw=0.6, label="power loss")
     ax.set(xlabel="time [ms]", ylabel="W")
     if "bearing.energy_residual" in few.data:

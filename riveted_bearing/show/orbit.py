@@ -12,12 +12,8 @@ NOTHING = 1e-3  # um; an orbit below a nanometre is a point
 def cage_orbit(ax, result):
     """Path of the cage's centre within its guide clearance."""
     kind = clearance_of_cage(result.parameters)
-    ax.set(
-        title="Orbit of the cage's centre, from +X",
-        xlabel=f"y [µm]; dashed: {kind} clearance",
-        ylabel="z [µm]",
-        aspect="equal",
-    )
+    label = f"y [µm]; dashed: {kind} clearance"
+    ax.set(title="Orbit of the cage's centre, from +X", xlabel=label, ylabel="z [µm]", aspect="equal")
     if not {"cage.y", "cage.z"} <= result.data.keys():
         ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
         return
@@ -42,11 +38,7 @@ def magnified(ax, y, z, half):
     inset.xaxis.set_ticks_position("top" if lower else "bottom")
     inset.spines[:].set_visible(True)
     inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
-    inset.set(
-        xlim=(centre[0] - half, centre[0] + half),
-        ylim=(centre[1] - half, centre[1] + half),
-        aspect="equal",
-        facecolor="#ffffff",
-    )
+    x, y = ((middle - half, middle + half) for middle in centre)
+    inset.set(xlim=x, ylim=y, aspect="equal", facecolor="#ffffff")
     inset.tick_params(labelsize=7)
     ax.indicate_inset_zoom(inset, edgecolor=MUTED)

@@ -92,18 +92,9 @@ def read_measured(path, result, columns=None):
             raise UserError(f'{path}: column "{time.name}": at least {FEWEST} times are needed')
         shown = unit_shown(table.unit(wanted), variable, own, displays)
         factor, offset = scale(shown, scales) if shown != own else (1.0, 0.0)
-        found.append(
-            Series(
-                channel,
-                table.heads[table.place(name)],
-                suffix(shown).strip(),
-                result.data["time"][late],
-                factor * result.data[channel][late] + offset,
-                t,
-                factor * values + offset,
-                clock.note,
-            )
-        )
+        run = result.data["time"][late], factor * result.data[channel][late] + offset
+        head, unit = table.heads[table.place(name)], suffix(shown).strip()
+        found.append(Series(channel, head, unit, *run, t, factor * values + offset, clock.note))
     return found
 
 
@@ -144,24 +135,24 @@ def table_rows(series):
 
 def spectrum_note(series):
     """Why a spectrum is missing, "" if both are there."""
-    lacking = [
-        who
-        for who, t, values in (("run", series.t_run, series.run), ("measurement", series.t_measured, series.measured))
-        if spectrum(t, values) is None
-    ]
+    lacking = [who for who, t, values, _ in both(series, "measurement") if spectrum(t, values) is None]
     gap = f" ({series.gap})" if series.gap else ""
+    of = " and of the ".join(lacking)
+    return f"No spectrum of the {of}: its times are not equally spaced{gap}." if lacking else ""
+
+
+def both(series, measured="measured"):
+    """Name, times, values and colour of the run and of the measurement."""
     return (
-        f"No spectrum of the {' and of the '.join(lacking)}: its times are not equally spaced{gap}." if lacking else ""
+        ("run", series.t_run, series.run, FORCE),
+        (measured, series.t_measured, series.measured, HEAD),
     )
 
 
 def time_chart(fig, series):
     """Both over their own time, on one scale of values."""
     panels = fig.subplots(1, 2, sharey=True)
-    for ax, title, t, values, colour in (
-        (panels[0], "run", series.t_run, series.run, FORCE),
-        (panels[1], "measured", series.t_measured, series.measured, HEAD),
-    ):
+    for ax, (title, t, values, colour) in zip(panels, both(series), strict=True):
         first = np.unique(np.linspace(0, len(t), BUCKETS, endpoint=False).astype(int))
         low, high = (reduce.reduceat(values, first) for reduce in (np.minimum, np.maximum))
         ax.fill_between(1e3 * t[first], low, high, color=colour, lw=0.4, step="post")
@@ -174,10 +165,7 @@ def time_chart(fig, series):
 def spectrum_chart(fig, series):
     """Both spectra, each to half its own rate."""
     ax = fig.subplots()
-    for label, t, values, colour in (
-        ("run", series.t_run, series.run, FORCE),
-        ("measured", series.t_measured, series.measured, HEAD),
-    ):
+    for label, t, values, colour in both(series):
         if (found := spectrum(t, values)) is not None and np.any(found[1] > 0.0):
             ax.loglog(*found, color=colour, lw=0.8, label=label)
     ax.set(xlabel="frequency [Hz]", ylabel=f"{series.unit or '1'}/√Hz")
@@ -189,17 +177,16 @@ def views(found):
     """What the report's page shows of each Series."""
     from . import charts
 
+    def picture(draw, series, label):
+        return charts.svg(lambda fig: draw(fig, series), (4.9, 2.7), label)
+
     return [
         {
-            "channel": series.channel,
-            "column": series.column,
-            "unit": series.unit,
+            **{name: getattr(series, name) for name in ("channel", "column", "unit")},
             "rows": table_rows(series),
             "note": spectrum_note(series),
-            "time": charts.svg(lambda fig, s=series: time_chart(fig, s), (4.9, 2.7), f"{series.channel} over time"),
-            "spectrum": charts.svg(
-                lambda fig, s=series: spectrum_chart(fig, s), (4.9, 2.7), f"{series.channel}, spectra"
-            ),
+            "time": picture(time_chart, series, f"{series.channel} over time"),
+            "spectrum": picture(spectrum_chart, series, f"{series.channel}, spectra"),
         }
         for series in found
     ]

@@ -6,12 +6,14 @@ from typing import Any
 import jinja2
 
 from ..base.files import write_text
+from ..running.budget import RULE, amounts, told, unsized_lines
 
 PARTS = Path(__file__).parents[1] / "data" / "report"
 
 
 def page_text(template, style="style.css", **values):
-    """A page as text; template: a file of data/report or the path of another one; style: a file of data/report.
+    """A page as text; template: a file of data/report or the path of another one; style: a file of data/report.  All pages
+    have the words of error budgets.
 
     Raises
     ------
@@ -25,6 +27,7 @@ def page_text(template, style="style.css", **values):
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
+    environment.globals |= {"amounts": amounts, "told_with_error": told, "unsized_lines": unsized_lines, "rule": RULE}
     return environment.get_template(Path(template).name).render(
         style=(PARTS / style).read_text(encoding="utf-8"), **values
     )

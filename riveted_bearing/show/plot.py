@@ -1,20 +1,16 @@
 """One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit (orbit.py), and the rivets side by side."""
 
-from __future__ import annotations
-
 import textwrap
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..running.in_run import changes
+from ..running.results import Result
 from ..running.summary import RPM, breaks, rivet_rows, settled, summary_rows
 from .orbit import cage_orbit
-from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
-
-if TYPE_CHECKING:
-    from ..running.results import Result
+from .style import FORCE, HEAD, MIDDLE, MUTED, RING, picture
 
 TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
@@ -23,10 +19,8 @@ MARK = "_mark"  # label of lines that are no curves
 def plot_result(result: Result, path: Path) -> Path:
     """Write the picture of a result as PNG, whole or not at all; panels whose channels were not recorded are left out."""
     panels = [(draw, data) for draw, data in ((draw, wanted(result, names)) for draw, names in OVER_TIME) if data]
-    with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(13, 1.2 + 1.65 * max(len(panels), 4)), layout="constrained")
+    with picture(path, (13, 1.2 + 1.65 * max(len(panels), 4)), title(result), 130) as figure:
         left, right = figure.subfigures(1, 2, width_ratios=[2.1, 1])
-        figure.suptitle(title(result), x=0.01, ha="left", fontsize=11)
         if panels:
             heights = [HEIGHTS.get(draw, 1.0) for draw, _ in panels]
             axes = left.subplots(len(panels), 1, sharex=True, squeeze=False, height_ratios=heights)[:, 0]
@@ -38,17 +32,14 @@ def plot_result(result: Result, path: Path) -> Path:
         orbit_ax, bars_ax = right.subplots(2, 1)
         cage_orbit(orbit_ax, result)
         rivet_bars(bars_ax, result)
-        return save_figure(figure, path, 130)
+    return path
 
 
 def title(result):
     """Scene, conditions and main figures in a few lines."""
     about, speed = result.about, result.data.get("shaft.omega")
-    facts = [
-        f"preload {result.parameters['joint.preload']:.4g} N",
-        f"fit {1e6 * result.parameters['joint.fit']:+.4g} µm",
-        f"seed {result.parameters['start.seed']}",
-    ]
+    p = result.parameters
+    facts = [f"preload {p['joint.preload']:.4g} N", f"fit {1e6 * p['joint.fit']:+.4g} µm", f"seed {p['start.seed']}"]
     if speed is not None:
         facts.insert(0, f"{RPM * speed[-1]:,.0f} rev/min")
     lines = [": ".join(filter(None, (about.get("scene"), about.get("description")))), " · ".join(facts)]
@@ -107,9 +98,8 @@ def loads(ax, t, data):
     colours = {"shaft.F_y": FORCE, "shaft.F_x": MIDDLE, "shaft.F_z": MUTED, "impact.F_r": HEAD, "impact.F_a": "#e09f3e"}
     for name, values in data.items():
         if name in colours and (name in ("shaft.F_x", "shaft.F_y") or np.any(values)):
-            ax.plot(
-                t, 1e-3 * values, color=colours[name], label=name.replace("shaft.", "").replace("impact.", "impact ")
-            )
+            label = name.replace("shaft.", "").replace("impact.", "impact ")
+            ax.plot(t, 1e-3 * values, color=colours[name], label=label)
     ax.set(title="Loads on the inner ring", ylabel="kN")
     speed = RPM * data.get("shaft.omega", np.zeros(1))
     if np.ptp(speed):
@@ -128,12 +118,9 @@ def pocket_force(ax, t, data):
 
 def stress(ax, t, data):
     """Largest stress of all rivets in each communication step."""
-    for name, colour, label in (
-        ("rivet.sigma_head_max", HEAD, "head fillet"),
-        ("rivet.sigma_mid_max", MIDDLE, "middle of the shank"),
-    ):
-        if name in data:
-            ax.plot(t, 1e-6 * data[name], color=colour, lw=0.5, label=label)
+    for place, colour, label in (("head", HEAD, "head fillet"), ("mid", MIDDLE, "middle of the shank")):
+        if (values := data.get(f"rivet.sigma_{place}_max")) is not None:
+            ax.plot(t, 1e-6 * values, color=colour, lw=0.5, label=label)
     ax.set(title="Rivet stress, worst rivet, largest in each step", ylabel="MPa")
     legend(ax)
 
@@ -189,10 +176,9 @@ def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
     """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by
     tolerance, statistics in standard deviations.
     """
-    with plt.rc_context(STYLE):
-        rows = 3 if found.statistics else 2
-        figure, axes = plt.subplots(2, rows, figsize=(4.6 * rows, 7.0), layout="constrained")
-        figure.suptitle(f"{found.scene}: FMU against the Python reference", x=0.01, ha="left", fontsize=11)
+    rows = 3 if found.statistics else 2
+    with picture(path, (4.6 * rows, 7.0), f"{found.scene}: FMU against the Python reference", dpi) as figure:
+        axes = figure.subplots(2, rows)
         by_name = {channel.name: channel for channel in found.channels}
         panels = [axes[0, 0], axes[0, 1], axes[1, 0]]
         for ax, (name, title) in zip(panels, OVERLAID, strict=True):
@@ -202,7 +188,7 @@ def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
             grid = axes[0, 2].get_gridspec()
             axes[0, 2].remove(), axes[1, 2].remove()
             deviations(figure.add_subplot(grid[:, 2]), found)
-        return save_figure(figure, path, dpi)
+    return path
 
 
 def overlay(ax, t, channel, title):
@@ -221,9 +207,8 @@ def differences(ax, found):
     for i, (tolerance, colour) in enumerate(zip(found.tolerances, (HEAD, MIDDLE, RING), strict=True)):
         for motion, style in ((True, "-"), (False, "--")):
             worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
-            ax.semilogy(
-                1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=f"{tolerance:.0e}" if motion else None
-            )
+            label = f"{tolerance:.0e}" if motion else None
+            ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=label)
     ax.locator_params(axis="x", nbins=5)
     ax.set(title="By tolerance", xlabel="time [ms]", ylabel="largest difference / scale: motion, - - loads")
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
@@ -232,18 +217,11 @@ def differences(ax, found):
 def deviations(ax, found):
     """Statistics of the reference in standard deviations of the FMU's over seeds."""
     rows = [row for row in found.statistics if np.isfinite(row.deviation)][::-1]
-    ax.barh(
-        range(len(rows)),
-        [row.deviation for row in rows],
-        color=[MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows],
-        height=0.6,
-    )
+    colours = [MIDDLE if abs(row.deviation) < 3.0 else HEAD for row in rows]
+    ax.barh(range(len(rows)), [row.deviation for row in rows], color=colours, height=0.6)
     ax.set_yticks(range(len(rows)), [row.name.removeprefix("stat.") for row in rows])
     ax.locator_params(axis="x", nbins=4)
     limit = max(3.5, 1.1 * max((abs(row.deviation) for row in rows), default=0.0))
-    ax.set(
-        title=f"Statistics of {found.long - found.settle:g} s: reference - FMU",
-        xlabel="standard deviations over seeds",
-        xlim=(-limit, limit),
-    )
+    title = f"Statistics of {found.long - found.settle:g} s: reference - FMU"
+    ax.set(title=title, xlabel="standard deviations over seeds", xlim=(-limit, limit))
     ax.axvline(0.0, color=MUTED, lw=0.8)

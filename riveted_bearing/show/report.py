@@ -1,12 +1,10 @@
 """A run as one self-contained HTML page: settings, stress, loads, cage, life, solver, and the motion to play and scrub."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -22,7 +20,7 @@ from ..running.budget import computed_share, shown
 from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
-from ..running.results import read_result
+from ..running.results import Result, read_result
 from ..running.summary import (
     DEG,
     accelerated,
@@ -46,9 +44,6 @@ from .animation import frames, number_of_balls
 from .overlay import read_measured, views
 from .pages import PARTS, page_text
 from .tornado import wrong
-
-if TYPE_CHECKING:
-    from ..running.results import Result
 
 FIRST = 3  # rows without statistics that stand on the cards
 PLACE_NAMES = {"head": "head", "mid": "middle"}
@@ -94,19 +89,14 @@ def report_pages(
         if not has_numbers(result):
             raise UserError(f"{path}: no output has a number: there is nothing to show")
         measured = read_measured(overlay, result, columns) if overlay else ()
-        yield write_report(result, out if as_file else out / name.name if out else name, decides, measured)
+        target = out if as_file else out / name.name if out else name
+        yield write_text(target, render(result, decides, measured))
 
 
 def has_numbers(result):
     """Whether any column beside time and inputs has a number, if there are such columns."""
     outputs = [values for name, values in result.data.items() if name not in {"time", *variables.INPUTS}]
     return not outputs or not all(np.all(np.isnan(values)) for values in outputs)
-
-
-def write_report(result, path, decides=None, measured=()):
-    """Write the page of a result, whole or not at all; returns the path."""
-    page = render(result, decides, measured)
-    return write_text(path, page)
 
 
 def render(result, decides=None, measured=()):
@@ -166,70 +156,40 @@ def curve(result: Result) -> str:
     return in_words(strength) + assumed(strength, result.about.get("given", ()))
 
 
-def ball_channels(*names):
-    """Channels of all balls."""
-    return lambda result: [f"ball[{j}].{name}" for j in range(1, number_of_balls(result) + 1) for name in names]
-
-
-def rivet_channels(*names):
-    """Channels of all rivets."""
-    return lambda result: [f"rivet[{k}].{name}" for k in range(1, number_of_balls(result) + 1) for name in names]
-
-
-def named(*names):
-    """Channels by name."""
-    return lambda result: list(names)
-
-
 PANELS = {draw.__name__: charts.over_time((draw, names)) for draw, names in plot.OVER_TIME}
-CHARTS = {  # name: (draw(figure, result), size, label, channels that the chart needs)
-    "loads": (
-        PANELS["loads"],
-        LOW,
-        "Loads on the inner ring over time",
-        named("shaft.F_x", "shaft.F_y", "shaft.omega"),
-    ),
-    "stress": (
-        PANELS["stress"],
-        WIDE,
-        "Largest rivet stress over time",
-        named("rivet.sigma_head_max", "rivet.sigma_mid_max"),
-    ),
-    "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", rivet_channels("sigma_head", "sigma_mid")),
-    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", named()),
+CHARTS = {  # name: draw(figure, result), size, label, channels that the chart needs: ball[*] and rivet[*] of each
+    "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", "shaft.F_x shaft.F_y shaft.omega"),
+    "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", "rivet.sigma_head_max rivet.sigma_mid_max"),
+    "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", "rivet[*].sigma_head rivet[*].sigma_mid"),
+    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", ""),
     "map": (
         charts.stress_over_azimuth,
         HIGH,
         "Head stress of each rivet over its azimuth",
-        lambda r: ["half_0.psi", *rivet_channels("sigma_head_peak")(r)],
+        "half_0.psi rivet[*].sigma_head_peak",
     ),
-    "history": (
-        charts.stress_over_time,
-        HIGH,
-        "Head stress of each rivet over time",
-        rivet_channels("sigma_head_peak"),
-    ),
-    "rainflow": (None, HIGH, "Rainflow matrix of the weakest rivet", rivet_channels("sigma_head")),
+    "history": (charts.stress_over_time, HIGH, "Head stress of each rivet over time", "rivet[*].sigma_head_peak"),
+    "rainflow": (None, HIGH, "Rainflow matrix of the weakest rivet", "rivet[*].sigma_head"),
     "distribution": (
         charts.load_distribution,
         WIDE,
         "Load distribution over the azimuth",
-        ball_channels("psi", "Q_i", "Q_e"),
+        "ball[*].psi ball[*].Q_i ball[*].Q_e",
     ),
-    "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", ball_channels("Q_c")),
-    "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", named("cage.F_pocket_peak")),
-    "section": (charts.section, SQUARE, "Section of the bearing with its dimensions", named()),
-    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", named("cage.y", "cage.z")),
-    "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", rivet_channels("T", "M_y", "M_z")),
-    "slip": (PANELS["slip"], LOW, "Cage slip over time", named("cage.slip_ratio")),
-    "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", named("ring.x", "ring.y", "ring.z")),
+    "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", "ball[*].Q_c"),
+    "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", "cage.F_pocket_peak"),
+    "section": (charts.section, SQUARE, "Section of the bearing with its dimensions", ""),
+    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", "cage.y cage.z"),
+    "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", "rivet[*].T rivet[*].M_y rivet[*].M_z"),
+    "slip": (PANELS["slip"], LOW, "Cage slip over time", "cage.slip_ratio"),
+    "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", "ring.x ring.y ring.z"),
     "vibration": (
         charts.vibration,
         SQUARE,
         "Spectrum and envelope spectrum of the vibration",
-        named("shaft.omega", "cage.omega"),
+        "shaft.omega cage.omega",
     ),
-    "energy": (charts.energy, LOW, "Power loss and energy balance over time", named("bearing.power_loss")),
+    "energy": (charts.energy, LOW, "Power loss and energy balance over time", "bearing.power_loss"),
 }
 OF_ELASTIC = ("joints",)  # charts of elastic cage halves alone
 
@@ -242,13 +202,12 @@ def is_shown(name, result, elastic):
 def chart(result, name, lives):
     """SVG of one chart, or in words which channels it lacks."""
     draw, size, label, needs = CHARTS[name]
-    missing = [channel for channel in needs(result) if channel not in result.data]
+    numbers = range(1, max(number_of_balls(result), 1) + 1)
+    each = (channel.replace("*", str(k)) for k in numbers for channel in needs.split())  # one without * each time
+    missing = list(dict.fromkeys(channel for channel in each if channel not in result.data))
     if missing or len(result.data["time"]) < 16:
-        lack = (
-            f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}"
-            if missing
-            else "too few samples"
-        )
+        names = f"not recorded: {', '.join(missing[:4])}{' …' if len(missing) > 4 else ''}"
+        lack = names if missing else "too few samples"
         return f'<p class="missing">{label}: {lack}</p>'
     if name == "vibration" and (reason := charts.no_vibration(result)):
         return f'<p class="missing">{label}: {reason}</p>'
@@ -277,11 +236,9 @@ def all_lives(result):
     for k in range(1, number_of_balls(result) + 1):
         head, mid = (rivet_life(result, k, place) for place in ("head", "mid"))
         if head and mid:
-            own = [
-                float(result.data[name][-1]) if (name := f"rivet[{k}].damage_{place}") in result.data else math.nan
-                for place in ("head", "mid")
-            ]
-            rows.append({"k": k, "head": head, "mid": mid, "fmu_head": own[0], "fmu_mid": own[1]})
+            counted = (result.data.get(f"rivet[{k}].damage_{place}", [math.nan])[-1] for place in ("head", "mid"))
+            own = dict(zip(("fmu_head", "fmu_mid"), map(float, counted), strict=True))
+            rows.append({"k": k, "head": head, "mid": mid} | own)
     return rows
 
 
@@ -296,12 +253,8 @@ def cards(result, lives):
     rows, share = {row.channel: row for row in summary_rows(result)}, computed_share(result)
     if not rows:
         for channel, unit, last, largest in list(early_rows(result))[:FIRST]:
-            yield (
-                channel.capitalize(),
-                figure(largest),
-                unit.replace("um", "µm"),
-                f"largest since the start · {figure(last)} at the end",
-            )
+            remark = f"largest since the start · {figure(last)} at the end"
+            yield channel.capitalize(), figure(largest), unit.replace("um", "µm"), remark
     for channel, title in (
         ("head stress, largest of rivets", "Head stress"),
         ("middle stress, largest of rivets", "Middle stress"),
@@ -312,19 +265,10 @@ def cards(result, lives):
             p999, mean, largest = (shown(row, value, share) for value in (row.p999, row.mean, row.largest))
             yield title, p999, row.unit, f"p99.9 · mean {mean} · largest {largest}"
     if "cage slip ratio" in rows:
-        yield (
-            "Cage slip",
-            figure(rows["cage slip ratio"].mean),
-            "%",
-            f"mean · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else "mean",
-        )
-    if "cage dislocation" in rows:
-        yield (
-            "Dislocation of the halves",
-            figure(rows["cage dislocation"].largest),
-            "µm",
-            f"largest · mean {figure(rows['cage dislocation'].mean)}",
-        )
+        speed = f" · {figure(rows['cage speed'].mean)} rev/min" if "cage speed" in rows else ""
+        yield "Cage slip", figure(rows["cage slip ratio"].mean), "%", f"mean{speed}"
+    if row := rows.get("cage dislocation"):
+        yield "Dislocation of the halves", figure(row.largest), "µm", f"largest · mean {figure(row.mean)}"
     broken = breaks(result)
     if broken:
         k, place, t = broken[0]
@@ -336,12 +280,8 @@ def cards(result, lives):
         yield "Life of the weakest rivet", duration(shortest), "", f"rivet {k}, {PLACE_NAMES[place]} · Miner's sum 1"
     if "real_time_factor" in result.summary:
         s = result.summary
-        yield (
-            "Real-time factor",
-            figure(s["real_time_factor"]),
-            "",
-            f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s",
-        )
+        remark = f"{s['cpu_time']:.2f} s for {s['simulated_time']:g} s"
+        yield "Real-time factor", figure(s["real_time_factor"]), "", remark
 
 
 def input_rows(result):
@@ -361,24 +301,13 @@ def setting_rows(result):
         if variable is None:
             yield name, "", value if isinstance(value, str) else figure(value), "", False
         elif isinstance(value, str):
-            yield (
-                name,
-                variable.description,
-                value + later,
-                "",
-                bool(later) or value != getattr(variables, variable.type)(variable.start).name.lower(),
-            )
+            other = value != getattr(variables, variable.type)(variable.start).name.lower()
+            yield name, variable.description, value + later, "", bool(later) or other
         else:
             unit, factor, offset = unit_of(result, name, variable)
             shown = value if variable.type == "Integer" else factor * value + offset
-            yield (
-                name,
-                variable.description,
-                figure(shown) + later,
-                unit,
-                bool(later)
-                or (name not in ineffective and not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15)),
-            )
+            other = not math.isclose(value, variable.start, rel_tol=1e-9, abs_tol=1e-15) and name not in ineffective
+            yield name, variable.description, figure(shown) + later, unit, bool(later) or other
 
 
 def ball_rows(result):
@@ -421,27 +350,16 @@ def solver_rows(result):
     if "solver.tolerance" in s:
         yield "tolerance", f"{s['solver.tolerance']:g}"
     if "solver.method_used" in s:
-        yield (
-            "method",
-            {1: "velocity Verlet", 2: "Runge–Kutta 4(3)", 3: "fixed steps"}.get(
-                s["solver.method_used"], f"{s['solver.method_used']:g}"
-            ),
-        )
+        methods = {1: "velocity Verlet", 2: "Runge–Kutta 4(3)", 3: "fixed steps"}
+        yield "method", methods.get(s["solver.method_used"], f"{s['solver.method_used']:g}")
     if "real_time_factor" in s:
         yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
     if "bearing.energy_residual" in result.data:
         yield "energy residual at the end", f"{1e3 * result.data['bearing.energy_residual'][-1]:.3g} mJ"
     if "bearing.penetration" in result.data:
         yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
-    onsets = {
-        name: result.data[name][-1] for name in result.data if name.startswith("event.") and name.endswith("_onsets")
-    }
-    if onsets:
-        seen = [
-            f"{name.removeprefix('event.').removesuffix('_onsets').replace('_', ' ')} {count:,.0f}"
-            for name, count in onsets.items()
-            if count
-        ]
-        yield "onsets of events", ", ".join(seen) or "none"
+    if onsets := columns(result, "event.", "_onsets"):
+        counts = {name[len("event.") : -len("_onsets")].replace("_", " "): result.data[name][-1] for name in onsets}
+        yield "onsets of events", ", ".join(f"{name} {n:,.0f}" for name, n in counts.items() if n) or "none"
     if columns(result, "rivet[", "].flag"):
         yield "flags of the rivets", flag_note(result).partition(": ")[2] or "none"

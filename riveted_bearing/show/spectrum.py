@@ -11,17 +11,15 @@
 Amplitudes are those of sines, with a Hann window.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy.integrate import cumulative_trapezoid
 from scipy.interpolate import CubicSpline
-from scipy.signal import ShortTimeFFT, butter, find_peaks, hilbert, periodogram, sosfiltfilt, welch
+from scipy.signal import ShortTimeFFT, butter, hilbert, periodogram, sosfiltfilt, welch
 from scipy.signal.windows import hann
 
 from ..base.errors import UserError, unknown
@@ -29,12 +27,11 @@ from ..base.files import write_atomically
 from ..running.effects import without_effect
 from ..running.fmu import Model
 from ..running.inputs import History
+from ..running.results import Result
 from ..running.scene import ALWAYS, Scene
 from ..running.summary import settled
 from .animation import number_of_balls
-
-if TYPE_CHECKING:
-    from ..running.results import Result
+from .style import FORCE, HEAD, MIDDLE, MUTED, picture
 
 CHANNELS = ("housing.a_y", "housing.F_y", "ring.a_y", "ring.y")  # first of these that moves, unless one is named
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
@@ -146,14 +143,11 @@ def idle_settings(result: Result, found: Any) -> Any:
         parameters=ALWAYS | parameters,
         inputs=inputs,
     )
-    whole_cost = result.summary.get("wall_time", 0.0)
-    return without_effect(
-        model,
-        scene,
-        names,
-        lambda run: {name: column[settled(run)] for name, column in run.data.items()},
-        cost=whole_cost,
-    )
+
+    def late(run):
+        return {name: column[settled(run)] for name, column in run.data.items()}
+
+    return without_effect(model, scene, names, late, cost=result.summary.get("wall_time", 0.0))
 
 
 def default_channel(result):
@@ -293,35 +287,20 @@ def line_at(frequency, amplitude, name, expected):
     return Line(name, expected, float(frequency[k]), float(amplitude[k]), float(np.median(amplitude[around])))
 
 
-def highest(found, count=5):
-    """The largest peaks of the envelope spectrum: (frequency, amplitude)."""
-    peaks, _ = find_peaks(found.envelope)
-    best = peaks[np.argsort(found.envelope[peaks])[::-1][:count]]
-    return [(float(found.envelope_frequency[k]), float(found.envelope[k])) for k in best]
-
-
 def write_spectra(found: Any, path: Path) -> Path:
     """CSV: comments with band and kinematic frequencies, then frequency, amplitude and squared envelope."""
-
-    def write(temporary):
-        with temporary.open("w", encoding="utf-8") as file:
-            file.write(f"# channel {found.channel} [{found.unit}]; frequencies: {found.axis}\n")
-            file.write(f"# band of the envelope {found.band[0]:.9g} to {found.band[1]:.9g}\n")
-            for name, value in found.kinematic.items():
-                file.write(f"# {name} {value:.9g}\n")
-            file.write("frequency,amplitude,envelope_squared\n")
-            np.savetxt(
-                file, np.column_stack([found.frequency, found.amplitude, found.envelope]), fmt="%.9g", delimiter=","
-            )
-
-    write_atomically(path, write)
+    head = [f"# channel {found.channel} [{found.unit}]; frequencies: {found.axis}"]
+    head.append(f"# band of the envelope {found.band[0]:.9g} to {found.band[1]:.9g}")
+    head += [f"# {name} {value:.9g}" for name, value in found.kinematic.items()]
+    head.append("frequency,amplitude,envelope_squared")
+    table = np.column_stack([found.frequency, found.amplitude, found.envelope])
+    options = {"fmt": "%.9g", "delimiter": ",", "header": "\n".join(head), "comments": ""}
+    write_atomically(path, lambda temporary: np.savetxt(temporary, table, **options))
     return path
 
 
 def draw(figure, found):
     """Spectrum above, envelope spectrum with the kinematic frequencies below."""
-    from .style import FORCE, HEAD, MIDDLE, MUTED
-
     colours = {"FTF": MUTED, "BSF": "#e09f3e", "BPFO": HEAD, "BPFI": MIDDLE}
     above, below = figure.subplots(2, 1)
     above.semilogy(found.frequency[1:], np.maximum(found.amplitude[1:], 1e-30), color=FORCE, linewidth=0.6)
@@ -345,9 +324,6 @@ def squared(unit: str) -> Any:
 
 def plot_spectra(found: Any, path: Path) -> Path:
     """A picture of both spectra."""
-    from .style import STYLE, plt, save_figure
-
-    with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(9, 6), layout="constrained")
+    with picture(path, (9, 6)) as figure:
         draw(figure, found)
-        return save_figure(figure, path)
+    return path

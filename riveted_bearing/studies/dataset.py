@@ -16,12 +16,10 @@ label.waviness, the largest amplitude), the kinematic frequencies of the compute
 from start.settle on, signal.rate apart.  Rows are written as they arrive; a second call does only runs that are missing.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from pydantic import Field
@@ -29,13 +27,10 @@ from pydantic import Field
 from ..base.errors import UserError, unknown
 from ..base.schema import Section, Texts, checked
 from ..base.toml_files import read_toml, section_of
+from ..running.fmu import Model
 from ..running.summary import settled
 from ..show.spectrum import kinematic_frequencies, speed_of
-from .sweep_file import SweepFile, plan_sweep
-
-if TYPE_CHECKING:
-    from ..running.fmu import Model
-    from .sweep_file import Sweep
+from .sweep_file import Sweep, SweepFile, plan_sweep
 
 SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
 RACES = ("outer", "inner")
@@ -57,8 +52,6 @@ class DatasetFile(SweepFile):
 
 def load_dataset(path: str | Path, model: Model) -> Sweep:
     """The Sweep of a dataset's TOML file, whose rows have labels and signals; UserError naming file, key and value."""
-    from pathlib import Path
-
     path = Path(path)
     if not path.is_file():
         raise UserError(f"{path}: no such dataset file")
@@ -76,56 +69,39 @@ def load_dataset(path: str | Path, model: Model) -> Sweep:
     document["simulation"] = simulation | {"outputs": recorded}
     plan = plan_sweep(path.stem, document, model, path)
     for scene in plan.scenes.values():
-        settle = scene.parameters.get("start.settle", model.default(model.parameters["start.settle"]))
+        settle = scene.value("start.settle", model)
         if scene.t_end <= settle:
             raise UserError(
                 f"{path}: simulation.t_end = {scene.t_end:g} s: more than start.settle = {settle:g} s is allowed"
             )
-    return replace(
-        plan, further=(Measure(channels), Fields(channels, {name: units_of(model, name) for name in channels}))
+    units = {name: model.outputs[name].unit or "1" for name in channels}
+    return replace(plan, further=(partial(measured, channels), partial(fields, units)))
+
+
+def measured(channels, result):
+    """Labels and signals of a run's Result by column; a worker calls it."""
+    rows = settled(result)
+    t = result.data["time"][rows]
+    speeds = {name: speed_of(result, name, rows) for name in SPEEDS}
+    frequencies = kinematic_frequencies(result, speeds, orders=False)
+    return (
+        labels(result.parameters)
+        | {f"frequency.{name}": frequencies[name] for name in FREQUENCIES}
+        | {"signal.rate": 1.0 / float(np.mean(np.diff(t))) if len(t) > 1 else math.nan}
+        | {f"signal.{name}": result.data[name][rows].astype(np.float32) for name in channels}
     )
 
 
-def units_of(model, name):
-    return model.outputs[name].unit or "1"
+def fields(units):
+    """The fields of these columns; units: by channel."""
+    import pyarrow as pa
 
-
-class Measure:
-    """Labels and signals of a run's Result by column; goes to the workers."""
-
-    def __init__(self, channels):
-        self.channels = channels
-
-    def __call__(self, result):
-        rows = settled(result)
-        t = result.data["time"][rows]
-        speeds = {name: speed_of(result, name, rows) for name in SPEEDS}
-        frequencies = kinematic_frequencies(result, speeds, orders=False)
-        return (
-            labels(result.parameters)
-            | {f"frequency.{name}": frequencies[name] for name in FREQUENCIES}
-            | {"signal.rate": 1.0 / float(np.mean(np.diff(t))) if len(t) > 1 else math.nan}
-            | {f"signal.{name}": result.data[name][rows].astype(np.float32) for name in self.channels}
-        )
-
-
-class Fields:
-    """The fields of these columns."""
-
-    def __init__(self, channels, units):
-        self.channels, self.units = channels, units
-
-    def __call__(self):
-        import pyarrow as pa
-
-        fields = [pa.field("label.fault", pa.string())]
-        fields += [pa.field(f"label.{name}", pa.float64(), metadata={"unit": "m"}) for name in (*SIZES, "waviness")]
-        names = [f"frequency.{name}" for name in FREQUENCIES] + ["signal.rate"]
-        fields += [pa.field(name, pa.float64(), metadata={"unit": "Hz"}) for name in names]
-        return fields + [
-            pa.field(f"signal.{name}", pa.list_(pa.float32()), metadata={"unit": self.units[name]})
-            for name in self.channels
-        ]
+    found = [pa.field("label.fault", pa.string())]
+    found += [pa.field(f"label.{name}", pa.float64(), metadata={"unit": "m"}) for name in (*SIZES, "waviness")]
+    names = [f"frequency.{name}" for name in FREQUENCIES] + ["signal.rate"]
+    found += [pa.field(name, pa.float64(), metadata={"unit": "Hz"}) for name in names]
+    kind = pa.list_(pa.float32())
+    return found + [pa.field(f"signal.{name}", kind, metadata={"unit": unit}) for name, unit in units.items()]
 
 
 def labels(parameters):

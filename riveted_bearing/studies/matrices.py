@@ -9,12 +9,10 @@ i w C.  Each shake runs with +A and with -A: half the difference of the two runs
 forces by which passing balls alone change R.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from fmpy.fmi1 import FMICallException
@@ -23,16 +21,14 @@ from bearing_model.quasi_static import quasi_static
 
 from ..base.errors import UserError
 from ..base.files import write_text
+from ..bearing.case import Case
 from ..running.effects import acts, all_figures, without_effect
-from ..running.fmu import Instance
+from ..running.fmu import Instance, Model
 from ..running.inputs import History
-from ..running.scene import own_names
+from ..running.scene import Scene, own_names
 from ..running.scene_case import case_at
-
-if TYPE_CHECKING:
-    from ..bearing.case import Case
-    from ..running.fmu import Model
-    from ..running.scene import Scene
+from ..running.summary import RPM
+from ..show.style import FORCE, HEAD, MIDDLE, picture
 
 DIRECTIONS = ("x", "y", "z", "tilt_y", "tilt_z")
 RATES = ("v_x", "v_y", "v_z", "tilt_y_dot", "tilt_z_dot")
@@ -78,19 +74,17 @@ def dynamic_matrices(
     scene: Scene,
     points: Any,
     frequency: Any = None,
-    amplitude: Any = AMPLITUDE,
     progress: Any = lambda share: None,
 ) -> Any:
     """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the
     FMU refuses.
 
-    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz); amplitude [m]: at the pitch
-    radius for tilts.
+    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz).
     """
     found = []
     for i, point in enumerate(points):
         w = frequency or point.frequency or 2.0 * math.pi * 100.0
-        size = np.array([1.0, 1.0, 1.0, *[2.0 / case.bearing.d_m] * 2]) * amplitude
+        size = np.array([1.0, 1.0, 1.0, *[2.0 / case.bearing.d_m] * 2]) * AMPLITUDE
         H = np.array([response(model, scene, point.omega, point.q, k, size[k], w) for k in range(5)]).T
         found.append(replace(point, frequency=w, K=H.real, C=H.imag / w))
         progress((i + 1) / len(points))
@@ -99,11 +93,8 @@ def dynamic_matrices(
 
 def scene_at(model: Model, scene: Scene, point: Any) -> Any:
     """The scene at the speed and the load factor of a point."""
-    own = {
-        name: scene.inputs[name](0.0) if name in scene.inputs else model.default(model.inputs[name])
-        for name in (f"shaft.{load}" for load in LOADS)
-    }
-    inputs = {name: point.load * value for name, value in own.items()} | {"shaft.omega": point.omega}
+    inputs = {f"shaft.{name}": point.load * scene.value(f"shaft.{name}", model) for name in LOADS}
+    inputs["shaft.omega"] = point.omega
     return replace(
         scene,
         replaced=tuple(text for text in scene.replaced if not text.startswith("shaft.omega ")),
@@ -118,9 +109,8 @@ def idle_settings(model: Model, scene: Scene, point: Any, speeds_given: Any, sta
 
     def held(one):
         one = scene_at(model, one, point)
-        place = dict.fromkeys((f"shaft.{name}" for name in RATES), 0.0) | {
-            f"shaft.{name}": value for name, value in zip(DIRECTIONS, point.q, strict=True)
-        }
+        place = dict.fromkeys((f"shaft.{name}" for name in RATES), 0.0)
+        place |= {f"shaft.{name}": value for name, value in zip(DIRECTIONS, point.q, strict=True)}
         histories = {name: History(np.zeros(1), np.array([value])) for name, value in place.items()}
         return replace(one, outputs=REACTIONS, parameters=one.parameters | FORCED, inputs=one.inputs | histories)
 
@@ -177,12 +167,9 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
         return [*place, *velocity]
 
     with Instance(model) as instance:
-        fmu, parameters = (
-            instance.fmu,
-            scene.parameters | FORCED,
-        )
+        fmu = instance.fmu
         try:
-            for name, value in parameters.items():
+            for name, value in (scene.parameters | FORCED).items():
                 instance.set_parameter(model.parameters[name], value)
             others = {name: float(history(0.0)) for name, history in scene.inputs.items() if name not in names}
             for name, value in (others | {"shaft.omega": omega}).items():
@@ -215,22 +202,14 @@ def write_table(found: Any, path: Path, basis: Any = ()) -> Path:
     """
     entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
     kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
-    header = [
-        "omega [rad/s]",
-        "load",
-        "frequency [rad/s]",
-        *(f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS),
-    ]
+    places = [f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS]
+    header = ["omega [rad/s]", "load", "frequency [rad/s]", *places]
     header += [f"{kind}[{entry}]" for kind in kinds for entry in entries]
-    rows = [
-        [p.omega, p.load, p.frequency, *p.q, *np.concatenate([getattr(p, kind).ravel() for kind in kinds])]
-        for p in found
-    ]
-    text = (
-        "\n".join([*comments(basis), ",".join(header), *(",".join(f"{value:.9g}" for value in row) for row in rows)])
-        + "\n"
-    )
-    return write_text(path, text)
+    lines = [*comments(basis), ",".join(header)]
+    for p in found:
+        entries = np.concatenate([getattr(p, kind).ravel() for kind in kinds])
+        lines.append(",".join(f"{value:.9g}" for value in (p.omega, p.load, p.frequency, *p.q, *entries)))
+    return write_text(path, "\n".join(lines) + "\n")
 
 
 def comments(basis):
@@ -287,37 +266,22 @@ def plot_matrices(found: Any, path: Path) -> Path:
     """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
     factor.
     """
-    from ..show.style import STYLE, plt, save_figure
-
     loads = list(dict.fromkeys(p.load for p in found))
-    with plt.rc_context(STYLE):
-        figure, (left, right) = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
+    with picture(path, (11, 4.2)) as figure:
+        left, right = figure.subplots(1, 2)
         for load, dash in zip(loads, ("-", "--", ":", "-.") * len(loads), strict=False):
             points = [p for p in found if p.load == load]
-            speed = np.array([p.omega for p in points]) * 30.0 / math.pi
-            for i, (name, colour) in enumerate(zip("xyz", ("#40495a", "#c8442b", "#2a6f97"), strict=True)):
+            speed = RPM * np.array([p.omega for p in points])
+            for i, (name, colour) in enumerate(zip("xyz", (FORCE, HEAD, MIDDLE), strict=True)):
                 suffix = "" if len(loads) == 1 else f", load x {load:g}"
                 left.plot(speed, [1e-6 * p.K_static[i, i] for p in points], dash, color=colour, alpha=0.45)
                 if points[0].K is not None:
-                    left.plot(
-                        speed,
-                        [1e-6 * p.K[i, i] for p in points],
-                        "o",
-                        color=colour,
-                        markersize=4,
-                        label=f"K {name}{name}{suffix}",
-                    )
-                    right.plot(
-                        speed,
-                        [p.C[i, i] for p in points],
-                        "o" + dash,
-                        color=colour,
-                        markersize=4,
-                        label=f"C {name}{name}{suffix}",
-                    )
+                    look = {"color": colour, "markersize": 4}
+                    left.plot(speed, [1e-6 * p.K[i, i] for p in points], "o", label=f"K {name}{name}{suffix}", **look)
+                    right.plot(speed, [p.C[i, i] for p in points], f"o{dash}", label=f"C {name}{name}{suffix}", **look)
         left.set(xlabel="speed [rev/min]", ylabel="stiffness [N/um]", title="Stiffness: lines quasi-static, points FMU")
         right.set(xlabel="speed [rev/min]", ylabel="damping [N s/m]", title="Damping, FMU")
         for ax in (left, right):
             if ax.has_data() and ax.get_legend_handles_labels()[0]:
                 ax.legend()
-        return save_figure(figure, path)
+    return path

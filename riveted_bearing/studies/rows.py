@@ -110,7 +110,7 @@ def read_rows(path):
             raise ValueError("no table of runs")
         return table
     except Exception as problem:  # pyarrow has many
-        raise UserError(f"{path}: not a result of a sweep, or damaged: {one_line(problem)}; {AGAIN}") from None
+        raise UserError(f"{path}: not a result of a sweep, or damaged: {one_line(repr(problem))}; {AGAIN}") from None
 
 
 def columns_of(folder: str | Path) -> dict[str, np.ndarray]:

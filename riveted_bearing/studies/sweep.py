@@ -30,8 +30,6 @@ after start.settle, as `mean(ring.y)`. Rows are written as they arrive, a few in
 file whole or not at all; a second call does only runs that are missing or failed.
 """
 
-from __future__ import annotations
-
 import contextlib
 import hashlib
 import json
@@ -40,23 +38,20 @@ import time
 from concurrent.futures import CancelledError
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError
 from ..base.files import KEY, write_atomically
-from ..base.interrupts import ignored_interrupts, kept_from_children
+from ..base.interrupts import held_interrupts, kept_from_children
 from ..base.version import __version__
 from ..running.basis import basis
 from ..running.fmu import Model
 from ..running.runner import closing_names, simulate
 from ..running.summary import has_statistics, settled
 from .rows import Store, columns_of
-from .sweep_file import ROW_VERSION
-
-if TYPE_CHECKING:
-    from .sweep_file import Sweep
+from .sweep_file import ROW_VERSION, Sweep
 
 KINDS = {
     "mean": np.mean,
@@ -81,15 +76,10 @@ def perform(scene, fmu, measure=None):
     except UserError as problem:
         return {"status": "failed", "message": str(problem), "date": started}
     late = settled(result)
-    sampled = {
-        f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()
-    }
-    about = {
-        "status": "stopped" if result.stopped else "done",
-        "message": result.stopped,
-        "date": started,
-        "whole_cpu_time": time.thread_time() - cpu,
-    }
+    late_values = {name: result.data[name][late] for name in scene.outputs}
+    sampled = {f"{kind}({name})": float(of(x)) for name, x in late_values.items() for kind, of in KINDS.items()}
+    about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started}
+    about["whole_cpu_time"] = time.thread_time() - cpu
     summary = result.summary
     if not has_statistics(result):  # those of a single step, at start.settle, would look like some
         summary = {name: math.nan if name.startswith("stat.") else value for name, value in summary.items()}
@@ -149,14 +139,15 @@ class cluster:
         return self.client
 
     def __exit__(self, *_):
-        with ignored_interrupts():
+        with held_interrupts():
             self.client.close()
             if self.local:
                 self.local.close()
 
 
 def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, keys: Any = None) -> dict[str, np.ndarray]:
-    """Do the runs that a sweep's folder lacks and return the rows that it then has.
+    """Do the runs that a sweep's folder lacks and return the rows that it then has, of the keys in their order if there are
+    some.
 
     folder: of the rows, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with
     the runs), or a function that gives it, called if something has to be simulated; progress:
@@ -166,11 +157,16 @@ def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, key
     """
     with Store(folder) as store:
         try:
-            run_missing(sweep, store, client, progress or (lambda *_: None), list(keys or sweep.scenes))
+            run_missing(sweep, store, client, progress or (lambda *_: None), list(dict.fromkeys(keys or sweep.scenes)))
         finally:
-            with ignored_interrupts():
+            with held_interrupts():
                 store.export(schema_of(sweep), sweep.scenes, sweep.grows)
-    return columns_of(folder)
+    rows = columns_of(folder)
+    if keys is None:
+        return rows
+    places = {key: i for i, key in enumerate(rows["key"])}
+    chosen = [places[key] for key in keys]
+    return {name: column[chosen] for name, column in rows.items()}
 
 
 def run_missing(sweep, store, client, progress, keys):
@@ -179,9 +175,9 @@ def run_missing(sweep, store, client, progress, keys):
 
     finished = store.done() & set(keys)
     done, failed = len(finished), 0
-    if not callable(client) or len(finished) < len(set(keys)):
+    if not callable(client) or done < len(keys):
         progress(done, failed, len(keys))
-    if len(finished) == len(set(keys)):
+    if done == len(keys):
         return
     client = client() if callable(client) else client
     # as a task, so that Dask makes it again if its workers die
@@ -210,7 +206,7 @@ def run_missing(sweep, store, client, progress, keys):
             done, failed = (done + 1, failed) if row["status"] == "done" else (done, failed + 1)
             progress(done, failed, len(keys))
     finally:
-        with ignored_interrupts():
+        with held_interrupts():
             client.cancel(futures)
 
 
@@ -236,14 +232,11 @@ def about_run(sweep, key):
     """The driver's part of a row: parameters, inputs and settings of the run."""
     scene, model = sweep.scenes[key], sweep.model
     row = {"key": key, "scene": scene.name, "t_end": scene.t_end, "step": scene.step}
-    row |= {name: scene.parameters.get(name, model.default(variable)) for name, variable in model.parameters.items()}
+    row |= {name: scene.value(name, model) for name in model.parameters}
     row["solver.tol"] = row["solver.tol"] if scene.tolerance is None else scene.tolerance
-    for name, variable in model.inputs.items():
-        history = scene.inputs.get(name)
-        # None: varies in time
-        row[name] = (
-            model.default(variable) if history is None else float(history.value[0]) if len(history.t) == 1 else None
-        )
+    for name in model.inputs:
+        varies = name in scene.inputs and len(scene.inputs[name].t) > 1
+        row[name] = None if varies else scene.value(name, model)
     return row
 
 
@@ -252,25 +245,20 @@ def schema_of(sweep: Sweep) -> Any:
     import pyarrow as pa
 
     model = sweep.model
-    units = {
-        name: v.unit or "1" for name, v in (model.parameters | model.inputs | model.outputs | model.locals).items()
-    }
+    variables = model.parameters | model.inputs | model.outputs | model.locals
+    units = {name: v.unit or "1" for name, v in variables.items()}
     kinds = {"Real": pa.float64(), "Integer": pa.int64(), "Enumeration": pa.string()}
     outputs = dict.fromkeys(name for scene in sweep.scenes.values() for name in scene.outputs)
+
+    def column(name, unit, kind=None):
+        return pa.field(name, kind or pa.float64(), metadata={"unit": unit})
+
+    times = ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")
     fields = [pa.field(name, pa.string()) for name in ("key", "scene", "status", "message", "date")]
-    fields += [pa.field("run", pa.int64())]
-    fields += [
-        pa.field(name, pa.float64(), metadata={"unit": "s"})
-        for name in ("t_end", "step", "simulated_time", "cpu_time", "whole_cpu_time", "wall_time")
-    ]
-    fields += [
-        pa.field(name, kinds[v.type], metadata={"unit": units[name]})
-        for name, v in (model.parameters | model.inputs).items()
-    ]
-    fields += [pa.field(name, pa.float64(), metadata={"unit": units[name]}) for name in closing_names(model)]
-    fields += [
-        pa.field(f"{kind}({name})", pa.float64(), metadata={"unit": units[name]}) for name in outputs for kind in KINDS
-    ]
+    fields += [pa.field("run", pa.int64()), *(column(name, "s") for name in times)]
+    fields += [column(name, units[name], kinds[v.type]) for name, v in (model.parameters | model.inputs).items()]
+    fields += [column(name, units[name]) for name in closing_names(model)]
+    fields += [column(f"{kind}({name})", units[name]) for name in outputs for kind in KINDS]
     fields += [further for give in sweep.further[1:] for further in give()]
     about = {
         "format": ROW_VERSION,

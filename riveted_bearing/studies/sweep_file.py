@@ -1,29 +1,24 @@
 """Files of sweeps: the axes of a design, read and checked before the first run."""
 
-from __future__ import annotations
-
 import hashlib
 import itertools
 import json
 import math
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import Field
 
-from ..base.errors import UserError, is_file, refusal, unknown
+from ..base.errors import UserError, is_file, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import Choice, Count, Named, Section, Text, checked
 from ..base.shipped import shipped_scenes
 from ..base.toml_files import leaves, read_toml
 from ..base.units import SECONDS, check_alike, to_si
 from ..running.fmu import Model
-from ..running.scene import SIMULATION, load_scene
-
-if TYPE_CHECKING:
-    from ..running.scene import Scene
+from ..running.scene import SIMULATION, Scene, load_scene
 
 RANGE = ("from", "to", "count", "spacing")
 SETTINGS = {
@@ -120,7 +115,8 @@ def plan_sweep(name, document, model, path):
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
         source = settings.pop("scene", file.scene)
-        scene = load_scene(beside(path, source), model, (str(path), common), (str(path), sections_of(settings, model)))
+        changes = (str(path), common), (str(path), sections_of(settings, model))
+        scene = load_scene(beside(path, source), model, *changes)
         key = key_of(scene, fingerprint)
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
@@ -155,18 +151,12 @@ def values_of(path, name, value, model):
         raise unknown(path, "parameter, input or setting", name, known_names(model))
     if isinstance(value, list) and value:
         variable = (model.parameters | model.inputs).get(name)
-        try:
+        with refusing(path, f"vary.{name}", value):
             check_alike(value, SETTINGS.get(name) or model.units[getattr(variable, "unit", None) or "1"])
-        except UserError as problem:
-            raise refusal(path, f"vary.{name}", value, problem) from None
         return value
     if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
-        raise refusal(
-            path,
-            f"vary.{name}",
-            value,
-            'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed',
-        )
+        reason = 'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed'
+        raise refusal(path, f"vary.{name}", value, reason)
     low, high = bounds(path, name, (value["from"], value["to"]), model)
     count = points_of(path, f"vary.{name}.count", value["count"])
     spacing = value.get("spacing", "linear")
@@ -186,11 +176,9 @@ def bounds(path: Path, name: str, pair: Any, model: Model) -> tuple[float, ...]:
         scales = model.units[variable.unit]
     else:
         raise refusal(path, name, list(pair), "only real numbers have ranges: list the values instead")
-    try:
+    with refusing(path, name, list(pair)):
         check_alike(pair, scales)
         return tuple(to_si(value, scales) for value in pair)
-    except UserError as problem:
-        raise refusal(path, name, list(pair), problem) from None
 
 
 def count_of(path: Path, name: str, value: Any) -> Any:
@@ -273,11 +261,7 @@ def sections_of(settings: Any, model: Model) -> Any:
 
 def key_of(scene: Scene, fingerprint: Any) -> str:
     """Key of a run: a digest of the FMU's content and of everything in the scene."""
-    content = {name: value for name, value in vars(scene).items() if name not in WORDS} | {
-        "inputs": {
-            name: (history.t.tolist(), history.value.tolist(), history.hold) for name, history in scene.inputs.items()
-        },
-        "fmu": fingerprint,
-        "row": ROW_VERSION,
-    }
+    inputs = {name: (h.t.tolist(), h.value.tolist(), h.hold) for name, h in scene.inputs.items()}
+    content = {name: value for name, value in vars(scene).items() if name not in WORDS}
+    content |= {"inputs": inputs, "fmu": fingerprint, "row": ROW_VERSION}
     return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:24]

@@ -2,12 +2,10 @@
 and a page.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -16,10 +14,8 @@ from ..base.units import suffix
 from ..running.basis import basis
 from ..show import charts
 from ..show.pages import save_page
-from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt, save_figure
-
-if TYPE_CHECKING:
-    from .sweep_file import Sweep
+from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, picture
+from .sweep_file import Sweep
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
@@ -44,7 +40,6 @@ class Response:
     unit: str
     mean: np.ndarray
     half: np.ndarray
-    logarithmic: bool = False
 
 
 @dataclass(frozen=True)
@@ -64,22 +59,20 @@ class SweepTable:
 def sweep_table(sweep: Sweep, rows: Any) -> Any:
     """The SweepTable of a sweep's rows; runs that failed or were stopped do not count."""
     names = [name for name in sweep.factors if name != SEED]
-    units, columns = (
-        zip(*(shown(sweep.model, name, rows[column_of(name)]) for name in names), strict=True) if names else ((), ())
-    )
+    found = [shown(sweep.model, name, rows[column_of(name)]) for name in names]
+    units, columns = zip(*found, strict=True) if found else ((), ())
     done = rows["status"] == "done"
     groups = {}
     for i in np.flatnonzero(done):
-        groups.setdefault(
-            tuple(column[i] if isinstance(column[i], str) else float(column[i]) for column in columns), []
-        ).append(i)
+        point = tuple(column[i] if isinstance(column[i], str) else float(column[i]) for column in columns)
+        groups.setdefault(point, []).append(i)
     responses = []
     for title, unit, factor, column in RESPONSES:
         if column in rows and np.any(rows[column][done]):
             responses.append(Response(title, unit, *averaged(factor * rows[column], groups)))
     if np.any(damage := damage_per_hour(rows, done)):
         mean, half = averaged(np.log10(np.maximum(damage, 1e-300)), groups)
-        responses.append(Response("log10 damage per hour", "", mean, half, logarithmic=True))
+        responses.append(Response("log10 damage per hour", "", mean, half))
     factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
     seeds = np.array([len(group) for group in groups.values()])
     return SweepTable(sweep.name, factors, list(groups), seeds, responses, basis(sweep.model, sweep.scenes.values()))
@@ -96,9 +89,8 @@ def shown(model, name, values):
 
 def column_of(name):
     """Column of the rows that holds a factor."""
-    return {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}.get(
-        name, name
-    )
+    others = {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}
+    return others.get(name, name)
 
 
 def damage_per_hour(rows, done):
@@ -113,29 +105,23 @@ def damage_per_hour(rows, done):
 def averaged(values, groups):
     """Means over the runs of each group and half-widths of their interval by Student's t."""
     mean = np.array([values[group].mean() for group in groups.values()])
-    half = [
-        stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(group) - 1) * values[group].std(ddof=1) / math.sqrt(len(group))
-        if len(group) > 1
-        else math.nan
-        for group in groups.values()
-    ]
-    return mean, np.array(half)
+
+    def half(sample):
+        error = sample.std(ddof=1) / math.sqrt(len(sample)) if len(sample) > 1 else math.nan
+        return stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(sample) - 1) * error
+
+    return mean, np.array([half(values[group]) for group in groups.values()])
 
 
 def lines(table: Any) -> Any:
     """Heads and cells of the table as texts."""
-    heads = [
-        *table.factors,
-        "seeds",
-        *(f"{response.title} [{response.unit}]" if response.unit else response.title for response in table.responses),
-    ]
+    titles = [f"{each.title} [{each.unit}]" if each.unit else each.title for each in table.responses]
     cells = []
     for p, point in enumerate(table.points):
+        values = [value if isinstance(value, str) else f"{value:.6g}" for value in point]
         means = [cell(response.mean[p], response.half[p]) for response in table.responses]
-        cells.append(
-            [*(value if isinstance(value, str) else f"{value:.6g}" for value in point), str(table.seeds[p]), *means]
-        )
-    return heads, cells
+        cells.append([*values, str(table.seeds[p]), *means])
+    return [*table.factors, "seeds", *titles], cells
 
 
 def cell(mean, half):
@@ -151,30 +137,18 @@ def draw_response(ax, table, response):
         groups.setdefault(point[1:], []).append(p)
     ticks = [] if numbers else list(dict.fromkeys(point[0] if point else "" for point in table.points))
     for (rest, places), colour in zip(groups.items(), colours(len(groups)), strict=True):
-        x = [
-            table.points[p][0] if numbers else ticks.index(table.points[p][0] if table.points[p] else "")
-            for p in places
-        ]
+        firsts = [table.points[p][0] if table.points[p] else "" for p in places]
+        x = firsts if numbers else list(map(ticks.index, firsts))
         order = np.argsort(x)
         places, x = np.array(places)[order], np.array(x, float)[order]
         label = ", ".join(value if isinstance(value, str) else f"{value:.5g}" for value in rest)
         style = "o-" if numbers and len(groups) <= MOST_LINES else "o"
-        ax.errorbar(
-            x,
-            response.mean[places],
-            yerr=np.nan_to_num(response.half[places]),
-            fmt=style,
-            color=colour,
-            ms=4,
-            lw=1.0,
-            capsize=2,
-            label=label,
-        )
+        half, look = np.nan_to_num(response.half[places]), {"ms": 4, "lw": 1.0, "capsize": 2}
+        ax.errorbar(x, response.mean[places], yerr=half, fmt=style, color=colour, label=label, **look)
     if ticks:
         ax.set_xticks(range(len(ticks)), ticks)
-    ax.set(
-        title=response.title, xlabel=table.factors[0] if table.factors else "", ylabel=response.unit or response.title
-    )
+    label = table.factors[0] if table.factors else ""
+    ax.set(title=response.title, xlabel=label, ylabel=response.unit or response.title)
     ax.margins(x=0.06, y=0.12)
     if 1 < len(groups) <= MOST_LINES:
         ax.set_ylim(top=ax.get_ylim()[1] + LEGEND_LINE * (2 + (len(groups) - 1) // 3) * np.ptp(ax.get_ylim()))
@@ -190,18 +164,14 @@ def write_picture(table: Any, path: Path) -> Path:
     """The responses side by side as PNG, whole or not at all; returns the path."""
     columns = min(3, len(table.responses))
     rows = -(-len(table.responses) // columns)
-    with plt.rc_context(STYLE):
-        figure, axes = plt.subplots(
-            rows, columns, figsize=(4.4 * columns, 0.5 + 3.3 * rows), layout="constrained", squeeze=False
-        )
-        figure.suptitle(
-            f"{table.name}: means over seeds, {100 * CONFIDENCE:g} % intervals", x=0.01, ha="left", fontsize=11
-        )
+    title = f"{table.name}: means over seeds, {100 * CONFIDENCE:g} % intervals"
+    with picture(path, (4.4 * columns, 0.5 + 3.3 * rows), title) as figure:
+        axes = figure.subplots(rows, columns, squeeze=False)
         for ax in axes.ravel()[len(table.responses) :]:
             ax.remove()
         for ax, response in zip(axes.ravel(), table.responses, strict=False):
             draw_response(ax, table, response)
-        return save_figure(figure, path)
+    return path
 
 
 def write_page(table: Any, description: Any, path: Path) -> Path:
