@@ -3,13 +3,13 @@ verlet.c and implicit.c.
 
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
-    v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (cage_begin)
-    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^ - b)    one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
+    v^ = v_n + h a_n - limiter + p,  a^ = a(t_{n+1}, q_{n+1}, v^)    predictor; limiter of the halves by films, p of the balls (cage_begin)
+    (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n) + limiter     one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
-cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.  b: excess of the balls' accelerations over the
-impulses of the loads on walls, which follow in the cage's substeps.
+cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.  p: impulses on the balls by changes of the
+loads on walls, which follow in the cage's substeps, beyond those of the trapezoidal rule.
 The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls and ring
 one after the other, with Schur complements; here one dense solve does the same.  Vectors v, a, delta and all
 matrices have the N_V velocities of the state, in their order.
@@ -59,7 +59,6 @@ POSITIONS, FRICTION, V = (
     slice(BALL_V_X.start, N_STATES),
 )
 N_V = N_STATES - V.start
-BALLS = slice(0, 3 * Z)  # velocities of the balls' centres
 CAGE = slice(CAGE_V_X.start - V.start, RING_V_X.start - V.start)  # velocities of the cage's halves
 OTHERS = np.delete(np.arange(N_V), CAGE)  # those of balls and ring
 
@@ -286,12 +285,12 @@ def dissipation_correction(model, w, gamma, residual, delta):
     return np.sum(power) - gamma * np.sum(elastic)
 
 
-def correct_positions(model, gamma, delta, y):
+def correct_positions(model, gamma, delta, balls, y):
     """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n); the
-    cage has weights of its own.
+    cage has weights of its own.  balls: changes of their accelerations whose ways y has [3 Z].
     """
-    y[BALL_X] += gamma * delta[BALL[0]]
-    y[BALL_R] += gamma * delta[BALL[1]]
+    y[BALL_X] += gamma * (delta[BALL[0]] - gamma * balls[:Z])
+    y[BALL_R] += gamma * (delta[BALL[1]] - gamma * balls[Z : 2 * Z])
     if model.p.ring.tilt_mode != TiltMode.FREE:
         y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
 
@@ -311,16 +310,14 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), gamma * (end.f[V] - a)
-    residual[BALLS] -= gamma * balls
     delta = np.linalg.solve(b.matrix(gamma), residual)
     residual[CAGE], delta[CAGE] = cage_residual, cage_delta
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + film_power
     ring_wrench(model, w, gamma, delta)
     end.exchange = exchange_at(w)
     y[V][OTHERS] += delta[OTHERS]  # delta = v_{n+1} - v_n - h a_n
-    correct_positions(model, gamma, delta, y)
+    correct_positions(model, gamma, delta, balls, y)
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
-    delta[BALLS] += gamma * balls
 
     # Error and history of the velocities; stiff accelerations give up a part of their second difference.
     second, errors = trapezoid_error(h, start.h, delta, start.jerk[V])
