@@ -134,6 +134,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->touch.r[0], 2 * LANES, motion) &&
            values_are_within(fast->touch.chi[0], 2 * LANES, 2.0 * motion) &&
            values_are_within(fast->touch.radius[0], 2 * LANES, 10.0 * motion) &&
+           values_are_within(fast->touch.front[0], 2 * LANES, motion) &&
            values_are_within(&fast->omega_2, 1, 1e18) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&

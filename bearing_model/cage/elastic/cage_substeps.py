@@ -61,7 +61,7 @@ class FastState:
 
     e: np.ndarray  # motions of the joints out of the plane [3, Z]
     u: np.ndarray  # their offsets in it [2, Z]
-    touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [8, Z]
+    touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [9, Z]
     modes: np.ndarray  # accelerations by joints and springs [2, n]
     rigid: np.ndarray  # accelerations of the relative motions at the joints [6]
 

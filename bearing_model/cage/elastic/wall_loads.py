@@ -16,8 +16,8 @@ from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_w
 from bearing_model.generated.variables import BALL_OMEGA_M, BALL_R, BALL_THETA, BALL_V_R, BALL_V_X, BALL_X, Z
 
 # Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
-# r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
-TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius"
+# r, Hertz's constant, approach, load; of a ribbon place chi, radius and front (ribbon_wall_shapes)
+TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius", "front"
 MOST_DAMPED = 1e3  # largest load over that without damping
 
 
@@ -54,8 +54,8 @@ class WallLoads:
             if not np.any(touch["K"] > 0.0):
                 continue
             if model.d.spheres:
-                chi = touch["chi"]
-                shape = ribbon_wall_shapes(model.modes, 2 * i - 1, np.abs(chi), touch["radius"], chi < 0.0)[0]
+                place = (touch[name] for name in ("chi", "radius", "front"))
+                shape = ribbon_wall_shapes(model.modes, 2 * i - 1, *place)[0]
             else:
                 shape = elastic_wall_shape(model.modes, 2 * i - 1, touch["x"], touch["t"])[0]  # [3, Z, n]
             along = [touch[name][:, None] * motion for name, motion in zip("xrt", shape, strict=True)]

@@ -62,8 +62,9 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
                        mode_array shape)
 {
     const int side = 2 * h - 1, j = k / LANE_WIDTH * LANE_WIDTH;
-    const double place[6] = {fast->touch.x[h][k],   fast->touch.r[h][k],      fast->touch.t[h][k],
-                             fast->touch.chi[h][k], fast->touch.radius[h][k], model->p->cage.m};
+    const WallTouch *touch = &fast->touch;
+    const double place[7] = {touch->x[h][k],      touch->r[h][k],     touch->t[h][k],  touch->chi[h][k],
+                             touch->radius[h][k], touch->front[h][k], model->p->cage.m};
     const PressedWall *known = &w->cage.elastic.pressed[h][k];
     if (memcmp(place, known->place, sizeof place) == 0) {
         memcpy(shape, known->shape, sizeof known->shape);
@@ -71,12 +72,12 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
     }
     if (model->d->spheres.on) {
         RibbonNodes nodes;
-        ribbon_wall_nodes(model->modes, wide_set(fabs(place[3])), wide_set(place[4]), &nodes);
-        ribbon_wall_shape(model->modes, side, k, place[3] < 0.0, &nodes, 0, place, shape);
+        ribbon_wall_nodes(model->modes, wide_set(place[3]), wide_set(place[4]), wide_set(place[5]), &nodes);
+        ribbon_wall_shape(model->modes, side, k, &nodes, 0, place, shape);
     } else {
         WallPlaces places;
-        elastic_wall_places(model->modes, side, j, wide_load(&fast->touch.x[h][j]),
-                            wide_load(&fast->touch.t[h][j]), &places);
+        elastic_wall_places(model->modes, side, j, wide_load(&touch->x[h][j]), wide_load(&touch->t[h][j]),
+                            &places);
         elastic_wall_shape(model->modes, side, k, &places, shape);
     }
 }
