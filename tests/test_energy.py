@@ -248,7 +248,13 @@ def test_energy_balance_of_balls_that_press_on_walls(core, record_property):
     balance those of their modes.  The balance closes to 0.3 % of the loss (observed 0.01 %).  Loads with the damping of the bodies' motion
     alone, and predicted velocities of the balls that lacked the loads' impulses, left 1.6 %.
     """
-    inputs = {"shaft.omega": 125.0, "shaft.F_x": 2100.0, "shaft.F_y": 2450.0, "shaft.F_z": 2750.0, "shaft.tilt_y": -0.0055}
+    inputs = {
+        "shaft.omega": 125.0,
+        "shaft.F_x": 2100.0,
+        "shaft.F_y": 2450.0,
+        "shaft.F_z": 2750.0,
+        "shaft.tilt_y": -0.0055,
+    }
     bearing = Instance(core, {"scene.cage": CageModel.ELASTIC, "cage.guide_clearance": 2e-4}, inputs)
     bearing.step(0.02)
     before, loss = bearing.output("bearing.energy_residual"), 0.0

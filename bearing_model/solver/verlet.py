@@ -44,6 +44,11 @@ from bearing_model.physics.powers import friction_torque, shaft_power
 from bearing_model.physics.rhs import jacobian, rhs
 
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
+BUSY, QUIET, MEAN_OVER = (
+    0.2,
+    0.3,
+    0.01,
+)  # mean error of a busy bearing, least part of the tolerance, time of the mean [s]
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
 TRACTION_MARGIN = 1.4  # traction's rates in A / the secants |traction|/|slip| of the evaluation
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
@@ -84,6 +89,7 @@ class VerletState:
     h: float = 0.0  # length of that step [s], 0: none yet
     cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
+    error_mean: float = 0.0  # of the steps of the last 10 ms / error that is accepted
     # exchange with the shaft there, by the forces that move the balls: torque about its axis [N.m], power [W]
     exchange: np.ndarray = None
 
@@ -351,6 +357,11 @@ def ratio_of(error):
     return SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0) if error >= 0.0 else 0.0
 
 
+def tolerance_part(state):
+    """Part of the tolerance that steps are given: less where the longest step and not the error decides most of them."""
+    return min(max(state.error_mean / BUSY, QUIET), 1.0)
+
+
 def next_goal(goal, h, error, before):
     """Length wanted of the next step after one of length h that had the goal: after an accepted step by the digital filter H211b of
     Soderlind (2003), b = 4, after a refused one by its ratio.  A step cut short to meet t_stop says nothing against its goal.
@@ -377,11 +388,12 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
         length = left / max(np.ceil(left / h * (1.0 - LAST_STEP)), 1.0)
         last = length == left
         end, error = step(model, t, length, weight, state)
-        error /= cage_part(end.cage)
+        error /= cage_part(end.cage) * tolerance_part(state)
         h = next_goal(h, length, error, (state.h, state.ratio))
         if not error <= 1.0:
             refused += 1
             continue
+        end.error_mean = state.error_mean + min(length / MEAN_OVER, 1.0) * (error - state.error_mean)
         state, t = end, t_stop if last else t + length
         state.ratio = ratio_of(error)
         taken.append(length)

@@ -21,8 +21,9 @@ void spheres_rigid(const Model *model, Work *w);
 #define spheres_elastic FOR_ISA(spheres_elastic)
 void spheres_elastic(const Model *model, Work *w);
 
-static const double TIP = 1e-7;   // least distance from an axis, which has no direction [m]
-static const double SEAT = 5e-6;  // way from the middle up to which a ball sits on the corners of both sides [m]
+static const double TIP = 1e-7;  // least distance from an axis, which has no direction [m]
+static const double SEAT =
+    5e-6;  // way from the middle up to which a ball sits on the corners of both sides [m]
 static const double BEND =
     0.05;  // angle on both sides of the fillet's seam over which a place begins to turn with the ball
 
