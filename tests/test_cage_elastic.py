@@ -496,7 +496,8 @@ def test_a_step_does_not_need_the_work_before_it(core):
         fast, known = state.cage.elastic.fast, scene.work.cage.elastic.pressed
         for h in range(2):
             for k in np.flatnonzero(list(fast.touch.K[h])):
-                assert list(known[h][k].place)[3:5] == [fast.touch.chi[h][k], fast.touch.radius[h][k]]
+                place = [getattr(fast.touch, name)[h][k] for name in ("chi", "radius", "front")]
+                assert list(known[h][k].place)[3:6] == place
                 pressed += 1
         for wall in (wall for half in other.work.cage.elastic.pressed for wall in half):
             wall.place[5] = 0.0

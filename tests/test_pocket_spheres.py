@@ -241,6 +241,26 @@ def test_force_is_continuous_beside_the_corners():
     assert differences(16_001) < 0.35 * differences(4_001)  # 1/4 of a bounded slope
 
 
+@pytest.mark.parametrize("x", [-2e-5, 0.0, 4e-6])
+def test_a_ball_passes_between_the_corners_of_both_sides(x):
+    """A ball that is pushed along r, as far as 3 um into the edges: its force along t turns over the 5 um that the approaches of both corners
+    overlap: in 20 nm by less than 1 % of its largest value (20 nm are 0.4 % of 5 um, and the load grows on the way; with sides that change
+    places within 0.1 um 20 %).  It is the slope of the energy.
+    """
+    spheres, t = Model.of(RIBBON).d.spheres, np.linspace(-8e-6, 8e-6, 801)
+
+    def contact(r, t):
+        """Energy, load along t and approach of the first ball at places t."""
+        V, Q, n, delta = spheres_contact(spheres, *(np.repeat((q + 0.0 * t)[:, None], Z, axis=1) for q in (x, r, t)))
+        return V[:, 0], (Q * n[2])[:, 0], delta[:, 0]
+
+    r = brentq(lambda r: contact(r, np.zeros(1))[2][0] - 3e-6, 5e-5, 3e-4)
+    V, F_t, _ = contact(r, t)
+    assert np.max(np.abs(np.diff(F_t))) < 0.01 * np.max(F_t)
+    np.testing.assert_allclose(F_t, -F_t[::-1], atol=1e-9 * np.max(F_t))
+    assert np.max(np.abs((V[2:] - V[:-2]) / (t[2:] - t[:-2]) - F_t[1:-1])) < 1e-3 * np.max(F_t)
+
+
 def test_touch_down_is_c1(core):
     """Force and stiffness begin at 0 where the second half is touched: 1.5 K delta^0.5."""
     t = np.sqrt(SLACK**2 - E**2)

@@ -29,9 +29,9 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
     scene, model, rng, seen = core.model(changes), Model.of(changes), np.random.default_rng(3), {}
 
     class Watched(WallLoads):
-        def accelerations(self, t, q, moved, speeds):
+        def accelerations(self, t, q, moved):
             seen["loads"], seen["q"], seen["t"], seen["moved"] = self, q, t, moved
-            return super().accelerations(t, q, moved, speeds)
+            return super().accelerations(t, q, moved)
 
     monkeypatch.setattr(cage_substeps, "WallLoads", Watched)
     errors, arrivals = [], 0

@@ -219,6 +219,7 @@ def cage_slide(model, before, y, w):
 
 
 SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of step and tolerance that it has at least
+STIFF_GAP = 0.6  # most k Y h^2 of a step h, k: stiffness of a gap on a bent rim, Y: mobility of the rim
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
@@ -237,8 +238,8 @@ def cage_part(memory):
 def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves five substeps, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, or one in a pocket, but two substeps at least, one for pockets where lands guide the cage.  Slow halves
-    have a part of it.
+    not follow in the substeps, or one in a pocket, or that of a stiff gap, but two substeps at least, one for pockets where lands guide
+    the cage.  Slow halves have a part of it.
     """
     part = cage_part(memory)
     if not model.modes:
@@ -246,7 +247,8 @@ def cage_longest_step(model, memory):
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
     most = d + (model.modes.longest_step - d) * (part - LEAST_PART) / (1.0 - LEAST_PART)
-    films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate)
+    by_gap = np.sqrt(memory.films.stiffness * model.modes.mobility[0] / STIFF_GAP)
+    films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate), (2.0, by_gap)
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 
 

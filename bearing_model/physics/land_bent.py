@@ -104,8 +104,10 @@ def bent_sums(model, pressure):
     bed = 0.75 * p.cage.K_land * np.sqrt(0.5 * pressure.C)[..., None] * pen * weight
     rate = bent_dot(np.concatenate([pressure.v, pressure.rim_v]), b)
     N = hertz_damped(bed, p.cage.lambda_, rate)
+    by_gap = 3.0 * load / (gap * pressure.C[..., None]) + np.where(pen > 0.0, bed / np.where(pen > 0.0, pen, 1.0), 0.0)
     return SimpleNamespace(
         film=film,
+        stiffness=np.sum(by_gap, axis=-1),
         rates=rates,
         couette=np.sum(weight / gap, axis=-1),
         dry=-np.sum(N * b, axis=-1),

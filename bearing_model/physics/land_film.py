@@ -181,6 +181,7 @@ class LandPressure:
     film: np.ndarray = None  # force of the film on land and rim [6, ..., half] [N]
     rim_force: np.ndarray = None  # all force on the rim's shapes [N]
     dry: np.ndarray = None  # load of the dry contact [N]
+    stiffness: np.ndarray = None  # change of the load by the gap [N/m]
     felt: np.ndarray = None  # share of the pressure that bends the rim and loads the rivets
 
     def of(self, h):
@@ -247,6 +248,7 @@ def bent_lands(model, w, pressure, back, motion, heated):
     g = p.cage.mu_land / np.sqrt(slip * slip + p.cage.v_c**2)
     torque = heated * d.couette * d.C_land / pressure.C * (0.5 / np.pi) * sums.couette
     F = np.einsum("ki...,i...->k...", back, sums.film[:2] + sums.dry[:2]) + g * slip * size * np.array([u_z, -u_y])
+    pressure.stiffness = sums.stiffness
     pressure.film, pressure.dry, pressure.rim_force = sums.film, sums.N, sums.film[2:] + sums.dry[2:]
     pressure.felt = film_share(d, np.sqrt(sums.film[0] ** 2 + sums.film[1] ** 2 + 1e-30) + sums.N)
     return SimpleNamespace(

@@ -3,13 +3,13 @@ verlet.c and implicit.c.
 
     v_m = v_n + gamma a_n,  gamma = h/2
     q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m           velocity Verlet; friction states likewise, then return mapping (cage_joint_slide)
-    v^ = v_n + h a_n - limiter,  a^ = a(t_{n+1}, q_{n+1}, v^)        predictor; of the cage halves limited by their films (cage_begin)
-    (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^ - b)    one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
+    v^ = v_n + h a_n - limiter + p,  a^ = a(t_{n+1}, q_{n+1}, v^)    predictor; limiter of the halves by films, p of the balls (cage_begin)
+    (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n) + limiter     one linear solve, A ~ -da/dv, K ~ -da/dq of the stiff parts (jacobian_blocks)
     v_{n+1} = v^ + delta = v_n + gamma (a_n + a_{n+1})               the trapezoidal rule; any A and K leave its order two: a W-method
     a_{n+1} -= 0.15 H (a_{n+1} - 2 a_n + a_{n-1}),  H = 1 - (1 + gamma A)^-1    damping of stiff rates
 
-cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.  b: excess of the balls' accelerations over the
-impulses of the loads on walls, which follow in the cage's substeps.
+cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.  p: impulses on the balls by changes of the
+loads on walls, which follow in the cage's substeps, beyond those of the trapezoidal rule.
 The derivation, the reasons of all constants and the literature are in docs/method.md.  C eliminates balls and ring
 one after the other, with Schur complements; here one dense solve does the same.  Vectors v, a, delta and all
 matrices have the N_V velocities of the state, in their order.
@@ -44,6 +44,11 @@ from bearing_model.physics.powers import friction_torque, shaft_power
 from bearing_model.physics.rhs import jacobian, rhs
 
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
+BUSY, QUIET, MEAN_OVER = (
+    0.2,
+    0.3,
+    0.01,
+)  # mean error of a busy bearing, least part of the tolerance, time of the mean [s]
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
 TRACTION_MARGIN = 1.4  # traction's rates in A / the secants |traction|/|slip| of the evaluation
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
@@ -59,7 +64,6 @@ POSITIONS, FRICTION, V = (
     slice(BALL_V_X.start, N_STATES),
 )
 N_V = N_STATES - V.start
-BALLS = slice(0, 3 * Z)  # velocities of the balls' centres
 CAGE = slice(CAGE_V_X.start - V.start, RING_V_X.start - V.start)  # velocities of the cage's halves
 OTHERS = np.delete(np.arange(N_V), CAGE)  # those of balls and ring
 
@@ -85,6 +89,7 @@ class VerletState:
     h: float = 0.0  # length of that step [s], 0: none yet
     cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
+    error_mean: float = 0.0  # of the steps of the last 10 ms / error that is accepted
     # exchange with the shaft there, by the forces that move the balls: torque about its axis [N.m], power [W]
     exchange: np.ndarray = None
 
@@ -286,12 +291,12 @@ def dissipation_correction(model, w, gamma, residual, delta):
     return np.sum(power) - gamma * np.sum(elastic)
 
 
-def correct_positions(model, gamma, delta, y):
+def correct_positions(model, gamma, delta, balls, y):
     """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n); the
-    cage has weights of its own.
+    cage has weights of its own.  balls: changes of their accelerations whose ways y has [3 Z].
     """
-    y[BALL_X] += gamma * delta[BALL[0]]
-    y[BALL_R] += gamma * delta[BALL[1]]
+    y[BALL_X] += gamma * (delta[BALL[0]] - gamma * balls[:Z])
+    y[BALL_R] += gamma * (delta[BALL[1]] - gamma * balls[Z : 2 * Z])
     if model.p.ring.tilt_mode != TiltMode.FREE:
         y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
 
@@ -311,16 +316,14 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
 
     # One linear solve takes the predicted velocities to those of the trapezoidal rule.
     b, residual = blocks(model, t + h, y, w, gamma), gamma * (end.f[V] - a)
-    residual[BALLS] -= gamma * balls
     delta = np.linalg.solve(b.matrix(gamma), residual)
     residual[CAGE], delta[CAGE] = cage_residual, cage_delta
     end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + film_power
     ring_wrench(model, w, gamma, delta)
     end.exchange = exchange_at(w)
     y[V][OTHERS] += delta[OTHERS]  # delta = v_{n+1} - v_n - h a_n
-    correct_positions(model, gamma, delta, y)
+    correct_positions(model, gamma, delta, balls, y)
     y[WORK] += gamma * (f[WORK] + end.f[WORK])
-    delta[BALLS] += gamma * balls
 
     # Error and history of the velocities; stiff accelerations give up a part of their second difference.
     second, errors = trapezoid_error(h, start.h, delta, start.jerk[V])
@@ -354,6 +357,11 @@ def ratio_of(error):
     return SAFETY * max(error, LEAST_ERROR) ** (-1.0 / 3.0) if error >= 0.0 else 0.0
 
 
+def tolerance_part(state):
+    """Part of the tolerance that steps are given: less where the longest step and not the error decides most of them."""
+    return min(max(state.error_mean / BUSY, QUIET), 1.0)
+
+
 def next_goal(goal, h, error, before):
     """Length wanted of the next step after one of length h that had the goal: after an accepted step by the digital filter H211b of
     Soderlind (2003), b = 4, after a refused one by its ratio.  A step cut short to meet t_stop says nothing against its goal.
@@ -380,11 +388,12 @@ def verlet_advance(model, t, t_stop, h, weight, state, step=verlet_step):
         length = left / max(np.ceil(left / h * (1.0 - LAST_STEP)), 1.0)
         last = length == left
         end, error = step(model, t, length, weight, state)
-        error /= cage_part(end.cage)
+        error /= cage_part(end.cage) * tolerance_part(state)
         h = next_goal(h, length, error, (state.h, state.ratio))
         if not error <= 1.0:
             refused += 1
             continue
+        end.error_mean = state.error_mean + min(length / MEAN_OVER, 1.0) * (error - state.error_mean)
         state, t = end, t_stop if last else t + length
         state.ratio = ratio_of(error)
         taken.append(length)

@@ -72,10 +72,15 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
 // that it has five substeps at most.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
-// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step from five substeps to one.  Films of the rate A that
-// the substeps leave out allow 1/A, or two substeps, which are always stable; films in pockets too, or one substep where lands guide the
-// cage, whose loss would err by 5 to 11 %.
+// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step from five
+// substeps to one.  Films leave two substeps, which are always stable, or more: of the rate A that the substeps leave out 1/A; in pockets
+// too, or one substep where lands guide the cage, whose loss would err by 5 to 11 %; on bent rims STIFF_GAP.
+//
+// A gap of the stiffness k, 3e8 N/m at 0.3 degrees of tilt and 1e6 at most without, is a slow force: the substeps follow the rim's velocity
+// alone.  It feeds a mode of the mobility Y and the frequency omega by k Y/omega^2 (wall_loads.c), less than its damping as long as
+// k Y h^2 < STIFF_GAP.
 static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the longest step
+static const double STIFF_GAP = 0.6;
 
 double cage_part(const CageMemory *memory)
 {
@@ -96,7 +101,9 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
         d + (elastic_longest_step(model->modes) - d) * (part - LEAST_PART) / (1.0 - LEAST_PART);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
-    return fmin(most, fmin(lands, pockets));
+    const double by_gap = memory->elastic.films.stiffness * model->modes->mobility[0];
+    const double rims = fmax(2.0 * d, sqrt(STIFF_GAP / by_gap));
+    return fmin(fmin(most, rims), fmin(lands, pockets));
 }
 
 // Elastic halves have two substeps: equal steps of three are near half a period of the fastest vibrations, which slow
@@ -127,12 +134,14 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
            values_are_within(fast->touch.r[0], 2 * LANES, motion) &&
            values_are_within(fast->touch.chi[0], 2 * LANES, 2.0 * motion) &&
            values_are_within(fast->touch.radius[0], 2 * LANES, 10.0 * motion) &&
+           values_are_within(fast->touch.front[0], 2 * LANES, motion) &&
            values_are_within(&fast->omega_2, 1, 1e18) &&
            values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
            values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
            values_are_within(memory->elastic.films.force[0], 2 * RIM, load) &&
            values_are_within(memory->elastic.films.rates[0][0], 2 * SQUEEZE * SQUEEZE,
                              elastic ? 1e30 : 0.0) &&
+           values_are_within(&memory->elastic.films.stiffness, 1, elastic ? 1e30 : 0.0) &&
            values_are_within(memory->elastic.squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
            values_are_within(memory->elastic.force[0], 2 * SQUEEZE, elastic ? 1e30 : 0.0) &&
            values_are_within(memory->halves.pockets.D[0], 2 * LANES, 1e15) &&

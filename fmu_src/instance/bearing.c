@@ -138,7 +138,8 @@ static void events_here(Bearing *b)
     const InstanceState *s = &b->s;
     const IntegratorState *i = &s->integrator;
     Event *now = b->events;
-    events_now(&b->model, &b->w, &s->lag, i->error_mean, s->force_peak, s->head_peak, s->mid_peak, now);
+    const double error = b->model.p->solver.method == METHOD_FIXED ? i->error_mean : 0.0;
+    events_now(&b->model, &b->w, &s->lag, error, s->force_peak, s->head_peak, s->mid_peak, now);
     now[EVENT_RIVET_BREAK].count = s->breakage.latest;
     now[EVENT_ENERGY_OFF] = energy_event(b);
     if (now[EVENT_ENERGY_OFF].count == 0 || b->evaluated) return;

@@ -14,20 +14,20 @@ enum { ENTRIES = (N_MODES / 2 + 7) / 8 * 8 };  // of one kind (elastic_half.h)
 typedef scalar mode_array[2 * ENTRIES] __attribute__((aligned(8 * sizeof(scalar))));
 
 // Motion along the normal, by each mode, of a wall that a ball presses or is near.  The substeps behind the evaluation need it again: it
-// is theirs if the place is, (x, r, t) of the normal, of a ribbon chi and radius, and the mass of the half, from which it follows bit
+// is theirs if the place is, (x, r, t) of the normal, of a ribbon chi, radius and front, and the mass of the half, from which it follows bit
 // for bit.
 typedef struct {
-    scalar place[6];
+    scalar place[7];
     mode_array shape;
 } PressedWall;
 
 // Contacts of balls with the walls of each half, and those that may come in the next step: direction (x, t) from the pocket's
 // axis to the ball; Hertz's constant by the half's share [N/m1.5], 0 without contact; approach beside the part that the wall's
 // residual contributes, negative before the contact [m]; load [N].  Of a ribbon's walls also direction r, the place's angle chi,
-// negative on the side t < 0, and radius [m].  Carried to the next step: no member is aligned beyond a scalar.
+// radius [m] and part `front` (elastic_half.h).  Carried to the next step: no member is aligned beyond a scalar.
 typedef struct {
     scalar x[2][LANES], t[2][LANES], K[2][LANES], delta[2][LANES], Q[2][LANES];
-    scalar r[2][LANES], chi[2][LANES], radius[2][LANES];
+    scalar r[2][LANES], chi[2][LANES], radius[2][LANES], front[2][LANES];
 } WallTouch;
 
 // The joints between both halves, in the frame of half 0.  At an evaluation they are written by cage_elastic.c; in the

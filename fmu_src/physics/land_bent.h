@@ -96,10 +96,10 @@ INLINE wide bent_gap(wide x, double g_0)
     return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
 }
 
-// A packet of points: shapes b, weight dtheta, gap by the geometry and of the film over the clearance, dtheta over the latter,
+// A packet of points: shapes b, weight dtheta, gap by the geometry and of the film over the clearance, its inverse, dtheta over it,
 // kappa C^3 dtheta/h^3.
 typedef struct {
-    wide b[SQUEEZE], weight, gap, open, narrow, stiff;
+    wide b[SQUEEZE], weight, gap, open, inv_open, narrow, stiff;
 } BentPoint;
 
 INLINE BentPoint bent_point(const Model *model, const LandPressure *pressure, const BentPoints *points, int m)
@@ -109,8 +109,9 @@ INLINE BentPoint bent_point(const Model *model, const LandPressure *pressure, co
     at.weight = (2.0 * PI / BENT_POINTS) * bent_shapes(model->d, points, m, at.b);
     at.gap = (wide_set(pressure->C) - bent_dot(pressure->e, pressure->rim, at.b)) * inv_C;
     at.open = bent_gap(at.gap, model->p->cage.g_0);
-    const wide inv_open = 1.0 / at.open, inv_h = inv_C * inv_open;
-    at.narrow = at.weight * inv_open;
+    at.inv_open = 1.0 / at.open;
+    const wide inv_h = inv_C * at.inv_open;
+    at.narrow = at.weight * at.inv_open;
     at.stiff = wide_set(pressure->kappa_C3) * at.narrow * inv_C * (inv_h * inv_h);
     return at;
 }
@@ -120,6 +121,7 @@ enum {
     BENT_FILM,
     BENT_RATES = BENT_FILM + SQUEEZE,        // waves of the rates (add_waves)
     BENT_COUETTE = BENT_RATES + BENT_WAVES,  // int C dtheta/h
+    BENT_STIFFNESS,                          // int of the load per gap
     BENT_ROUGH,                              // int of the load of asperities, and times n
     BENT_DRY = BENT_ROUGH + 3,               // of the dry contact: forces, loads without and with damping,
     BENT_N_0 = BENT_DRY + SQUEEZE,
@@ -135,10 +137,11 @@ INLINE void bent_dry(const Parameters *p, const LandPressure *pressure, const Be
                      wide sum[BENT_SUMS])
 {
     const wide pen = wide_max(-at->gap, wide_set(0.0)) * wide_set(pressure->C);
-    const wide stiffness = wide_set(0.75 * p->cage.K_land * scalar_sqrt(0.5 * pressure->C));
-    const wide rate = bent_dot(pressure->v, pressure->rim_v, at->b), bed = stiffness * pen * at->weight;
+    const wide stiffness = wide_set(0.75 * p->cage.K_land * scalar_sqrt(0.5 * pressure->C)) * at->weight;
+    const wide rate = bent_dot(pressure->v, pressure->rim_v, at->b), bed = stiffness * pen;
     const wide N = hertz_damped(bed, wide_set(p->cage.lambda), rate);
     for (int i = 0; i < SQUEEZE; i++) sum[BENT_DRY + i] += N * at->b[i];
+    sum[BENT_STIFFNESS] += wide_select(wide_above(-at->gap, 0.0), stiffness, wide_set(0.0));
     sum[BENT_N_0] += bed;
     sum[BENT_N] += N;
     sum[BENT_STORED] += 0.5 * bed * pen;
@@ -173,6 +176,7 @@ INLINE void bent_film(const Model *model, const LandPressure *pressure, const Be
     const wide rate = wide_select(closing, at->stiff, wide_set(0.0)), load = rate * W;
     for (int i = 0; i < SQUEEZE; i++) sum[BENT_FILM + i] += load * b[i];
     add_waves(rate, b, &sum[BENT_RATES]);
+    sum[BENT_STIFFNESS] += wide_set(3.0 / pressure->C) * (load * at->inv_open);
     if (model->p->scene.lubrication != LUBRICATION_MIXED) return;
     const wide thin = wide_set(pressure->C / model->d->C_land) * at->open;
     const wide rough = load * traction_asperity_share(model->d->ln_land + wide_log(thin));

@@ -396,7 +396,7 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
         force.M_x += pressure->film[i] * pressure->by_spin[i];
     }
     for (int i = 0; i < RIM; i++) pressure->rim_force[i] = pressure->film[2 + i] - sum[BENT_DRY + 2 + i];
-    pressure->dry = sum[BENT_N];
+    pressure->dry = sum[BENT_N], pressure->stiffness = sum[BENT_STIFFNESS];
     pressure->felt = film_share(d, scalar_sqrt(pressure->film[0] * pressure->film[0] +
                                                pressure->film[1] * pressure->film[1] + 1e-30) +
                                        pressure->dry);

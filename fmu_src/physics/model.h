@@ -266,13 +266,13 @@ typedef struct {
 
 // ---- pressure on the rim of an elastic half, along the half's axes; written by land_film.c, velocities and forces again by
 // land_bent.c at a step's end: eccentricity [m], pure squeeze velocity [m/s], load of the dry contact [N], part of the film's
-// waves that load the rivets, clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its
+// waves that load the rivets, change of the load by the gap [N/m], clearance [m], kappa C^3 [N.s.m2], velocity of the land [m/s], the rim's motion [m], its
 // velocity and squeeze velocity [m/s], forces on the rim's shapes and, by the film alone, on land and rim [N]; change of
 // the squeeze velocities by the spin against the outer ring [m], waves of the film's rates [N.s/m], squeeze velocities to
 // which film and rates belong ----
 typedef struct {
-    scalar e[2], V[2], dry, felt, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM], rim_force[RIM],
-        film[SQUEEZE];
+    scalar e[2], V[2], dry, felt, stiffness, C, kappa_C3, v[2], rim[RIM], rim_v[RIM], rim_V[RIM],
+        rim_force[RIM], film[SQUEEZE];
     scalar by_spin[SQUEEZE], waves[BENT_WAVES], at[SQUEEZE];
 } LandPressure;
 

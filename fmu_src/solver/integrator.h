@@ -13,7 +13,8 @@ typedef struct {
     Exchange sum;      // exchanged and lost since the last communication point: integrals over time
     double since;      // time of that point [s]
     double steps, rhs_evals, error_tests_failed;  // counts since the start
-    double error_mean;  // of equal steps over the last 10 ms / error that the default method accepts
+    double
+        error_mean;  // over the last 10 ms / error that is accepted, of equal steps that of the default method
 } IntegratorState;
 
 typedef struct Integrator Integrator;

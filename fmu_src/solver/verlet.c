@@ -4,12 +4,12 @@
 //
 //   gamma = h/2,  v_m = v_n + gamma a_n
 //   q_{n+1} = q_n + h q'(q_m, v_m),  q_m = q_n + gamma v_m         friction states z too, and behind it return mapping
-//   v^ = v_n + h a_n - limiter                                     predictor; the limiter is the cage's (cage_begin)
+//   v^ = v_n + h a_n - limiter + p                                 predictor; limiter and p, of loads on walls, are the cage's (cage_begin)
 //   a^ = a(t_{n+1}, q_{n+1}, v^)                                   the evaluation
-//   S (1 + gamma A + gamma^2 K) delta = v_n - v^ + gamma (a_n + a^ - b)    one Newton iteration; S, b: the cage's (cage_end), b: excess
-//                                                                  of the balls' a over the impulses of loads on walls
+//   S (1 + gamma A + gamma^2 K) delta = gamma (a^ - a_n) + limiter    one Newton iteration; S: the cage's (cage_end)
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
-//   q_{n+1} += gamma (v_{n+1} - v_n - h a_n)                       where K acts, z too: trapezoidal rule
+//   q_{n+1} += gamma (delta - gamma b)                             where K acts, z too: trapezoidal rule; b: changes of a by loads on
+//                                                                  walls, which q_{n+1} has
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
 //
 // cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.
@@ -92,10 +92,12 @@ static double dissipation_correction(const Model *model, const Work *w, const do
 
 // Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma delta with
 // delta = v_{n+1} - v_n - h a_n.  These are the balls' axial and radial positions and the tilts of a supported or
-// prescribed ring; the cage has weights of its own.
-static void correct_positions(const Model *model, double gamma, const double *delta, double *y)
+// prescribed ring; the cage has weights of its own.  balls: changes of their accelerations whose ways y has.
+static void correct_positions(const Model *model, double gamma, const double *delta,
+                              const double balls[BALL_MOTIONS], double *y)
 {
-    for (int i = 0; i < 2 * Z; i++) y[Y_BALL_X + i] += gamma * delta[VELOCITY + Y_BALL_X + i];
+    for (int i = 0; i < 2 * Z; i++)
+        y[Y_BALL_X + i] += gamma * (delta[VELOCITY + Y_BALL_X + i] - gamma * balls[i]);
     if (model->p->ring.tilt_mode != TILT_MODE_FREE)
         for (int i = Y_RING_BETA; i <= Y_RING_GAMMA; i++) y[i] += gamma * delta[VELOCITY + i];
 }
@@ -176,7 +178,6 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.
     for (int part = 0; part < PARTS; part++)
         for (int i = FIRST[part]; i < END[part]; i++) delta[i] = residual[i] = gamma * (to->f[i] - f[i]);
-    for (int i = 0; i < BALL_MOTIONS; i++) delta[VELOCITY + i] = residual[VELOCITY + i] -= gamma * balls[i];
     implicit_solve(model, w, gamma, delta);
     to->f[Y_WORK] += dissipation_correction(model, w, y, gamma, residual, delta);
     to->f[Y_WORK] += film_power;
@@ -186,8 +187,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // Velocities and stiff positions of the end; the work by the trapezoidal rule.
     for (int part = 0; part < PARTS; part++)
         for (int i = FIRST[part]; i < END[part]; i++) y[i] += delta[i];
-    correct_positions(model, gamma, delta, y);
-    for (int i = 0; i < BALL_MOTIONS; i++) delta[VELOCITY + i] += gamma * balls[i];
+    correct_positions(model, gamma, delta, balls, y);
     y[Y_WORK] += gamma * (f[Y_WORK] + to->f[Y_WORK]);
 
     // History for the next step, and the error: positions and the work have none of their own.

@@ -165,7 +165,7 @@ def pocket_clear(w):
 
 def elastic_clear(e):
     """No contacts with elastic walls yet."""
-    touch = ("x", "r", "t", "K", "delta", "Q", "chi", "radius")
+    touch = ("x", "r", "t", "K", "delta", "Q", "chi", "radius", "front")
     for name in ("wall_force", *(f"touch_{part}" for part in touch)):
         setattr(e, name, [None, None])
 
@@ -214,6 +214,6 @@ def pocket_elastic(model, w):
         reached = np.where(np.real(gap.delta) > 0.0, gap.delta, ahead)
         share = pocket_share(model.d, h, gap.n_x, reached)[0]
         e.touch_x[h], e.touch_t[h] = gap.n_x, gap.n_t
-        e.touch_r[h] = e.touch_chi[h] = e.touch_radius[h] = 0.0 * gap.n_x
+        e.touch_r[h] = e.touch_chi[h] = e.touch_radius[h] = e.touch_front[h] = 0.0 * gap.n_x
         e.touch_K[h] = np.where((np.real(share) > 0.0) & (np.real(reached) > 0.0), share * model.d.pocket.K, 0.0)
         e.touch_delta[h] = gap.delta

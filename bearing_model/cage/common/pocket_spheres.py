@@ -48,7 +48,9 @@ from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_l
 from bearing_model.physics.hertz import hertz_damped
 from bearing_model.physics.traction import Q_FLOOR
 
-TIP = 1e-7  # over which the two ends of an arc change places [m]
+TIP = 1e-7  # least distance from an axis, which has no direction [m]
+SEAT = 5e-6  # way from the middle up to which a ball sits on the corners of both sides [m]
+BEND = 0.05  # angle on both sides of the fillet's seam over which a place begins to turn with the ball
 LEAST = 1e-12  # load of a pocket that counts as touched [N]
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 NEWTON = 5  # steps for the wall's compliance, at most
@@ -57,12 +59,21 @@ SETTLED = 1e-12
 CORNER = 4.0  # largest ratio of a contact's approach to that of the sphere under its load, and the least one's inverse
 
 
+def sphere_side(at):
+    """A coordinate of q on either side of the middle, its size, a parabola up to SEAT, and the size's slope."""
+    far, slope = absolute(at), maximum(minimum(at / SEAT, 1.0), -1.0)
+    near = minimum(far, SEAT)
+    return at, far - near + 0.5 * (near * near / SEAT + SEAT), slope
+
+
 def arc_reach(rim, u, v):
-    """Reach g of (u, v) along the rim's arc, v >= 0, and its slopes along u and v."""
-    g = np.sqrt(u * u + v * v)
-    within = np.real(u * rim.sin_arc - v * rim.cos_arc) > 0.0
-    corner = u * rim.cos_arc + v * rim.sin_arc
-    return np.where(within, g, corner), np.where(within, u / g, rim.cos_arc), np.where(within, v / g, rim.sin_arc)
+    """Reach g of (u, v) along the rim's arc, and its slopes along the coordinates u and v; both as sphere_side gives them."""
+    (u, u_size, u_slope), (v, v_size, v_slope) = u, v
+    g = np.sqrt(u * u + v * v + 1e-30)
+    within = np.real(u_size * rim.sin_arc - v_size * rim.cos_arc) > 0.0
+    corner = u_size * rim.cos_arc + v_size * rim.sin_arc
+    along_u, along_v = np.where(within, u / g, rim.cos_arc * u_slope), np.where(within, v / g, rim.sin_arc * v_slope)
+    return np.where(within, g, corner), along_u, along_v
 
 
 def rim_contact(d, rim, g, h, inside):
@@ -108,13 +119,13 @@ def rim_pair(f, edge):
 
 def spheres_nearest(d, x, r, t):
     """Approach of the nearest place of sphere and rims [m], by which no contact is missed; of a ball within the sphere, the sphere's."""
-    R_r, T = np.sqrt(r * r + TIP**2), np.sqrt(t * t + TIP**2)
-    sphere = np.sqrt(x * x + R_r * R_r + T * T) - d.slack
-    above = x * d.fillet.cos - np.sqrt(T * T + R_r * R_r) * d.fillet.sin
-    below = np.sqrt(x * x + T * T) * d.edge.sin - R_r * d.edge.cos
-    g, k = arc_reach(d.fillet, T, R_r)[0], arc_reach(d.edge, x, T)[0]
+    sides, R_r = sphere_side(t), sphere_side(r)
+    sphere = np.sqrt(x * x + r * r + t * t) - d.slack
+    above = x * d.fillet.cos - np.sqrt(t * t + r * r) * d.fillet.sin
+    below = np.sqrt(x * x + t * t) * d.edge.sin - R_r[1] * d.edge.cos
+    g, k = arc_reach(d.fillet, sides, R_r)[0], arc_reach(d.edge, (x, x, 1.0), sides)[0]
     f = d.fillet.reach - d.slack - np.sqrt((d.fillet.A - g) ** 2 + (d.fillet.H - x) ** 2)
-    e = d.edge.reach - d.slack - np.sqrt((d.edge.A - k) ** 2 + (d.edge.H - R_r) ** 2)
+    e = d.edge.reach - d.slack - np.sqrt((d.edge.A - k) ** 2 + (d.edge.H - R_r[1]) ** 2)
     nearest = np.where(np.real(minimum(above, below)) > 0.0, sphere, maximum(f, e))
     return np.where(np.real(sphere) > 0.0, nearest, sphere)
 
@@ -123,11 +134,10 @@ def spheres_contact(d, x, r, t):
     """Elastic contact of a ball whose centre is at q = (x, r, t) from the sphere's: energy V [J], load Q [N], direction n (x, r, t) into the
     wall, approach [m]; of a ball within the sphere, the sphere's.
     """
-    R_r, T = np.sqrt(r * r + TIP**2), np.sqrt(t * t + TIP**2)
-    r_slope, t_slope = r / R_r, t / T
+    sides, (_, R_r, r_slope) = sphere_side(t), sphere_side(r)
 
     # sphere
-    s = np.sqrt(x * x + R_r * R_r + T * T)
+    s = np.sqrt(x * x + r * r + t * t + 1e-30)
     delta = s - d.slack
     own = maximum(delta, 0.0)
     root = np.sqrt(maximum(own, 1e-30))
@@ -135,18 +145,18 @@ def spheres_contact(d, x, r, t):
     load = d.K * own * (root + d.more * own) / s
 
     # rims; the sphere lies above the fillet's seam and below the edge's
-    round_pole, round_r = np.sqrt(T * T + R_r * R_r), np.sqrt(x * x + T * T)
+    round_pole, round_r = np.sqrt(t * t + r * r + TIP**2), np.sqrt(x * x + t * t + TIP**2)
     in_f = (x * d.fillet.cos - round_pole * d.fillet.sin) / s
     in_e = (round_r * d.edge.sin - R_r * d.edge.cos) / s
-    g, g_t, g_r = arc_reach(d.fillet, T, R_r)
-    k, k_x, k_t = arc_reach(d.edge, x, T)
+    g, g_t, g_r = arc_reach(d.fillet, sides, sphere_side(r))
+    k, k_x, k_t = arc_reach(d.edge, (x, x, 1.0), sides)
     f, edge = rim_contact(d, d.fillet, g, x, in_f), rim_contact(d, d.edge, k, R_r, in_e)
     rims, fillet, by_f, by_e = rim_pair(f, edge)
     share = f.share * edge.share
     rest, over = 1.0 - share, energy - rims
     V = rims + share * over
 
-    # slopes along the approaches of both rims and along both angles; gradient along x, |r|, |t|
+    # slopes along the approaches of both rims and along both angles; gradient along x, r, t
     between = f.energy - edge.energy
     of_f = rest * (fillet * f.load + between * by_f) + over * edge.share * f.by_delta
     of_e = rest * ((1.0 - fillet) * edge.load + between * by_e) + over * f.share * edge.by_delta
@@ -155,8 +165,8 @@ def spheres_contact(d, x, r, t):
     along_g, along_k = of_f * f.slope[0], of_e * edge.slope[0]
     pole, across = turn_f * d.fillet.sin / round_pole, turn_e * d.edge.sin / round_r
     V_x = of_f * f.slope[1] + turn_f * d.fillet.cos + along_k * k_x + (out + across) * x
-    V_r = (of_e * edge.slope[1] - turn_e * d.edge.cos + along_g * g_r + (out - pole) * R_r) * r_slope
-    V_t = (along_g * g_t + along_k * k_t + (out + across - pole) * T) * t_slope
+    V_r = (of_e * edge.slope[1] - turn_e * d.edge.cos) * r_slope + along_g * g_r + (out - pole) * r
+    V_t = along_g * g_t + along_k * k_t + (out + across - pole) * t
     Q = np.sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60)
     nearest = share * delta + rest * maximum(f.delta, edge.delta)
     return V, Q, (V_x / Q, V_r / Q, V_t / Q), np.where(np.real(delta) > 0.0, nearest, delta)
@@ -195,21 +205,19 @@ def spheres_approach(d, c, q):
 
 def spheres_place(d, half, q):
     """Place where a ball at q touches the wall of an elastic half: chi about the sphere's centre, seen along r, radius from the bearing's axis,
-    whether t < 0; slopes of chi and radius along q.
+    front (ribbon_wall_shapes); slopes of chi and radius along q, of front along t.
 
-    chi is clamped to the table's first node, the seam of the fillet, beyond which it has no slope.
+    chi begins at the table's first node, the seam of the fillet, beyond which it has no slope.
     """
     x, r, t = q
-    ahead, aside = maximum(x, 0.0), absolute(t)
-    chi = np.arctan(ahead / maximum(aside, 1e-30))
-    rho_2 = x * x + t * t + TIP**2
-    back = np.real(t) < 0.0
-    above = np.real(chi) > half.chi[0]
-    chi_slope = (
-        np.where(above, aside / rho_2, 0.0),
-        0.0 * x,
-        np.where(above, -ahead * np.where(back, -1.0, 1.0) / rho_2, 0.0),
-    )
+    ahead, aside = maximum(x, 0.0), np.sqrt(t * t + SEAT**2)
+    rho_2 = ahead * ahead + aside * aside
+    past = np.arctan(ahead / aside) - half.chi[0]
+    bend = minimum(maximum(past + BEND, 0.0), 2.0 * BEND)
+    chi, follows = half.chi[0] + bend * bend / (4.0 * BEND) + maximum(past - BEND, 0.0), bend / (2.0 * BEND)
+    chi_slope = follows * aside / rho_2, 0.0 * x, -follows * ahead * t / aside / rho_2
+    part = maximum(minimum(t / SEAT, 1.0), -1.0)
+    front, front_slope = part * (1.5 - 0.5 * part * part), 1.5 / SEAT * (1.0 - part * part)
     s_2 = x * x + r * r + t * t + TIP**2
     to_wall = d.radius / np.sqrt(s_2)
     across, along = d.r + to_wall * r, to_wall * t
@@ -217,7 +225,8 @@ def spheres_place(d, half, q):
     pull = (across * r + along * t) / s_2
     by_r, by_t = to_wall * across / radius, to_wall * along / radius
     less = to_wall * pull / radius
-    return maximum(chi, half.chi[0]), radius, back, chi_slope, (-less * x, by_r - less * r, by_t - less * t)
+    radius_slope = -less * x, by_r - less * r, by_t - less * t
+    return chi, radius, front, chi_slope, radius_slope, front_slope
 
 
 def sphere_film(d, gap, Q, c, v):
@@ -241,8 +250,8 @@ def spheres_wall(model, w, h, gap):
     modes [3, ..., Z, n]; slopes of the motion along q.
     """
     half, e = model.modes, w.cage.elastic
-    chi, radius, back, chi_slope, radius_slope = spheres_place(model.d.spheres, half, gap.q)
-    shape, by_chi, by_r = ribbon_wall_shapes(half, gap.side, chi, radius, back)
+    chi, radius, front, chi_slope, radius_slope, front_slope = spheres_place(model.d.spheres, half, gap.q)
+    shape, by_chi, by_r, by_front = ribbon_wall_shapes(half, gap.side, chi, radius, front)
     q, q_dot = e.q[h], e.q_dot[h]
     poleward = np.array([gap.side, 1.0, 1.0]).reshape(-1, *[1] * (shape.ndim - 2))
 
@@ -255,12 +264,14 @@ def spheres_wall(model, w, h, gap):
     near = near & (touched | sphere_wet(model.d, there, e.reach_others[h]))
 
     u = np.where(near, np.sum(shape * q, axis=-1), alike)
-    u_dot, u_chi, u_r = (np.sum(a * b, axis=-1) * near for a, b in ((shape, q_dot), (by_chi, q), (by_r, q)))
+    u_dot, u_chi, u_r, u_front = (
+        np.sum(a * b, axis=-1) * near for a, b in ((shape, q_dot), (by_chi, q), (by_r, q), (by_front, q))
+    )
     gap.q = tuple(x - u_i for x, u_i in zip(gap.q, poleward * u, strict=True))
-    u_chi, u_r = poleward * u_chi, poleward * u_r
+    u_chi, u_r, u_front = poleward * u_chi, poleward * u_r, poleward * u_front
     slopes = [u_chi * a + u_r * b for a, b in zip(chi_slope, radius_slope, strict=True)]  # of u, along x, r, t
-    signed = np.where(back, -chi, chi)
-    return SimpleNamespace(u_dot=u_dot, shape=shape, slopes=slopes, chi=signed, radius=radius, near=near)
+    slopes[2] = slopes[2] + u_front * front_slope
+    return SimpleNamespace(u_dot=u_dot, shape=shape, slopes=slopes, chi=chi, radius=radius, front=front, near=near)
 
 
 def spheres_forces(model, w, h, gap, wall=None):
@@ -357,7 +368,7 @@ def spheres_elastic(model, w):
         own = minimum(maximum(w.delta_c[h], sphere / CORNER), sphere * CORNER)
         e.touch_x[h], e.touch_r[h], e.touch_t[h] = at.n
         e.touch_K[h], e.touch_delta[h] = np.where(pressed, at.Q_0 / own**1.5, 0.0), np.where(pressed, own, 0.0)
-        e.touch_Q[h], e.touch_chi[h], e.touch_radius[h] = at.Q, wall.chi, wall.radius
+        e.touch_Q[h], e.touch_chi[h], e.touch_radius[h], e.touch_front[h] = at.Q, wall.chi, wall.radius, wall.front
         e.wall_energy[h] = at.V
 
 

@@ -61,7 +61,7 @@ class FastState:
 
     e: np.ndarray  # motions of the joints out of the plane [3, Z]
     u: np.ndarray  # their offsets in it [2, Z]
-    touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [8, Z]
+    touch: list  # contacts of each half with its walls: rows of wall_loads.TOUCH [9, Z]
     modes: np.ndarray  # accelerations by joints and springs [2, n]
     rigid: np.ndarray  # accelerations of the relative motions at the joints [6]
 
@@ -178,7 +178,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     step; films: RimFilmsStep; pockets: PocketFilmsStep; changes y as cage_substeps.c does.
 
     Returns the slow accelerations at the step's end as they foresee them (of the modes [2, n], changes of those of the halves
-    [6, 2], of the balls their excess over the impulses of the substeps [3 Z]), and the JointStep.
+    [6, 2] and, by loads on walls, of those of the balls [3 Z]), and the JointStep.
     """
     half, d, h0, fast = model.modes, model.d, w.half[0], memory.fast
     steps = int(min(np.ceil(h / half.substep * (1.0 - ROUNDING)), MOST_SUBSTEPS))
@@ -227,8 +227,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         u = u + sub * across
         slip.before = cage_joint_follow(sub, across, y)
         y[WORK] -= sub * model.p.cage.m * np.sum(half.damping * v_m**2)
-        moved_halves, speeds = to_halves(model, h0, moved) + way, to_halves(model, h0, speed) + pushed
-        more, push = loads.accelerations(step * sub, q, moved_halves, speeds)
+        more, push = loads.accelerations(step * sub, q, to_halves(model, h0, moved) + way)
         held = slow_modes + more
 
         # accelerations there, of which the second half

@@ -10,7 +10,7 @@ elastic_end, after it:
     v_{n+1} = v^ + delta; the modes' velocities v_{n+1} = v + gamma (a_{s,n+1} - a_s); friction slips; history and errors
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -28,7 +28,7 @@ from bearing_model.cage.common.halves_step import (
 from bearing_model.cage.common.pocket_films import PocketFilmsStep, pocket_films_arrive
 from bearing_model.cage.elastic.cage_elastic import cage_elastic_stiffness
 from bearing_model.cage.elastic.cage_substeps import add_rates, cage_substeps_advance, cage_substeps_split
-from bearing_model.cage.elastic.rim_films import RimFilms, RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
+from bearing_model.cage.elastic.rim_films import RimFilmsStep, land_lever, mobilities, rim_modes, rim_motions
 from bearing_model.generated.variables import MODE_D, MODE_D_DOT, MODE_S, MODE_S_DOT, WORK
 from bearing_model.numbers.trapezoid import trapezoid_error
 from bearing_model.physics.land_bent import bent_solve
@@ -39,7 +39,7 @@ PLACES, RATES = slice(MODE_S.start, MODE_D.stop), slice(MODE_S_DOT.start, MODE_D
 @dataclass
 class ElasticStep:
     """Between the two halves of a step: slow accelerations at the end as the substeps foresee them, of the modes [2, n], changes of those
-    of halves [12], their excess of balls [3 Z]; films in pockets; forces on bent rims at the end that with those at the start make their
+    of halves [12] and, by loads on walls, of balls [3 Z]; films in pockets; forces on bent rims at the end that with those at the start make their
     impulses so far [2, 4].
     """
 
@@ -55,6 +55,7 @@ def elastic_split(model, y, w, f, memory):
     memory.fast = cage_substeps_split(model, y, w, f)
     if w.pressure:
         memory.films.force = np.reshape(w.pressure.rim_force, (4, 2)).T
+        memory.films.stiffness = float(np.max(w.pressure.stiffness))
         memory.force = np.array([w.pressure.of(h).film for h in range(2)])
         add_rates(model, -rim_modes(model, memory.films.force), f)
 
@@ -122,8 +123,8 @@ def remember_modes(h, start, end, error):
 
 
 def elastic_end(model, halves, step, start, end, error, w):
-    """Solution, corrections and history; returns residual and delta [12], excess of the balls' accelerations over the impulses of the
-    substeps [3 Z], and the power of films beyond theirs [W].
+    """Solution, corrections and history; returns residual and delta [12], changes of the balls' accelerations by loads on walls, whose
+    ways the state has [3 Z], and the power of films beyond that of the evaluation [W].
     """
     gamma, y, f, before, memory = halves.gamma, end.y, end.f, start.cage, end.cage
 
@@ -143,7 +144,7 @@ def elastic_end(model, halves, step, start, end, error, w):
     # Velocities of halves and modes; friction.
     change = halves_correct(halves, delta, y) + gamma * step.halves
     elastic_slide(model, w, y, halves.joints)
-    memory.films = RimFilms(memory.films.force - impulse[:, 2:] / gamma, rates)
+    memory.films = replace(memory.films, force=memory.films.force - impulse[:, 2:] / gamma, rates=rates)
     by_films = rim_modes(model, memory.films.force - step.rim_before)
     add_rates(model, gamma * (slow_rates(model, f) - step.modes + by_films), y)
 

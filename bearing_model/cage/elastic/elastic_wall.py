@@ -48,14 +48,16 @@ def cubic_weights(half, chi):
     return i, value, slope
 
 
-def ribbon_wall_shapes(half, side, chi, r, back):
-    """Motions (x, r, t) [3, ..., Z, n] of the walls of a ribbon half by all modes at the places (chi, r) on the side t < 0 (back) or t > 0,
-    and their slopes over chi and over r.
+def ribbon_wall_shapes(half, side, chi, r, front):
+    """Motions (x, r, t) [3, ..., Z, n] of the walls of a ribbon half by all modes at the places (chi, r), and their slopes over chi, r and
+    front: 1 on the side t > 0 of a pocket, -1 on the other, mirrored one, between them of a ball that sits on both.
     """
     i, value, slope = cubic_weights(half, chi)
-    sign = np.where(back, -1.0, 1.0)[..., None, None, None]
-    mirrored = np.concatenate([np.ones_like(sign), sign], axis=-1)
-    mirrored = np.stack([mirrored[..., 0, :], mirrored[..., 0, :], sign[..., 0, :] * mirrored[..., 0, :]], axis=-2)
+    one, none = np.ones_like(front), np.zeros_like(front)
+    signs, signs_slope = (
+        np.moveaxis(np.array(rows), (0, 1), (-2, -1))[..., None, :, :]
+        for rows in ([[one, front], [one, front], [front, one]], [[none, one], [none, one], [one, none]])
+    )
     wave = np.moveaxis(half.wave, 2, 0)[:, :, None, :]  # [Z, n, 1, 2]
     on_radii = len(half.radii) > 0
     radius, radius_dot = (
@@ -63,17 +65,17 @@ def ribbon_wall_shapes(half, side, chi, r, back):
     )
     U, U_slope = (x if on_radii else x[None] for x in (half.pocket, half.slope))
 
-    def shapes(weights, over):
+    def shapes(weights, over, signs=signs):
         A = sum(
             (w * along)[..., None, None, None] * term
             for along, at, at_slope in zip(over, U, U_slope, strict=True)
             for w, term in zip(weights, (at[i], at_slope[i], at[i + 1], at_slope[i + 1]), strict=True)
         )
-        return np.moveaxis(np.sum(A * mirrored * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(
+        return np.moveaxis(np.sum(A * signs * wave, axis=-1), -1, 0) * np.array([side, 1.0, 1.0]).reshape(
             -1, *[1] * (A.ndim - 2)
         )
 
-    return shapes(value, radius), shapes(slope, radius), shapes(value, radius_dot)
+    return shapes(value, radius), shapes(slope, radius), shapes(value, radius_dot), shapes(value, radius, signs_slope)
 
 
 def elastic_wall(model, w, h, n_x, n_t, S, delta):

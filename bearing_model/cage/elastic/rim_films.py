@@ -15,11 +15,12 @@ from bearing_model.generated.variables import CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAG
 @dataclass
 class RimFilms:
     """Forces on the shapes of both bent rims [2, 4] and rates of land and rim [2, 6, 6] at an evaluation, 0 of one that is not
-    bent.
+    bent; stiffness of the gap that has the larger one [N/m].
     """
 
     force: np.ndarray = field(default_factory=lambda: np.zeros((2, 4)))
     rates: np.ndarray = field(default_factory=lambda: np.zeros((2, 6, 6)))
+    stiffness: float = 0.0
 
 
 def land_lever(model, h):

@@ -13,11 +13,11 @@ import numpy as np
 from bearing_model.cage.common.rigid_approach import rigid_approach
 from bearing_model.cage.elastic.elastic_half import ROOT
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
-from bearing_model.generated.variables import BALL_R, BALL_THETA, BALL_X, Z
+from bearing_model.generated.variables import BALL_OMEGA_M, BALL_R, BALL_THETA, BALL_V_R, BALL_V_X, BALL_X, Z
 
 # Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
-# r, Hertz's constant, approach, load; of a ribbon place chi (negative on the side t < 0) and radius
-TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius"
+# r, Hertz's constant, approach, load; of a ribbon place chi, radius and front (ribbon_wall_shapes)
+TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius", "front"
 MOST_DAMPED = 1e3  # largest load over that without damping
 
 
@@ -28,7 +28,7 @@ class WallLoad:
     half: int
     ball: int
     K: float
-    damped: float  # times K delta^1.5 is the load, in the middle of the step by slow forces alone
+    damped: float  # times K delta^1.5 is the load
     x: float
     Q: float
     rate: float
@@ -46,7 +46,7 @@ class WallLoads:
 
     def __init__(self, model, h, fast, f, state, y, q, w):
         self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
-        self.lambda_, self.m_ball = model.p.cage.lambda_, model.d.m
+        self.m_ball = model.d.m
         self.push, self.speed, self.way = np.zeros((3, 3, Z))
         self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
         for i, rows in enumerate(fast.touch):
@@ -54,8 +54,8 @@ class WallLoads:
             if not np.any(touch["K"] > 0.0):
                 continue
             if model.d.spheres:
-                chi = touch["chi"]
-                shape = ribbon_wall_shapes(model.modes, 2 * i - 1, np.abs(chi), touch["radius"], chi < 0.0)[0]
+                place = (touch[name] for name in ("chi", "radius", "front"))
+                shape = ribbon_wall_shapes(model.modes, 2 * i - 1, *place)[0]
             else:
                 shape = elastic_wall_shape(model.modes, 2 * i - 1, touch["x"], touch["t"])[0]  # [3, Z, n]
             along = [touch[name][:, None] * motion for name, motion in zip("xrt", shape, strict=True)]
@@ -67,10 +67,9 @@ class WallLoads:
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
                 Q_0 = K * max(delta, 0.0) ** 1.5
                 if Q_0 > 0.0:
-                    x = delta + self.c * Q_0
-                    damped = min(Q / Q_0, MOST_DAMPED) + self.lambda_ * self.middle * acceleration
+                    x, damped = delta + self.c * Q_0, min(Q / Q_0, MOST_DAMPED)
                 elif delta + h * rate > 0.0:
-                    x, damped = delta, 1.0 + self.lambda_ * rate
+                    x, damped = delta, max(1.0 + model.p.cage.lambda_ * (rate - self.middle * acceleration), 0.0)
                 else:
                     continue
                 shift = sum(row[k] for row in along) / ROOT
@@ -95,26 +94,26 @@ class WallLoads:
         self.way = self.way + sub * self.speed
 
     def arrive(self, h, y):
-        """Adds the balls' ways to the state; returns the excess of the changes of their accelerations at the step's end over those whose
-        trapezoidal rule gives their velocities [3 Z].
+        """Adds the balls' ways to the state, and to the predicted velocities the part of the impulses that the trapezoidal rule of the
+        changes of their accelerations at the step's end does not have; returns these changes [3 Z].
         """
         part = np.array([np.ones(Z), np.ones(Z), 1.0 / (y[BALL_R] + self.way[1])])  # along the orbit angles
-        for block, more in zip((BALL_X, BALL_R, BALL_THETA), part * self.way, strict=True):
-            y[block] += more
-        return (part * (self.push - 2.0 / h * self.speed)).ravel()
+        places, rates = (BALL_X, BALL_R, BALL_THETA), (BALL_V_X, BALL_V_R, BALL_OMEGA_M)
+        for blocks, changes in ((places, self.way), (rates, self.speed - 0.5 * h * self.push)):
+            for block, more in zip(blocks, part * changes, strict=True):
+                y[block] += more
+        return (part * self.push).ravel()
 
-    def accelerations(self, t, q, moved, speeds):
+    def accelerations(self, t, q, moved):
         """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads at the time t of the step, at the coordinates q and
-        motions and speeds of the halves [6, 2] by the fast accelerations and by these; sets those of the balls.
+        motions of the halves [6, 2] by the fast accelerations and by these; sets those of the balls.
         """
         change, force, self.push = np.zeros_like(q), np.zeros_like(moved), np.zeros((3, Z))
         for load in self.loads:
             x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
             x = x - (np.sum(load.shape * q) - load.start)
             x = x + load.normal @ self.way[:, load.ball] - load.along @ moved[:, load.half]
-            rate = load.acceleration * (t - self.middle)
-            rate = rate + load.normal @ self.speed[:, load.ball] - load.along @ speeds[:, load.half]
-            more = max(load.damped + self.lambda_ * rate, 0.0) * self.at(load, x) - load.Q
+            more = load.damped * self.at(load, x) - load.Q
             change = change + more / self.m * load.shape
             force[:, load.half] += more * load.along
             self.push[:, load.ball] -= more / self.m_ball * load.normal

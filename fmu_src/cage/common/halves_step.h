@@ -21,8 +21,8 @@ typedef struct {
 } StepFrom;
 
 // End of a step, of which the cage sets its own rows: state, rates, their change over the step / its length, errors; residual of the
-// velocities at the prediction and the change delta that the linear solve makes of it; excess of the balls' accelerations over those whose
-// trapezoidal rule gives the impulses of the substeps.  The rates are those of the evaluation on entry.
+// velocities at the prediction and the change delta that the linear solve makes of it; changes of the balls' accelerations by loads on walls,
+// whose ways the state has.  The rates are those of the evaluation on entry.
 typedef struct {
     double *y, *f, *jerk, *error, *residual, *delta, *balls;
 } StepTo;

@@ -200,7 +200,7 @@ INLINE scalar moved_wall(const Model *model, Work *w, int h, int k, const WallPl
     elastic_wall_shape(model->modes, 2 * h - 1, k, places, wall->shape);
     memset(wall->place, 0, sizeof wall->place);
     wall->place[0] = places->n_x[k], wall->place[2] = places->n_t[k];
-    wall->place[5] = model->p->cage.m;
+    wall->place[6] = model->p->cage.m;
     return elastic_sum(wall->shape, w->cage.elastic.q[h]);
 }
 

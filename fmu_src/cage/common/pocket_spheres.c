@@ -17,7 +17,8 @@
 //
 // A rim ends at the others: the fillet lies between the edges, an edge between the fillets of both sides.  With u toward the
 // middle of such an arc, v across and omega half of its opening,  g = sqrt(u^2 + v^2) within it, else
-// u cos omega + v sin omega: the corner.
+// u cos omega + |v| sin omega: the corner.  A ball that is pushed along r sits on the corners of both sides, whose approaches of some
+// micrometres overlap: |v| is a parabola up to SEAT, and the wall moves there with the mean of both sides.
 //
 // The part of a patch on the sphere's side of a seam is that of the machined pocket's split (pocket.c),
 // e = 1/2 + 15/16 xi - 5/8 xi^3 + 3/16 xi^5 of the energy, xi = R_c sin(angle of q above the seam)/a, at most 1, a of the
@@ -37,8 +38,8 @@
 // Oil between ball and sphere adds the force -F m through the ball's centre, where both close in (spheres_squeeze.h).  The wall
 // bears the force at the place nearest to the ball, as that of the contact.
 //
-// Smoothness: C1 at touch-down, at the seams and where the second half begins to carry.  At a corner the force is
-// continuous, its slope is not.
+// Smoothness: C1 at touch-down, at the seams, where the second half begins to carry and between the corners of both sides: a force that
+// jumps there would hold a ball by chatter in steps of 10 ns.  At a corner the force is continuous, its slope is not.
 #include "cage/common/pocket_spheres.h"
 
 #include "cage/common/pocket_forces.h"
@@ -222,30 +223,29 @@ INLINE SphereContact sphere_approach(const Spheres *s, wide slack, wide c, const
     return at;
 }
 
-// The places where the balls of a packet touch their walls, and their slopes over q.  chi is clamped to the table's first node, the
-// seam of the fillet, beyond which it has no slope.
+// The places where the balls of a packet touch their walls, and their slopes over q.  chi begins at the table's first node, the seam of
+// the fillet, beyond which it has no slope, over BEND on both sides of it.
 typedef struct {
-    scalar chi[LANE_WIDTH], radius[LANE_WIDTH], chi_slope[3][LANE_WIDTH], radius_slope[3][LANE_WIDTH];
-    int back;  // bits of the balls on the side t < 0
+    scalar chi[LANE_WIDTH], radius[LANE_WIDTH], chi_slope[3][LANE_WIDTH], radius_slope[3][LANE_WIDTH],
+        front_slope[LANE_WIDTH];
     RibbonNodes nodes;
 } SpherePlaces;
-
-INLINE bool is_back(const SpherePlaces *at, int lane)
-{
-    return at->back >> lane & 1;
-}
 
 static void sphere_places(const Spheres *s, const ElasticHalf *half, const SphereGap *gap, SpherePlaces *at)
 {
     const wide x = gap->x, r = gap->r, t = gap->t, zero = wide_set(0.0), first = wide_set(half->chi[0]);
-    const wide ahead = wide_max(x, zero), aside = wide_abs(t), inv_rho_2 = 1.0 / (x * x + t * t + TIP * TIP);
-    const wide angle = wide_atan(ahead / wide_max(aside, wide_set(1e-30))), chi = wide_max(angle, first);
-    const bits back = wide_above(-t, 0.0), beyond = wide_above(angle - first, 0.0);
-    at->back = wide_mask(back);
+    const wide ahead = wide_max(x, zero), aside = wide_sqrt(t * t + SEAT * SEAT);
+    const wide inv_rho_2 = 1.0 / (ahead * ahead + aside * aside);
+    const wide angle = wide_atan(ahead / aside), past = angle - first;
+    const wide bend = wide_min(wide_max(past + BEND, zero), wide_set(2.0 * BEND)),
+               follows = bend / (2.0 * BEND);
+    const wide chi = first + (0.5 * bend * follows + wide_max(past - BEND, zero));
+    const wide one = wide_set(1.0), part = wide_max(wide_min(t / SEAT, one), -one), rest = 1.0 - part * part;
+    wide_store(at->front_slope, (1.5 / SEAT) * rest);
     wide_store(at->chi, chi);
-    wide_store(at->chi_slope[0], wide_select(beyond, aside * inv_rho_2, zero));
+    wide_store(at->chi_slope[0], follows * (aside * inv_rho_2));
     wide_store(at->chi_slope[1], zero);
-    wide_store(at->chi_slope[2], wide_select(beyond, wide_select(back, ahead, -ahead) * inv_rho_2, zero));
+    wide_store(at->chi_slope[2], follows * (-ahead * t / aside * inv_rho_2));
     const wide inv_s_2 = 1.0 / (x * x + r * r + t * t + TIP * TIP), to_wall = s->radius * wide_sqrt(inv_s_2);
     const wide across = s->r + to_wall * r, along = to_wall * t;
     const wide radius = wide_sqrt(across * across + along * along), inv_radius = 1.0 / radius;
@@ -254,7 +254,7 @@ static void sphere_places(const Spheres *s, const ElasticHalf *half, const Spher
     wide_store(at->radius_slope[0], -less * x);
     wide_store(at->radius_slope[1], to_wall * across * inv_radius - less * r);
     wide_store(at->radius_slope[2], to_wall * along * inv_radius - less * t);
-    ribbon_wall_nodes(half, chi, radius, &at->nodes);
+    ribbon_wall_nodes(half, chi, radius, part * (1.0 + 0.5 * rest), &at->nodes);
 }
 
 // Takes the motion u of the wall from the place q of ball k.
@@ -281,7 +281,7 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         if (!(near >> lane & 1)) continue;
         scalar u[3];
-        ribbon_wall_alike(model->modes, side, is_back(at, lane), &at->nodes, lane, by_alike, u);
+        ribbon_wall_alike(model->modes, side, &at->nodes, lane, by_alike, u);
         take(alike, j + lane, side, u);
     }
     gap->x = wide_load(&alike[0][j]), gap->r = wide_load(&alike[1][j]), gap->t = wide_load(&alike[2][j]);
@@ -296,8 +296,7 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
             continue;
         }
         scalar u[3];
-        ribbon_wall_moved(model->modes, side, k, is_back(at, lane), &at->nodes, lane, w->cage.elastic.q[h], u,
-                          &shape[lane]);
+        ribbon_wall_moved(model->modes, side, k, &at->nodes, lane, w->cage.elastic.q[h], u, &shape[lane]);
         take(q, k, side, u);
     }
     gap->x = wide_load(&q[0][j]), gap->r = wide_load(&q[1][j]), gap->t = wide_load(&q[2][j]);
@@ -322,13 +321,14 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
         const int k = j + lane;
         const scalar along[3] = {side * n[0][k], n[1][k], n[2][k]};
         RibbonWall wall;
-        ribbon_wall(model->modes, side, k, is_back(at, lane), &at->nodes, lane, &shape[lane], along,
-                    w->cage.elastic.q[h], w->cage.elastic.q_dot[h], &wall);
+        ribbon_wall(model->modes, side, k, &at->nodes, lane, &shape[lane], along, w->cage.elastic.q[h],
+                    w->cage.elastic.q_dot[h], &wall);
         for (int i = 0; i < 3; i++) {
             walls->u_dot[i][k] = wall.u_dot[i];
             walls->slope[i][k] =
                 wall.over_chi * at->chi_slope[i][lane] + wall.over_radius * at->radius_slope[i][lane];
         }
+        walls->slope[2][k] += wall.over_front * at->front_slope[lane];
     }
 }
 
@@ -346,6 +346,7 @@ static void clear_walls(Work *w, int h, int j)
     wide_store(&e->touch.Q[h][j], zero);
     wide_store(&e->touch.chi[h][j], zero);
     wide_store(&e->touch.radius[h][j], zero);
+    wide_store(&e->touch.front[h][j], zero);
     wide_store(&e->wall_energy[h][j], zero);
 }
 
@@ -376,6 +377,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     wide_store(&e->wall_energy[h][j], wide_select(pressed, contact->V, zero));
     wide_store(&e->touch.chi[h][j], zero);
     wide_store(&e->touch.radius[h][j], zero);
+    wide_store(&e->touch.front[h][j], zero);
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         const int b = j + lane;
         if (!(mask >> lane & 1)) {
@@ -383,8 +385,8 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
             continue;
         }
         if (model->d->squeeze.filled) squeeze_wall(model, h, b, &shape[lane], w);
-        e->touch.chi[h][b] = is_back(at, lane) ? -at->chi[lane] : at->chi[lane];
-        e->touch.radius[h][b] = at->radius[lane];
+        e->touch.chi[h][b] = at->chi[lane], e->touch.radius[h][b] = at->radius[lane];
+        e->touch.front[h][b] = at->nodes.front[lane];
         const scalar F[3] = {on_wall[0][b], on_wall[1][b], on_wall[2][b]};
         elastic_wall_force(model->modes, b, &shape[lane], F, e->wall_force[h]);
 #ifndef DUAL
@@ -392,7 +394,7 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
         PressedWall *wall = &e->pressed[h][b];
         memcpy(wall->place, along, sizeof along);
         wall->place[3] = e->touch.chi[h][b], wall->place[4] = e->touch.radius[h][b];
-        wall->place[5] = model->p->cage.m;
+        wall->place[5] = e->touch.front[h][b], wall->place[6] = model->p->cage.m;
         elastic_wall_along(model->modes, b, &shape[lane], along, wall->shape);
 #endif
     }

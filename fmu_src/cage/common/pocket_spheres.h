@@ -21,7 +21,11 @@ void spheres_rigid(const Model *model, Work *w);
 #define spheres_elastic FOR_ISA(spheres_elastic)
 void spheres_elastic(const Model *model, Work *w);
 
-static const double TIP = 1e-7;  // over which the two ends of an arc change places [m]
+static const double TIP = 1e-7;  // least distance from an axis, which has no direction [m]
+static const double SEAT =
+    5e-6;  // way from the middle up to which a ball sits on the corners of both sides [m]
+static const double BEND =
+    0.05;  // angle on both sides of the fillet's seam over which a place begins to turn with the ball
 
 // Where the ball is in the sphere of a half, in the frame of the ball.
 typedef struct {
@@ -48,18 +52,31 @@ INLINE SphereGap sphere_gap(const Derived *d, const Work *w, int h, int j)
     return gap;
 }
 
-// Reach of (u, v) along a rim's arc, v >= 0, and its slopes along u and v.
+// A coordinate of q on either side of the middle, its size and the size's slope.  A ball that sits on the corners of both sides presses
+// both, within some micrometres of its approach: up to SEAT the size is a parabola.
+typedef struct {
+    wide at, size, slope;
+} SphereSide;
+
+INLINE SphereSide sphere_side(wide at)
+{
+    const wide far = wide_abs(at), near = wide_min(far, wide_set(SEAT));
+    const wide slope = wide_max(wide_min(at / SEAT, wide_set(1.0)), wide_set(-1.0));
+    return (SphereSide){at, (far - near) + 0.5 * (near * near / SEAT + SEAT), slope};
+}
+
+// Reach of (u, v) along a rim's arc, and its slopes along the coordinates u and v.
 typedef struct {
     wide g, u, v;
 } ArcReach;
 
-INLINE ArcReach arc_reach(const Rim *rim, wide u, wide v)
+INLINE ArcReach arc_reach(const Rim *rim, SphereSide u, SphereSide v)
 {
-    const wide g = wide_sqrt(u * u + v * v), inv_g = 1.0 / g;
-    const bits within = wide_above(u * rim->sin_arc - v * rim->cos_arc, 0.0);
-    return (ArcReach){wide_select(within, g, u * rim->cos_arc + v * rim->sin_arc),
-                      wide_select(within, u * inv_g, wide_set(rim->cos_arc)),
-                      wide_select(within, v * inv_g, wide_set(rim->sin_arc))};
+    const wide g = wide_sqrt(u.at * u.at + v.at * v.at + 1e-30), inv_g = 1.0 / g;
+    const bits within = wide_above(u.size * rim->sin_arc - v.size * rim->cos_arc, 0.0);
+    return (ArcReach){wide_select(within, g, u.size * rim->cos_arc + v.size * rim->sin_arc),
+                      wide_select(within, u.at * inv_g, rim->cos_arc * u.slope),
+                      wide_select(within, v.at * inv_g, rim->sin_arc * v.slope)};
 }
 
 // Contact with a rim at the reach g in its plane and the height h above it, where q lies above its seam by the angle of the
@@ -120,13 +137,14 @@ typedef struct {
 // may touch.
 INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, wide *delta)
 {
-    const wide x = gap->x;
-    const wide R = wide_sqrt(gap->r * gap->r + TIP * TIP), T = wide_sqrt(gap->t * gap->t + TIP * TIP);
-    const wide sphere = wide_sqrt(x * x + R * R + T * T) - slack;
-    const wide above = x * s->fillet.cosine - wide_sqrt(T * T + R * R) * s->fillet.sine;
-    const wide below = wide_sqrt(x * x + T * T) * s->edge.sine - R * s->edge.cosine;
-    const wide g = arc_reach(&s->fillet, T, R).g, k = arc_reach(&s->edge, x, T).g;
-    const wide off_g = s->fillet.A - g, off_x = s->fillet.H - x, off_k = s->edge.A - k, off_r = s->edge.H - R;
+    const wide x = gap->x, r = gap->r, t = gap->t, r_2 = r * r, t_2 = t * t;
+    const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r), T = sphere_side(t);
+    const wide sphere = wide_sqrt(x * x + r_2 + t_2) - slack;
+    const wide above = x * s->fillet.cosine - wide_sqrt(t_2 + r_2) * s->fillet.sine;
+    const wide below = wide_sqrt(x * x + t_2) * s->edge.sine - R.size * s->edge.cosine;
+    const wide g = arc_reach(&s->fillet, T, R).g, k = arc_reach(&s->edge, X, T).g;
+    const wide off_g = s->fillet.A - g, off_x = s->fillet.H - x, off_k = s->edge.A - k;
+    const wide off_r = s->edge.H - R.size;
     const wide f = s->fillet.reach - slack - wide_sqrt(off_g * off_g + off_x * off_x);
     const wide e = s->edge.reach - slack - wide_sqrt(off_k * off_k + off_r * off_r);
     const wide rims = wide_select(wide_above(wide_min(above, below), 0.0), sphere, wide_max(f, e));
@@ -136,27 +154,28 @@ INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, w
 
 INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r, wide t)
 {
-    const wide R = wide_sqrt(r * r + TIP * TIP), T = wide_sqrt(t * t + TIP * TIP);
+    const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r), T = sphere_side(t);
+    const wide r_2 = r * r, t_2 = t * t;
 
     // sphere
-    const wide distance = wide_sqrt(x * x + R * R + T * T), delta = distance - slack;
+    const wide distance = wide_sqrt(x * x + r_2 + t_2 + 1e-30), delta = distance - slack;
     const wide own = wide_max(delta, wide_set(0.0)), root = wide_sqrt(wide_max(own, wide_set(1e-30)));
     const wide energy = s->K * own * own * (0.4 * root + s->more / 3.0 * own);
     const wide load = s->K * own * (root + s->more * own) / distance;
 
     // rims; the sphere lies above the fillet's seam and below the edge's
-    const wide inv = 1.0 / distance, round_pole = wide_sqrt(T * T + R * R),
-               round_r = wide_sqrt(x * x + T * T);
+    const wide inv = 1.0 / distance, round_pole = wide_sqrt(t_2 + r_2 + TIP * TIP),
+               round_r = wide_sqrt(x * x + t_2 + TIP * TIP);
     const wide in_f = (x * s->fillet.cosine - round_pole * s->fillet.sine) * inv;
-    const wide in_e = (round_r * s->edge.sine - R * s->edge.cosine) * inv;
-    const ArcReach g = arc_reach(&s->fillet, T, R), k = arc_reach(&s->edge, x, T);
+    const wide in_e = (round_r * s->edge.sine - R.size * s->edge.cosine) * inv;
+    const ArcReach g = arc_reach(&s->fillet, T, R), k = arc_reach(&s->edge, X, T);
     const RimContact f = rim_contact(s, &s->fillet, slack, g.g, x, in_f);
-    const RimContact e = rim_contact(s, &s->edge, slack, k.g, R, in_e);
+    const RimContact e = rim_contact(s, &s->edge, slack, k.g, R.size, in_e);
     const RimPair rims = rim_pair(&f, &e);
     const wide share = f.share * e.share, rest = 1.0 - share, over = energy - rims.energy;
     SphereContact c = {.V = rims.energy + share * over};
 
-    // slopes along the approaches of both rims and along both angles; gradient along x, |r|, |t|
+    // slopes along the approaches of both rims and along both angles; gradient along x, r, t
     const wide between = f.energy - e.energy;
     const wide of_f = rest * (rims.fillet * f.load + between * rims.by_f) + over * e.share * f.by_delta;
     const wide of_e =
@@ -167,8 +186,8 @@ INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r
     const wide pole = turn_f * s->fillet.sine / round_pole, across = turn_e * s->edge.sine / round_r;
     const wide V_x = of_f * f.slope_h + turn_f * s->fillet.cosine + along_k * k.u + (out + across) * x;
     const wide V_r =
-        (of_e * e.slope_h - turn_e * s->edge.cosine + along_g * g.v + (out - pole) * R) * (r / R);
-    const wide V_t = (along_g * g.u + along_k * k.v + (out + across - pole) * T) * (t / T);
+        (of_e * e.slope_h - turn_e * s->edge.cosine) * R.slope + along_g * g.v + (out - pole) * r;
+    const wide V_t = along_g * g.u + along_k * k.v + (out + across - pole) * t;
     c.Q = wide_sqrt(V_x * V_x + V_r * V_r + V_t * V_t + 1e-60);
     const wide inv_Q = 1.0 / c.Q;
     c.n_x = V_x * inv_Q, c.n_r = V_r * inv_Q, c.n_t = V_t * inv_Q;

@@ -363,12 +363,10 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
         if (loads.count > 0) {
-            double halves[CAGE_MOTIONS], speeds[CAGE_MOTIONS];
+            double halves[CAGE_MOTIONS];
             memcpy(halves, way, sizeof way);
-            memcpy(speeds, pushed, sizeof pushed);
             to_halves(model, &w->half[0], 1.0, moved, 0, halves);
-            to_halves(model, &w->half[0], 1.0, speed, 0, speeds);
-            wall_loads_follow(model, step * sub, q, halves, speeds, &loads, foreseen->modes, push);
+            wall_loads_follow(model, step * sub, q, halves, &loads, foreseen->modes, push);
         }
 
         // accelerations there, of which the second half

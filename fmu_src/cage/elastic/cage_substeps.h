@@ -24,8 +24,7 @@ typedef struct {
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
 
 // Slow accelerations at the step's end as the substeps foresee them: of the modes their values, of the halves their
-// changes since the step's start, of the balls the excess of these over those that make the impulses of the substeps by the trapezoidal
-// rule; in the order of their velocities in the state.
+// changes since the step's start, of the balls those by loads on walls; in the order of their velocities in the state.
 typedef struct {
     double modes[2 * N_MODES], halves[2 * RELATIVE_MOTIONS], balls[BALL_MOTIONS];
 } Foreseen;

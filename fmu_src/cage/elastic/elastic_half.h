@@ -150,17 +150,19 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
                         mode_array modal);
 
 // Nodes of the walls of a ribbon's pockets around the places of a packet: node below, weights of the cubic over chi and of the parabola
-// over the radius, for the value and for the slopes over both.
+// over the radius, for the value and for the slopes over both; front: 1 on the side t > 0 of a pocket, -1 on the other, mirrored one, between
+// them of a ball that sits on both.
 typedef struct {
     int node[LANE_WIDTH];
+    scalar front[LANE_WIDTH];
     scalar value[4][LANE_WIDTH], slope[4][LANE_WIDTH];
     scalar along[WALL_RADII][LANE_WIDTH], along_slope[WALL_RADII][LANE_WIDTH];
     scalar row[WALL_RADII][4][LANE_WIDTH];  // of the motion itself, by the table's rows
 } RibbonNodes;
 
-// The nodes around the angles chi at the radii.
+// The nodes around the angles chi at the radii, of the part `front`.
 #define ribbon_wall_nodes FOR_ISA(ribbon_wall_nodes)
-void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNodes *nodes);
+void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide front, RibbonNodes *nodes);
 
 // Motions at all nodes, radius by radius, value and slope, (x, r, t), by those coordinates q that move all pockets alike.
 typedef struct {
@@ -170,30 +172,30 @@ typedef struct {
 #define ribbon_alike FOR_ISA(ribbon_alike)
 void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike);
 
-// Motion (x, r, t) by these coordinates at the place of a lane, on the side t < 0 (back) or t > 0 of a pocket.
+// Motion (x, r, t) by these coordinates at the place of a lane.
 #define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
-void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes, int lane,
+void ribbon_wall_alike(const ElasticHalf *half, int side, const RibbonNodes *nodes, int lane,
                        const RibbonAlike *alike, scalar u[3]);
 
 // Motion there by all coordinates q, in pocket j; shapes for ribbon_wall and elastic_wall_force.
 #define ribbon_wall_moved FOR_ISA(ribbon_wall_moved)
-void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
-                       int lane, const scalar *q, scalar u[3], WallShape *shape);
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
+                       const scalar *q, scalar u[3], WallShape *shape);
 
-// Velocity there, slopes of the motion along n (x, r, t) over chi and radius.
+// Velocity there, slopes of the motion along n (x, r, t) over chi, radius and front.
 typedef struct {
-    scalar u_dot[3], over_chi, over_radius;
+    scalar u_dot[3], over_chi, over_radius, over_front;
 } RibbonWall;
 
 #define ribbon_wall FOR_ISA(ribbon_wall)
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes, int lane,
+void ribbon_wall(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
                  RibbonWall *wall);
 
 // Motion along n (x, r, t) by each mode there, and the same bits by the shapes of ribbon_wall_moved.
 #define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)
-void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
-                       int lane, const scalar n[3], mode_array shape);
+void ribbon_wall_shape(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
+                       const scalar n[3], mode_array shape);
 #define elastic_wall_along FOR_ISA(elastic_wall_along)
 void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                         mode_array shape);

@@ -20,6 +20,7 @@ void elastic_split(const Model *model, const double *y, const Work *w, double *f
 {
     cage_substeps_split(model, y, w, f, &memory->fast);
     memset(memory->films.rates, 0, sizeof memory->films.rates);
+    memory->films.stiffness = fmax(w->pressure[0].stiffness, w->pressure[1].stiffness);
     for (int h = 0; h < 2; h++) {
         memcpy(memory->force[h], w->pressure[h].film, sizeof memory->force[h]);
         for (int i = 0; i < RIM; i++) memory->films.force[h][i] = w->pressure[h].rim_force[i];

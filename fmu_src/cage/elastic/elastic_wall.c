@@ -199,7 +199,19 @@ void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, 
 }
 
 // ---- ribbons --------------------------------------------------------------------------------------------------------
-void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNodes *nodes)
+// Factors of the motions (x, r, t) by the real parts a' and the imaginary parts b' at a place of the part `front`, and their slopes over it.
+typedef struct {
+    scalar of[3][2];
+} RibbonSigns;
+
+INLINE RibbonSigns ribbon_signs(int side, scalar front)
+{
+    return (RibbonSigns){{{side, side * front}, {1.0, front}, {front, 1.0}}};
+}
+
+static const double SLOPE[3][2] = {{0.0, 1.0}, {0.0, 1.0}, {1.0, 0.0}};  // of x times the side
+
+void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide front, RibbonNodes *nodes)
 {
     const WallCubic cubic = wall_cubic(half, chi);
     wide along[WALL_RADII] = {wide_set(1.0)}, along_slope[WALL_RADII] = {wide_set(0.0)};
@@ -214,6 +226,7 @@ void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, RibbonNod
         }
     }
     for (int i = 0; i < LANE_WIDTH; i++) nodes->node[i] = (int)scalar_value(cubic.node[i]);
+    wide_store(nodes->front, front);
     for (int t = 0; t < 4; t++) {
         wide_store(nodes->value[t], cubic.value[t]);
         wide_store(nodes->slope[t], cubic.slope[t]);
@@ -254,37 +267,37 @@ void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike)
         }
 }
 
-void ribbon_wall_alike(const ElasticHalf *half, int side, bool back, const RibbonNodes *nodes, int lane,
+void ribbon_wall_alike(const ElasticHalf *half, int side, const RibbonNodes *nodes, int lane,
                        const RibbonAlike *alike, scalar u[3])
 {
-    const WallSigns sign = wall_signs(back, side);
+    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
     u[0] = u[1] = u[2] = 0.0;
     for (int a = 0; a < half->radii; a++) {
         const scalar(*from)[4] = alike->row[a * half->nodes + nodes->node[lane]];
         for (int t = 0; t < 4; t++)
             for (int c = 0; c < 3; c++) u[c] += nodes->row[a][t][lane] * from[t][c];
     }
-    for (int c = 0; c < 3; c++) u[c] *= sign.of[c];
+    for (int c = 0; c < 3; c++) u[c] *= sign.of[c][0];
 }
 
-INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool back, const RibbonNodes *nodes,
-                     int lane, const scalar *q, scalar u[3], WallShape *shape)
+INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes, int lane,
+                     const scalar *q, scalar u[3], WallShape *shape)
 {
     const Turn turn = turn_of(half, j);
-    const WallSigns sign = wall_signs(back, side);
+    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
     wide sums[3][EIGHTHS];
-    shape->by_b = sign.by_b;
+    shape->by_b = 1.0;
     for (int c = 0; c < 3; c++)
         for (int i = 0; i < EIGHTHS; i++) sums[c][i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
+            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
             wide by[3][2];
             ribbon_motions(half, radii, nodes, lane, m, by);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    const wide motion = sign.of[c] * by[c][part];
+                    const wide motion = wide_set(sign.of[c][part]) * by[c][part];
                     wide_store(&shape->motion[c][part][m], motion);
                     sums[c][i] = wide_fma(motion, place[part], sums[c][i]);
                 }
@@ -292,34 +305,34 @@ INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, bool b
     for (int c = 0; c < 3; c++) u[c] = wide_eight_sum(sums[c]);
 }
 
-void ribbon_wall_moved(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
-                       int lane, const scalar *q, scalar u[3], WallShape *shape)
+void ribbon_wall_moved(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
+                       const scalar *q, scalar u[3], WallShape *shape)
 {
     if (half->radii == WALL_RADII)
-        moved_by(half, WALL_RADII, side, j, back, nodes, lane, q, u, shape);
+        moved_by(half, WALL_RADII, side, j, nodes, lane, q, u, shape);
     else
-        moved_by(half, 1, side, j, back, nodes, lane, q, u, shape);
+        moved_by(half, 1, side, j, nodes, lane, q, u, shape);
 }
 
 // The slopes by the rows of the table: each row's motion along n, once for both.
-INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, bool back,
-                          const RibbonNodes *nodes, int lane, const WallShape *shape, const scalar n[3],
-                          const scalar *q, const scalar *q_dot, RibbonWall *wall)
+INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes,
+                          int lane, const WallShape *shape, const scalar n[3], const scalar *q,
+                          const scalar *q_dot, RibbonWall *wall)
 {
     const Turn turn = turn_of(half, j);
-    const WallSigns sign = wall_signs(back, side);
+    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
     wide rates[3][EIGHTHS], over_chi[EIGHTHS], over_radius[EIGHTHS];
     for (int i = 0; i < EIGHTHS; i++)
         rates[0][i] = rates[1][i] = rates[2][i] = over_chi[i] = over_radius[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
-            const wide rate[2] = {turned_a(&turn, m, q_dot), sign.by_b * turned_b(&turn, m, q_dot)};
+            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
             wide along[3][2];
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    along[c][part] = (sign.of[c] * n[c]) * place[part];
+                    along[c][part] = (sign.of[c][part] * n[c]) * place[part];
                     rates[c][i] = wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], rates[c][i]);
                 }
             for (int a = 0; a < radii; a++) {
@@ -342,14 +355,37 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, b
     wall->over_radius = wide_eight_sum(over_radius);
 }
 
-void ribbon_wall(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes, int lane,
+// Slope of the motion along n over the part `front`.
+INLINE scalar over_front(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes,
+                         int lane, const scalar n[3], const scalar *q)
+{
+    const Turn turn = turn_of(half, j);
+    const scalar along[3] = {side * n[0], n[1], n[2]};
+    wide sum[EIGHTHS];
+    for (int i = 0; i < EIGHTHS; i++) sum[i] = wide_set(0.0);
+    for (int block = 0; block < ENTRY_OCTETS; block++)
+        for (int i = 0; i < EIGHTHS; i++) {
+            const int m = 8 * block + i * LANE_WIDTH;
+            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
+            wide by[3][2];
+            ribbon_motions(half, radii, nodes, lane, m, by);
+            for (int c = 0; c < 3; c++)
+                for (int part = 0; part < 2; part++)
+                    sum[i] += SLOPE[c][part] * along[c] * (by[c][part] * place[part]);
+        }
+    return wide_eight_sum(sum);
+}
+
+void ribbon_wall(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
                  RibbonWall *wall)
 {
     if (half->radii == WALL_RADII)
-        wall_of_radii(half, WALL_RADII, side, j, back, nodes, lane, shape, n, q, q_dot, wall);
+        wall_of_radii(half, WALL_RADII, side, j, nodes, lane, shape, n, q, q_dot, wall);
     else
-        wall_of_radii(half, 1, side, j, back, nodes, lane, shape, n, q, q_dot, wall);
+        wall_of_radii(half, 1, side, j, nodes, lane, shape, n, q, q_dot, wall);
+    const bool between = fabs(scalar_value(nodes->front[lane])) < 1.0;
+    wall->over_front = between ? over_front(half, half->radii, side, j, nodes, lane, n, q) : 0.0 * n[0];
 }
 
 // Stores the motion along n by a few a' and b', of which (x, r, t) are given, as that by a and b.
@@ -364,28 +400,28 @@ INLINE void store_along(const Turn *turn, int m, wide motion[3][2], double by_b,
     wide_store(&b[m], back_to_b(turn, m, by[0], by[1]));
 }
 
-INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn, bool back,
+INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn,
                            const RibbonNodes *nodes, int lane, const scalar n[3], scalar *shape, scalar *b)
 {
-    const WallSigns sign = wall_signs(back, side);
+    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
         wide motion[3][2];
         ribbon_motions(half, radii, nodes, lane, m, motion);
         for (int c = 0; c < 3; c++)
-            for (int part = 0; part < 2; part++) motion[c][part] *= sign.of[c];
-        store_along(turn, m, motion, sign.by_b, n, shape, b);
+            for (int part = 0; part < 2; part++) motion[c][part] *= wide_set(sign.of[c][part]);
+        store_along(turn, m, motion, 1.0, n, shape, b);
     }
 }
 
-void ribbon_wall_shape(const ElasticHalf *half, int side, int j, bool back, const RibbonNodes *nodes,
-                       int lane, const scalar n[3], mode_array shape)
+void ribbon_wall_shape(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
+                       const scalar n[3], mode_array shape)
 {
     const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];
     if (half->radii == WALL_RADII)
-        shape_of_radii(half, WALL_RADII, side, &turn, back, nodes, lane, n, shape, b);
+        shape_of_radii(half, WALL_RADII, side, &turn, nodes, lane, n, shape, b);
     else
-        shape_of_radii(half, 1, side, &turn, back, nodes, lane, n, shape, b);
+        shape_of_radii(half, 1, side, &turn, nodes, lane, n, shape, b);
     memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
 }
 

@@ -9,8 +9,8 @@
 //                                                        the motions d of the halves, which joints and these loads cause
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
-// and the modes feel (1 + lambda delta_dot) Q, where delta_dot changes with the rigid approach alone.  The bodies of halves and balls feel
-// the change of the loads since the start too, the balls as if free.  So after the step x is where the evaluation finds it.  Where a
+// and the modes feel (1 + lambda delta_dot) Q, with the delta_dot of the step's start.  The bodies of halves and balls feel the change of
+// the loads since the start too, the balls as if free.  So after the step x is where the evaluation finds it.  Where a
 // body does not feel it, its answer comes a step late and feeds vibrations: a ball of the mass m_b on a contact of the stiffness k
 // adds k^2/(m_b omega^2) of stiffness to a vibration of the frequency omega, which is constant over a step, and a stiffness
 // epsilon omega^2 held over h and corrected at the end feeds the amplitude, turning by theta = omega h, in each step by
@@ -18,7 +18,8 @@
 //     epsilon/2 (1 - cos theta - theta/2 sin theta)       largest near 3/2 pi: 1.7 epsilon
 //
 // Balls that answered late made the 99.9 % pocket force of a quiet bearing 25 % too large in steps of eight substeps.
-// x_0 < 0 before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
+// delta_dot must not change with the bodies alone: slow forces accelerate a half by 3000 m/s2 that its modes take back, and a lambda of
+// 1 s/m made the loads 1 to 2 % too small between the ends of a step.  x_0 < 0 before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
 #include "cage/elastic/elastic_half.h"
@@ -61,8 +62,9 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
                        mode_array shape)
 {
     const int side = 2 * h - 1, j = k / LANE_WIDTH * LANE_WIDTH;
-    const double place[6] = {fast->touch.x[h][k],   fast->touch.r[h][k],      fast->touch.t[h][k],
-                             fast->touch.chi[h][k], fast->touch.radius[h][k], model->p->cage.m};
+    const WallTouch *touch = &fast->touch;
+    const double place[7] = {touch->x[h][k],      touch->r[h][k],     touch->t[h][k],  touch->chi[h][k],
+                             touch->radius[h][k], touch->front[h][k], model->p->cage.m};
     const PressedWall *known = &w->cage.elastic.pressed[h][k];
     if (memcmp(place, known->place, sizeof place) == 0) {
         memcpy(shape, known->shape, sizeof known->shape);
@@ -70,12 +72,12 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
     }
     if (model->d->spheres.on) {
         RibbonNodes nodes;
-        ribbon_wall_nodes(model->modes, wide_set(fabs(place[3])), wide_set(place[4]), &nodes);
-        ribbon_wall_shape(model->modes, side, k, place[3] < 0.0, &nodes, 0, place, shape);
+        ribbon_wall_nodes(model->modes, wide_set(place[3]), wide_set(place[4]), wide_set(place[5]), &nodes);
+        ribbon_wall_shape(model->modes, side, k, &nodes, 0, place, shape);
     } else {
         WallPlaces places;
-        elastic_wall_places(model->modes, side, j, wide_load(&fast->touch.x[h][j]),
-                            wide_load(&fast->touch.t[h][j]), &places);
+        elastic_wall_places(model->modes, side, j, wide_load(&touch->x[h][j]), wide_load(&touch->t[h][j]),
+                            &places);
         elastic_wall_shape(model->modes, side, k, &places, shape);
     }
 }
@@ -94,10 +96,11 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
     const bool pressed = Q_0 > 0.0;
     if (!pressed && !(delta + h * rate > 0.0)) return false;
     const int i = loads->count++;
-    const double acceleration = approach->acceleration[lane], lambda = model->p->cage.lambda;
+    const double acceleration = approach->acceleration[lane];
     loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
-    loads->damped[i] =
-        pressed ? fmin(Q / Q_0, MOST_DAMPED) + lambda * loads->middle * acceleration : 1.0 + lambda * rate;
+    loads->damped[i] = pressed
+                           ? fmin(Q / Q_0, MOST_DAMPED)
+                           : fmax(1.0 + model->p->cage.lambda * (rate - loads->middle * acceleration), 0.0);
     loads->rate[i] = rate, loads->acceleration[i] = acceleration, loads->ball[i] = k;
     for (int m = 0; m < 3; m++) loads->normal[m][i] = approach->direction[m][lane];
     for (int m = 0; m < RELATIVE_MOTIONS; m++) {
@@ -172,26 +175,21 @@ INLINE wide less_halves(const WallLoads *loads, int i, const double motion[CAGE_
 }
 
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
-                       double push[CAGE_MOTIONS])
+                       WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
 {
-    const double bend = t * (0.5 * t - loads->middle), lambda = model->p->cage.lambda;
-    wall_load_array force, by_modes, ball_way, ball_speed;
+    const double bend = t * (0.5 * t - loads->middle);
+    wall_load_array force, by_modes, ball_way;
     bool changed = false;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q, by_modes);
     along_normals(loads, loads->balls.way, ball_way);
-    along_normals(loads, loads->balls.speed, ball_speed);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
-        const wide acceleration = wide_load(&loads->acceleration[i]);
-        const wide way = wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * acceleration);
+        const wide way =
+            wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
         const wide bodies = less_halves(loads, i, moved, wide_load(&ball_way[i]));
         const wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
-        const wide rate = wide_fma(wide_set(t - loads->middle), acceleration,
-                                   less_halves(loads, i, speeds, wide_load(&ball_speed[i])));
-        const wide damped =
-            wide_max(wide_fma(wide_set(lambda), rate, wide_load(&loads->damped[i])), wide_set(0.0));
-        const wide Q = damped * loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u);
+        const wide Q =
+            wide_load(&loads->damped[i]) * loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u);
         const wide more = Q - wide_load(&loads->Q[i]);
         wide_store(&force[i], more);
         changed |= wide_any(wide_above(wide_abs(more), 0.0));
@@ -213,13 +211,15 @@ void wall_loads_follow(const Model *model, double t, const double *q, const doub
     add_forces(loads, force, slow, &slow[N_MODES]);
 }
 
-void ball_motions_arrive(const BallMotions *balls, double h, double *y, double excess[BALL_MOTIONS])
+void ball_motions_arrive(const BallMotions *balls, double h, double *y, double foreseen[BALL_MOTIONS])
 {
     static const int PLACE[3] = {Y_BALL_X, Y_BALL_R, Y_BALL_THETA};
+    static const int RATE[3] = {Y_BALL_V_X, Y_BALL_V_R, Y_BALL_OMEGA_M};
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < Z; k++) {
             const double part = i == 2 ? 1.0 / y[Y_BALL_R + k] : 1.0;  // along the orbit angles
             y[PLACE[i] + k] += part * balls->way[i][k];
-            excess[i * Z + k] = part * (balls->push[i][k] - 2.0 / h * balls->speed[i][k]);
+            y[RATE[i] + k] += part * (balls->speed[i][k] - 0.5 * h * balls->push[i][k]);
+            foreseen[i * Z + k] = part * balls->push[i][k];
         }
 }

@@ -19,10 +19,10 @@ typedef struct {
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
-    int count, of_0;               // all, those of half 0, which come first
-    double middle, c;              // of the step [s]; compliance of the walls beside their modes
-    wall_load_array K, damped, Q;  // law K delta^1.5 times `damped` in the middle, load at the step's start
-    wall_load_array x, from;       // approach and motion of the wall at the step's start
+    int count, of_0;                      // all, those of half 0, which come first
+    double middle, c;                     // of the step [s]; compliance of the walls beside their modes
+    wall_load_array K, damped, Q;         // law K delta^1.5 times `damped`, load at the step's start
+    wall_load_array x, from;              // approach and motion of the wall at the step's start
     wall_load_array rate, acceleration;   // of the rigid approach, in the middle of the step and at its start
     wall_load_array along[CAGE_MOTIONS];  // motion along the normal by those of the halves
     wall_load_array normal[3];            // along (x, r, t) of the ball
@@ -38,11 +38,10 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
 // Adds to the modes' accelerations (S, then D) the part by the change of the loads up to the time t of the step, and writes the parts of the
-// halves and of the balls.  q: coordinates at t; moved, speeds: rigid motions of the halves by the fast accelerations and by this part.
+// halves and of the balls.  q: coordinates at t; moved: rigid motions of the halves by the fast accelerations and by this part.
 #define wall_loads_follow FOR_ISA(wall_loads_follow)
 void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       const double speeds[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
-                       double push[CAGE_MOTIONS]);
+                       WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
 
 // Velocities of the balls by the changes of the loads, after another time t.
 INLINE void ball_motions_push(double t, BallMotions *balls)
@@ -57,7 +56,7 @@ INLINE void ball_motions_move(double t, BallMotions *balls)
         for (int k = 0; k < Z; k++) balls->way[i][k] += t * balls->speed[i][k];
 }
 
-// Adds the ways of a step of length h to the state.  excess: of the changes of the accelerations at the step's end over those whose
-// trapezoidal rule gives the velocities, in the order of the balls' velocities.
+// Adds the ways of a step of length h to the state, and to the predicted velocities the part of the impulses that the trapezoidal rule
+// of the changes of the accelerations at the step's end, `foreseen` in the order of the balls' velocities, does not have.
 #define ball_motions_arrive FOR_ISA(ball_motions_arrive)
-void ball_motions_arrive(const BallMotions *balls, double h, double *y, double excess[BALL_MOTIONS]);
+void ball_motions_arrive(const BallMotions *balls, double h, double *y, double foreseen[BALL_MOTIONS]);
