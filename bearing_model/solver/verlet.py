@@ -44,11 +44,8 @@ from bearing_model.physics.powers import friction_torque, shaft_power
 from bearing_model.physics.rhs import jacobian, rhs
 
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
-BUSY, QUIET, MEAN_OVER = (
-    0.2,
-    0.3,
-    0.01,
-)  # mean error of a busy bearing, least part of the tolerance, time of the mean [s]
+BUSY, QUIET = 0.25, 0.2  # mean error of a busy bearing, least part of the tolerance
+MEAN_OVER = 0.01  # time of that mean [s]
 COUPLING_LIMIT = 0.2  # gamma A of the ring by traction from which ring and balls are solved together
 TRACTION_MARGIN = 1.4  # traction's rates in A / the secants |traction|/|slip| of the evaluation
 APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
@@ -359,7 +356,7 @@ def ratio_of(error):
 
 def tolerance_part(state):
     """Part of the tolerance that steps are given: less where the longest step and not the error decides most of them."""
-    return min(max(state.error_mean / BUSY, QUIET), 1.0)
+    return max(min(state.error_mean / BUSY, 1.0) ** 3, QUIET)
 
 
 def next_goal(goal, h, error, before):

@@ -71,8 +71,8 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has five substeps at most.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
-// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step from five
+// that it has five substeps at most, of a ribbon four.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
+// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step from those
 // substeps to one.  Films leave two substeps, which are always stable, or more: of the rate A that the substeps leave out 1/A; in pockets
 // too, or one substep where lands guide the cage, whose loss would err by 5 to 11 %; on bent rims STIFF_GAP.
 //
@@ -97,8 +97,7 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
         const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
         if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
     }
-    const double most =
-        d + (elastic_longest_step(model->modes) - d) * (part - LEAST_PART) / (1.0 - LEAST_PART);
+    const double most = d + (model->modes->longest_step - d) * (part - LEAST_PART) / (1.0 - LEAST_PART);
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
     const double by_gap = memory->elastic.films.stiffness * model->modes->mobility[0];

@@ -23,7 +23,7 @@ from bearing_model.generated.variables import CageShape, Z
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
-LONGEST = 5.0  # substeps in the longest step
+LONGEST, LONGEST_RIBBON = 5.0, 4.0  # substeps in the longest step
 WEAK_FILM = 0.05  # part of a wall's velocity that a film takes in the longest step, below which it need not follow
 SUBSTEP_TURN = 1.55  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median
@@ -62,12 +62,8 @@ class ElasticHalf:
     # squares of the frequencies of S and the relative rigid motions out of the plane with closed joints, rising [n + 3]
     mirrored: np.ndarray
     substep: float  # of the default method, at most [s]
+    longest_step: float  # likewise: forces that are constant over it feed vibrations that turn by much more than pi
     law: LawOfModes
-
-    @property
-    def longest_step(self):
-        """[s]: forces that are constant over it feed vibrations that turn by much more than pi."""
-        return LONGEST * self.substep
 
 
 def mode_order(modes):
@@ -127,6 +123,7 @@ def elastic_half_derive(p, d, table):
     )
     rim = unit * rim_shapes(modes, p.cage.land_x)[order]
     substep = SUBSTEP_TURN / np.sqrt(max(mirrored[-1], opposed[-1]))
+    longest_step = (LONGEST_RIBBON if ribbon else LONGEST) * substep
     wall_mobility = (1.0 + np.sum(most[one_of_pair] ** 2)) / p.cage.m + (
         0.5 * p.bearing.d_m
     ) ** 2 / d.J_t  # at most [m/s/(N.s)]
@@ -154,8 +151,9 @@ def elastic_half_derive(p, d, table):
         compliance=max(float(np.ravel(wall)[len(np.ravel(wall)) // 2]), 0.0) if ribbon else wall,
         mirrored=mirrored,
         substep=substep,
+        longest_step=longest_step,
         wall_mobility=wall_mobility,
-        weak_film=WEAK_FILM / (LONGEST * substep * wall_mobility),
+        weak_film=WEAK_FILM / (longest_step * wall_mobility),
         law=law,
     )
 

@@ -174,7 +174,7 @@ INLINE wide pocket_ahead(const Model *model, const Work *w, int h, int j, const 
     const PocketAxes axes = {gap->a, gap->b, gap->e_t, gap->p};
     const vec v = pocket_motion(w, &w->half[h], j, &axes, NULL).v;
     const wide rate = gap->n_x * vec_dot(v, gap->a) + gap->n_t * vec_dot(v, gap->e_t);
-    return wide_max(rate, wide_set(0.0)) * elastic_longest_step(model->modes);
+    return wide_max(rate, wide_set(0.0)) * model->modes->longest_step;
 }
 
 // Leaves the contacts of a packet, and those that may come in the next step, to its substeps (wall_loads.c).

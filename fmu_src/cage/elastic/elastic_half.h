@@ -83,7 +83,7 @@ struct ElasticHalf {
     double R[PAD_OUT][PAD_OUT], K[PAD_OUT][PAD_OUT];
     double series;     // part of the friction states' stiffness that is left in series with the residual
     constants k_hole;  // stiffness of the holes in series with the residual [N/m]
-    double substep;    // of the default method, at most [s]
+    double substep, longest_step;  // of the default method, at most [s]
 
     // from which all this was derived: the body, the largest stiffness of the holes
     struct {
@@ -94,12 +94,6 @@ struct ElasticHalf {
     // the joints' law over L_K = L + K delta, which gives L; the fourth number is U, whose slope is delta
     const JointLaw *law;
 };
-
-// The longest step of elastic halves [s]: forces that are constant over it feed vibrations that turn by much more than pi.
-static inline double elastic_longest_step(const ElasticHalf *half)
-{
-    return 5.0 * half->substep;
-}
 
 // The half of the rivet table in the scene.  half: zeros, or the half of other parameters, of which the parts are
 // kept that follow from the same values: the modes cost 0.6 ms, which a change of a parameter in a run would cost again.
