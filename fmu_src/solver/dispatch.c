@@ -5,8 +5,6 @@
 #include <stdlib.h>
 
 #undef rhs
-#undef vector_ops
-#undef vector_ops_all
 #undef verlet_step
 #undef verlet_evaluate
 #undef race_contact_force
@@ -20,12 +18,10 @@
     VerletEvaluate verlet_evaluate_##isa;      \
     CageLoads cage_loads_##isa;                \
     CageSlide cage_slide_##isa;                \
-    RivetRomStress rivet_rom_stress_##isa;     \
-    extern const VectorOps vector_ops_##isa, vector_ops_all_##isa
+    RivetRomStress rivet_rom_stress_##isa
 #define KERNELS_2(isa)                                                                              \
-    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_all_##isa, \
-               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, cage_slide_##isa,        \
-               rivet_rom_stress_##isa})
+    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, verlet_step_##isa, verlet_evaluate_##isa, \
+               cage_loads_##isa, cage_slide_##isa, rivet_rom_stress_##isa})
 #define DECLARE(isa) DECLARE_2(isa)
 #define KERNELS(isa) KERNELS_2(isa)
 

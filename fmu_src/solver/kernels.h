@@ -6,7 +6,6 @@
 #include "physics/rhs.h"
 #include "rivet/rivet_rom.h"
 #include "solver/implicit.h"
-#include "solver/vector_ops.h"
 #include "solver/verlet.h"
 
 // The kernels of one instruction set.
@@ -14,19 +13,12 @@ typedef struct {
     const char *name;
     Rhs *rhs;
     RaceContactForce *race_contact_force;
-    const VectorOps *ops, *ops_all;  // without and with the states of modes
     VerletStep *verlet;
     VerletEvaluate *verlet_evaluate;
     CageLoads *cage_loads;
     CageSlide *cage_slide;
     RivetRomStress *rivet_rom_stress;
 } Kernels;
-
-// The operations on the state vector of the scene.
-static inline const VectorOps *kernels_ops(const Kernels *kernels, const Model *model)
-{
-    return cage_states(model) == N_STATES ? kernels->ops : kernels->ops_all;
-}
 
 // The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);
