@@ -30,6 +30,7 @@ typedef struct {
 typedef struct {
     Part *part;
     Session session;
+    Call call;  // that runs, or ran last
     PartHost host;
     FloatEnvironment *host_floats;  // during a call: the host's floating-point environment
     fmi2CallbackFunctions callbacks;
@@ -54,11 +55,8 @@ void instance_refuse_unsupported(fmi2Component c, const char *function, FloatEnv
 
 void instance_log(void *environment, LogCategory category, const char *message);
 
-// Logs the reason for which a call is refused; the instance is in error from then on.
-fmi2Status refuse(Instance *m, Call call, const char *format, ...);
-
-// As refuse, for a step that has not begun: the state is untouched, and the host may go on with a right clock.
-fmi2Status refuse_step(Instance *m, const char *format, ...);
+// Logs the reason for which the call is refused; the instance is in error from then on.
+fmi2Status refuse(Instance *m, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // The status of the core as FMI's, with the phase that follows.
 fmi2Status conclude(Instance *m, PartStatus status);
@@ -75,4 +73,4 @@ double clock_slack(double time, double step);
 double clock_rounding(const Session *s, double time, double step);
 
 // The variable of a value reference, if it has the right type.
-const Variable *find_variable(Instance *m, Call call, fmi2ValueReference reference, bool real, int *element);
+const Variable *find_variable(Instance *m, fmi2ValueReference reference, bool real, int *element);

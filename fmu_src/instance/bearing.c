@@ -205,7 +205,6 @@ void part_reset(Bearing *b)
     memset(&b->s, 0, sizeof b->s);
     memset(&b->out, 0, sizeof b->out);
     variables_set_start(&b->s.p, &b->s.u[0]);
-    b->start = b->s.u[0];
     b->reported = false;
     b->current = 0;
     b->evaluated = false;

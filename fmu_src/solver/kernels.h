@@ -20,6 +20,9 @@ typedef struct {
     RivetRomStress *rivet_rom_stress;
 } Kernels;
 
+#define own_kernels FOR_ISA(own_kernels)
+extern const Kernels own_kernels;
+
 // The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);
 
