@@ -68,8 +68,7 @@ fmi2Status instance_initialize(Instance *m);
 // Parameters or inputs have changed: in initialization mode the start that outputs were read from is none any more.
 void forget_start(Instance *m);
 
-// Allowed distance between the host's clock and the FMU's, and the part of it that double precision alone explains.
-double clock_slack(double time, double step);
+// Distance between the host's clock and the FMU's that double precision alone explains.
 double clock_rounding(const Session *s, double time, double step);
 
 // The variable of a value reference, if it has the right type.

@@ -8,7 +8,7 @@
 // Distance that a host's clock may have from the FMU's: single precision (6e-8 of the time, a few of them) and
 // times that a host rounds for itself, never less than a thousandth of the step, nor more than half of it: a point
 // a whole step away is another one.
-double clock_slack(double time, double step)
+static double clock_slack(double time, double step)
 {
     return fmax(fmin(1e-6 * fabs(time), 0.5 * step), 1e-3 * step);
 }
