@@ -45,7 +45,6 @@ PARTS = {  # source file -> part
     "rhs": "cage bodies, sums",
     "implicit": "implicit solve",
     "verlet": "Verlet step itself",
-    "vector_ops": "error norm",
     "half_path": "rivet loads",
     "joint_law": "rivet loads",
     "joint_open": "rivet loads",

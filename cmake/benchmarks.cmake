@@ -4,7 +4,7 @@ if(EXISTS ${PROJECT_SOURCE_DIR}/benchmarks/solvers.c AND TARGET bearing_test AND
     set(benchmarks ${PROJECT_SOURCE_DIR}/benchmarks)
 
     # What solvers.c needs of SUNDIALS beyond the FMU's part.
-    set(cvode_files cvode/cvode.c cvode/cvode_io.c cvode/cvode_ls.c cvode/cvode_nls.c cvode/cvode_proj.c nvector/serial/nvector_serial.c
+    set(cvode_files cvode/cvode.c cvode/cvode_io.c cvode/cvode_ls.c cvode/cvode_nls.c cvode/cvode_proj.c
         sundials/sundials_dense.c sundials/sundials_linearsolver.c sundials/sundials_matrix.c sundials/sundials_nonlinearsolver.c
         sundials/sundials_nvector_senswrapper.c sunlinsol/dense/sunlinsol_dense.c sunmatrix/band/sunmatrix_band.c sunmatrix/dense/sunmatrix_dense.c
         sunnonlinsol/fixedpoint/sunnonlinsol_fixedpoint.c sunnonlinsol/newton/sunnonlinsol_newton.c)

@@ -15,7 +15,7 @@ set(kernel_files
     cage/elastic/cage_elastic.c cage/elastic/cage_substeps.c cage/elastic/wall_loads.c cage/elastic/elastic_wall.c cage/elastic/elastic_lands.c
     cage/elastic/elastic_step.c cage/elastic/rim_films.c
     rivet/rivet_rom.c
-    solver/vector_ops.c solver/implicit.c solver/verlet.c)
+    solver/implicit.c solver/verlet.c solver/kernels.c)
 
 set(warnings -Wall -Wextra -Wpedantic)
 set(arithmetic -ffp-contract=off -fno-math-errno -fno-trapping-math)  # IEEE results, the same ones on every instruction set

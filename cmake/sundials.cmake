@@ -164,7 +164,7 @@ endfunction()
 # What the integrator uses of it, and what these files need: an undefined symbol at the link names the file to add.
 set(sundials_files
     arkode/arkode.c arkode/arkode_adapt.c arkode/arkode_butcher.c arkode/arkode_butcher_erk.c arkode/arkode_erkstep.c arkode/arkode_erkstep_io.c
-    arkode/arkode_interp.c arkode/arkode_io.c arkode/arkode_relaxation.c arkode/arkode_root.c arkode/arkode_user_controller.c
+    arkode/arkode_interp.c arkode/arkode_io.c arkode/arkode_relaxation.c arkode/arkode_root.c arkode/arkode_user_controller.c nvector/serial/nvector_serial.c
     sunadaptcontroller/imexgus/sunadaptcontroller_imexgus.c sunadaptcontroller/soderlind/sunadaptcontroller_soderlind.c
     sundials/sundials_adaptcontroller.c sundials/sundials_context.c sundials/sundials_errors.c sundials/sundials_hashmap.c sundials/sundials_logger.c
     sundials/sundials_math.c sundials/sundials_nvector.c)

@@ -89,13 +89,18 @@ class Limit:
 
     @property
     def allowed(self):
+        """What is allowed and for what, in words."""
+        return f"{self.range} is allowed for {self.reason}"
+
+    @property
+    def range(self):
         """What is allowed, in words; {bound} stands for the number."""
         if isinstance(self.bound, ast.Name):
-            return f"{self.bound.id} ({choice(self.keep, self.variables)}) is allowed for {self.reason}"
+            return f"{self.bound.id} ({choice(self.keep, self.variables)})"
         zero = f"0, which stands for {self.zero}, or " if self.zero else ""
         named = "" if isinstance(self.bound, ast.Constant) else f"{text(self.bound)} = "
         share = f" +- {100 * self.rounding:g} %" if self.sign == "==" and self.rounding else ""
-        return f"{zero}{WORDS[type(self.keep.ops[0])]}{named}{{bound}}{self.unit}{share} is allowed for {self.reason}"
+        return f"{zero}{WORDS[type(self.keep.ops[0])]}{named}{{bound}}{self.unit}{share}"
 
     def written(self, part, language):
         """Value, bound or condition ("value", "bound", "when") in "C" or "Python"."""

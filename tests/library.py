@@ -37,7 +37,6 @@ AROUND_THE_CORE = {
     "race_traction.h",
     "reserved_memory.h",
     "bearing_step.h",
-    "state_vector.h",
 }
 SYSTEM_TYPES = "typedef _Bool bool; typedef unsigned long size_t; typedef long int64_t; typedef unsigned long uint64_t; typedef unsigned uint32_t;"
 

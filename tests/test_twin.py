@@ -652,7 +652,7 @@ def test_power_is_rate_of_energy(record_property):
     for scene, (parameters, inputs) in SCENES.items():
         model = under_way(parameters, inputs, 1e-3)
         ys = random_states(model, start_of(scene)[1], np.random.default_rng(5), 40)
-        ys[:, FRICTION] *= 0.01  # nothing slips: what slip dissipates is no power of a state, but the work of a step
+        ys[:, FRICTION] *= 1e-3  # no joint slips, stiff ones without preload neither: slip is the work of a step
         off = imbalance(model, ys)
         if scene in ("surfaces", "ball_spalls"):  # without the roll of a ring whose tilt turns (race_surface.py)
             rolled = max(rolled, off)

@@ -23,6 +23,7 @@ FIRST_VALUES = {"start.c", "derived.c", "instance.c"}
 # the file that includes it.
 ONE_TASK = {
     "pocket_squeeze.h": "pocket.c",
+    "pocket_forces.h": "pocket.c",
     "pocket_spheres.c": "pocket.c",
     "pocket_films.c": "pocket.c",
     "cage_substeps.c": "cage_elastic.c",

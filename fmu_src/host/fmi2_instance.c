@@ -62,30 +62,17 @@ void instance_log(void *environment, LogCategory category, const char *message)
     if (m->categories & 1u << category) send(&m->callbacks, m->host_floats, m->name, category, message);
 }
 
-static void log_refusal(Instance *m, Call call, const char *format, va_list arguments)
+fmi2Status refuse(Instance *m, const char *format, ...)
 {
     char reason[400], message[512];
+    va_list arguments;
+    va_start(arguments, format);
     vsnprintf(reason, sizeof reason, format, arguments);
-    snprintf(message, sizeof message, "%s at t = %.9g s: %s", CALLS[call].name, part_time(m->part), reason);
+    va_end(arguments);
+    snprintf(message, sizeof message, "%s at t = %.9g s: %s", CALLS[m->call].name, part_time(m->part),
+             reason);
     instance_log(m, LOG_ERROR, message);
-}
-
-fmi2Status refuse(Instance *m, Call call, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    log_refusal(m, call, format, arguments);
-    va_end(arguments);
     m->session.phase = ERRONEOUS;
-    return fmi2Error;
-}
-
-fmi2Status refuse_step(Instance *m, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    log_refusal(m, CALL_DoStep, format, arguments);
-    va_end(arguments);
     return fmi2Error;
 }
 
@@ -94,9 +81,9 @@ bool instance_enter(fmi2Component c, Call call, FloatEnvironment *host_floats)
     Instance *m = c;
     if (!m) return false;
     m->host_floats = host_floats;
+    m->call = call;
     if (m->session.phase & CALLS[call].phases) return true;
-    if (m->session.phase != FATAL)
-        refuse(m, call, "not allowed in state \"%s\"", phase_name(m->session.phase));
+    if (m->session.phase != FATAL) refuse(m, "not allowed in state \"%s\"", phase_name(m->session.phase));
     return false;
 }
 
@@ -204,7 +191,7 @@ fmi2Component instance_create(fmi2String name, fmi2Type type, fmi2String guid,
 fmi2Status slave_SetDebugLogging(fmi2Component c, fmi2Boolean on, size_t n, const fmi2String categories[])
 {
     Instance *m = c;
-    if (n > 0 && !categories) return refuse(m, CALL_SetDebugLogging, "no categories given");
+    if (n > 0 && !categories) return refuse(m, "no categories given");
     unsigned chosen = n == 0 ? ALL_CATEGORIES : ALWAYS_SENT;
     fmi2Status status = fmi2OK;
     for (size_t i = 0; i < n; i++) {
@@ -250,12 +237,11 @@ fmi2Status slave_SetupExperiment(fmi2Component c, fmi2Boolean tolerance_defined,
 {
     Instance *m = c;
     if (!values_are_within(&start_time, 1, LARGEST_TIME)) {
-        return refuse(m, CALL_SetupExperiment, "startTime = %g s is not allowed: it must lie within +-%g s",
-                      start_time, LARGEST_TIME);
+        return refuse(m, "startTime = %g s is not allowed: it must lie within +-%g s", start_time,
+                      LARGEST_TIME);
     }
     if (stop_time_defined && !(stop_time >= start_time)) {
-        return refuse(m, CALL_SetupExperiment,
-                      "stopTime = %g s is not allowed: it must not lie before startTime = %g s", stop_time,
+        return refuse(m, "stopTime = %g s is not allowed: it must not lie before startTime = %g s", stop_time,
                       start_time);
     }
     m->session.tolerance = tolerance_defined ? admissible_tolerance(m, tolerance) : 0.0;

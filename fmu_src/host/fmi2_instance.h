@@ -30,6 +30,7 @@ typedef struct {
 typedef struct {
     Part *part;
     Session session;
+    Call call;  // that runs, or ran last
     PartHost host;
     FloatEnvironment *host_floats;  // during a call: the host's floating-point environment
     fmi2CallbackFunctions callbacks;
@@ -54,11 +55,8 @@ void instance_refuse_unsupported(fmi2Component c, const char *function, FloatEnv
 
 void instance_log(void *environment, LogCategory category, const char *message);
 
-// Logs the reason for which a call is refused; the instance is in error from then on.
-fmi2Status refuse(Instance *m, Call call, const char *format, ...);
-
-// As refuse, for a step that has not begun: the state is untouched, and the host may go on with a right clock.
-fmi2Status refuse_step(Instance *m, const char *format, ...);
+// Logs the reason for which the call is refused; the instance is in error from then on.
+fmi2Status refuse(Instance *m, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 // The status of the core as FMI's, with the phase that follows.
 fmi2Status conclude(Instance *m, PartStatus status);
@@ -70,9 +68,8 @@ fmi2Status instance_initialize(Instance *m);
 // Parameters or inputs have changed: in initialization mode the start that outputs were read from is none any more.
 void forget_start(Instance *m);
 
-// Allowed distance between the host's clock and the FMU's, and the part of it that double precision alone explains.
-double clock_slack(double time, double step);
+// Distance between the host's clock and the FMU's that double precision alone explains.
 double clock_rounding(const Session *s, double time, double step);
 
 // The variable of a value reference, if it has the right type.
-const Variable *find_variable(Instance *m, Call call, fmi2ValueReference reference, bool real, int *element);
+const Variable *find_variable(Instance *m, fmi2ValueReference reference, bool real, int *element);

@@ -130,9 +130,9 @@ static bool blob_can_be_restored(const unsigned char *blob, char *reason, size_t
 fmi2Status slave_GetFMUstate(fmi2Component c, fmi2FMUstate *state)
 {
     Instance *m = c;
-    if (!state) return refuse(m, CALL_GetFMUstate, "a null pointer for the state");
+    if (!state) return refuse(m, "a null pointer for the state");
     unsigned char *blob = *state ? *state : calloc(1, blob_size());
-    if (!blob) return refuse(m, CALL_GetFMUstate, "out of memory");
+    if (!blob) return refuse(m, "out of memory");
     const BlobHeader header = blob_header();
     memcpy(blob, &header, sizeof header);
     memcpy(blob + sizeof header, &m->session, sizeof m->session);
@@ -146,7 +146,7 @@ fmi2Status slave_SetFMUstate(fmi2Component c, fmi2FMUstate state)
     Instance *m = c;
     const unsigned char *blob = state;
     const char *problem = blob ? blob_problem(blob, blob_size(), false) : "a null pointer for the state";
-    if (problem) return refuse(m, CALL_SetFMUstate, "%s", problem);
+    if (problem) return refuse(m, "%s", problem);
     memcpy(&m->session, blob + sizeof(BlobHeader), sizeof m->session);
     part_restore(m->part, blob + sizeof(BlobHeader) + sizeof m->session);
     return fmi2OK;
@@ -164,7 +164,7 @@ fmi2Status slave_FreeFMUstate(fmi2Component c, fmi2FMUstate *state)
 fmi2Status slave_SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, size_t *size)
 {
     Instance *m = c;
-    if (!state || !size) return refuse(m, CALL_SerializedFMUstateSize, "a null pointer");
+    if (!state || !size) return refuse(m, "a null pointer");
     *size = blob_size();
     return fmi2OK;
 }
@@ -172,10 +172,9 @@ fmi2Status slave_SerializedFMUstateSize(fmi2Component c, fmi2FMUstate state, siz
 fmi2Status slave_SerializeFMUstate(fmi2Component c, fmi2FMUstate state, fmi2Byte bytes[], size_t size)
 {
     Instance *m = c;
-    if (!state || !bytes) return refuse(m, CALL_SerializeFMUstate, "a null pointer");
+    if (!state || !bytes) return refuse(m, "a null pointer");
     if (size < blob_size())
-        return refuse(m, CALL_SerializeFMUstate, "size = %zu is not allowed: the state has %zu bytes", size,
-                      blob_size());
+        return refuse(m, "size = %zu is not allowed: the state has %zu bytes", size, blob_size());
     BlobHeader header;
     memcpy(&header, state, sizeof header);
     header.checksum = blob_checksum(state);
@@ -188,14 +187,14 @@ fmi2Status slave_DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], si
                                      fmi2FMUstate *state)
 {
     Instance *m = c;
-    if (!bytes || !state) return refuse(m, CALL_DeSerializeFMUstate, "a null pointer");
+    if (!bytes || !state) return refuse(m, "a null pointer");
     const char *problem = blob_problem((const unsigned char *)bytes, size, true);
-    if (problem) return refuse(m, CALL_DeSerializeFMUstate, "%s", problem);
+    if (problem) return refuse(m, "%s", problem);
     char reason[300];
     if (!blob_can_be_restored((const unsigned char *)bytes, reason, sizeof reason))
-        return refuse(m, CALL_DeSerializeFMUstate, "%s", reason);
+        return refuse(m, "%s", reason);
     if (!*state) *state = calloc(1, blob_size());
-    if (!*state) return refuse(m, CALL_DeSerializeFMUstate, "out of memory");
+    if (!*state) return refuse(m, "out of memory");
     memcpy(*state, bytes, blob_size());
     return fmi2OK;
 }

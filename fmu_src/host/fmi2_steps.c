@@ -8,7 +8,7 @@
 // Distance that a host's clock may have from the FMU's: single precision (6e-8 of the time, a few of them) and
 // times that a host rounds for itself, never less than a thousandth of the step, nor more than half of it: a point
 // a whole step away is another one.
-double clock_slack(double time, double step)
+static double clock_slack(double time, double step)
 {
     return fmax(fmin(1e-6 * fabs(time), 0.5 * step), 1e-3 * step);
 }
@@ -32,32 +32,39 @@ static void warn_of_clock(Instance *m, double point, double time)
     instance_log(m, LOG_WARNING, message);
 }
 
+// A step that was refused before it began: the state is untouched, and the host may go on with a right clock.
+static fmi2Status untouched(Instance *m, fmi2Status status)
+{
+    m->session.phase = STEPPING;
+    return status;
+}
+
 // The step from the FMU's own time to the end that the host means.
 static fmi2Status do_step(Instance *m, double point, double step)
 {
     const Session *s = &m->session;
     const double time = part_time(m->part), end = point + step;
     if (!(isfinite(step) && step > 0.0)) {
-        return refuse(m, CALL_DoStep,
-                      "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
+        return refuse(m, "communicationStepSize = %g s is not allowed: it must be positive and finite", step);
     }
     const double slack = clock_slack(time, step), rounding = clock_rounding(s, time, step);
     if (!(fabs(point - time) <= slack + rounding)) {
-        return refuse_step(
-            m,
-            "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s; "
-            "at most %.3g s off is allowed",
-            point, time, slack);
+        return untouched(
+            m, refuse(m,
+                      "currentCommunicationPoint = %.17g s is not allowed: the last step ended at %.17g s; "
+                      "at most %.3g s off is allowed",
+                      point, time, slack));
     }
     if (!(end > time)) {
-        return refuse_step(
+        return untouched(
             m,
-            "communicationStepSize = %g s is not allowed: currentCommunicationPoint = %.17g s and the "
-            "step end at or before %.17g s, where the last step ended",
-            step, point, time);
+            refuse(m,
+                   "communicationStepSize = %g s is not allowed: currentCommunicationPoint = %.17g s and the "
+                   "step end at or before %.17g s, where the last step ended",
+                   step, point, time));
     }
     if (end > s->stop_time + fmin(slack, 0.5 * step) + rounding) {
-        return refuse(m, CALL_DoStep,
+        return refuse(m,
                       "communicationStepSize = %g s is not allowed: the step goes beyond stopTime = %.17g s",
                       step, s->stop_time);
     }
@@ -78,7 +85,7 @@ fmi2Status slave_DoStep(fmi2Component c, fmi2Real point, fmi2Real step, fmi2Bool
 fmi2Status slave_GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
 {
     Instance *m = c;
-    if (!value) return refuse(m, CALL_GetStatus, "a null pointer");
+    if (!value) return refuse(m, "a null pointer");
     if (kind != fmi2DoStepStatus) return fmi2Discard;
     *value = (fmi2Status)m->session.step_status;
     return fmi2OK;
@@ -87,7 +94,7 @@ fmi2Status slave_GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Statu
 fmi2Status slave_GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
 {
     Instance *m = c;
-    if (!value) return refuse(m, CALL_GetRealStatus, "a null pointer");
+    if (!value) return refuse(m, "a null pointer");
     if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
     *value = part_time(m->part);
     return fmi2OK;
@@ -97,13 +104,13 @@ fmi2Status slave_GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fm
 {
     (void)kind;
     Instance *m = c;
-    return value ? fmi2Discard : refuse(m, CALL_GetIntegerStatus, "a null pointer");
+    return value ? fmi2Discard : refuse(m, "a null pointer");
 }
 
 fmi2Status slave_GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
 {
     Instance *m = c;
-    if (!value) return refuse(m, CALL_GetBooleanStatus, "a null pointer");
+    if (!value) return refuse(m, "a null pointer");
     if (kind != fmi2Terminated) return fmi2Discard;
     *value = m->session.phase == FAILED;
     return fmi2OK;
@@ -113,7 +120,7 @@ fmi2Status slave_GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fm
 fmi2Status slave_GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
 {
     Instance *m = c;
-    if (!value) return refuse(m, CALL_GetStringStatus, "a null pointer");
+    if (!value) return refuse(m, "a null pointer");
     if (kind != fmi2PendingStatus) return fmi2Discard;
     *value = m->message;
     return fmi2OK;

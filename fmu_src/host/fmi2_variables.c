@@ -4,16 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-static bool is_real(const Variable *v)
-{
-    return v->type == TYPE_REAL;
-}
-
-const Variable *find_variable(Instance *m, Call call, fmi2ValueReference reference, bool real, int *element)
+const Variable *find_variable(Instance *m, fmi2ValueReference reference, bool real, int *element)
 {
     const Variable *v = variable_find(reference, element);
-    if (v && is_real(v) == real) return v;
-    refuse(m, call, "value reference %u belongs to no %s variable", reference,
+    if (v && (v->type == TYPE_REAL) == real) return v;
+    refuse(m, "value reference %u belongs to no %s variable", reference,
            real ? "Real" : "Integer or Enumeration");
     return NULL;
 }
@@ -54,11 +49,11 @@ static fmi2Status real_value(Instance *m, const Variable *v, int element, double
 fmi2Status slave_GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Real value[])
 {
     Instance *m = c;
-    if (n > 0 && (!vr || !value)) return refuse(m, CALL_GetReal, "a null pointer for %zu values", n);
+    if (n > 0 && (!vr || !value)) return refuse(m, "a null pointer for %zu values", n);
     fmi2Status status = fmi2OK;
     for (size_t i = 0; i < n && status <= fmi2Warning; i++) {
         int element;
-        const Variable *v = find_variable(m, CALL_GetReal, vr[i], true, &element);
+        const Variable *v = find_variable(m, vr[i], true, &element);
         const fmi2Status one = v ? real_value(m, v, element, &value[i]) : fmi2Error;
         if (one > status) status = one;
     }
@@ -68,10 +63,10 @@ fmi2Status slave_GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t 
 fmi2Status slave_GetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Integer value[])
 {
     Instance *m = c;
-    if (n > 0 && (!vr || !value)) return refuse(m, CALL_GetInteger, "a null pointer for %zu values", n);
+    if (n > 0 && (!vr || !value)) return refuse(m, "a null pointer for %zu values", n);
     for (size_t i = 0; i < n; i++) {
         int element;
-        const Variable *v = find_variable(m, CALL_GetInteger, vr[i], false, &element);
+        const Variable *v = find_variable(m, vr[i], false, &element);
         if (!v) return fmi2Error;
         value[i] = ((const int *)storage(m, v))[element];
     }
@@ -79,25 +74,25 @@ fmi2Status slave_GetInteger(fmi2Component c, const fmi2ValueReference vr[], size
 }
 
 // Whether this value may be set now.
-static bool settable(Instance *m, Call call, fmi2ValueReference reference, bool real, double value)
+static bool settable(Instance *m, fmi2ValueReference reference, bool real, double value)
 {
     int element;
-    const Variable *v = find_variable(m, call, reference, real, &element);
+    const Variable *v = find_variable(m, reference, real, &element);
     if (!v) return false;
     char message[256];
     if (v->causality != CAUSALITY_INPUT && v->causality != CAUSALITY_PARAMETER) {
         variable_element_name(v, element, message, sizeof message);
-        refuse(m, call, "%s = %.10g is not allowed: only inputs and parameters can be set", message, value);
+        refuse(m, "%s = %.10g is not allowed: only inputs and parameters can be set", message, value);
         return false;
     }
     if (v->causality == CAUSALITY_PARAMETER && v->fixed && m->session.phase == STEPPING) {
         variable_element_name(v, element, message, sizeof message);
-        refuse(m, call, "%s = %.10g is not allowed: it is fixed after initialization, for %s", message, value,
+        refuse(m, "%s = %.10g is not allowed: it is fixed after initialization, for %s", message, value,
                v->fixed);
         return false;
     }
     if (!variable_allows(v, element, value, message, sizeof message)) {
-        refuse(m, call, "%s", message);
+        refuse(m, "%s", message);
         return false;
     }
     return true;
@@ -111,73 +106,67 @@ static void note_given(Instance *m, const Variable *v)
         *(int *)((char *)part_parameters(m->part) + v->given) = 1;
 }
 
-// All values are checked before the first is set.
-fmi2Status slave_SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
+// Sets Real or Integer and Enumeration variables; all values are checked before the first is set.
+static fmi2Status set_values(Instance *m, const fmi2ValueReference vr[], size_t n, bool real,
+                             const void *values)
 {
-    Instance *m = c;
-    if (n > 0 && (!vr || !value)) return refuse(m, CALL_SetReal, "a null pointer for %zu values", n);
-    for (size_t i = 0; i < n; i++) {
-        if (!settable(m, CALL_SetReal, vr[i], true, value[i])) return fmi2Error;
-    }
+    const fmi2Real *reals = values;
+    const fmi2Integer *integers = values;
+    if (n > 0 && (!vr || !values)) return refuse(m, "a null pointer for %zu values", n);
+    for (size_t i = 0; i < n; i++)
+        if (!settable(m, vr[i], real, real ? reals[i] : integers[i])) return fmi2Error;
     for (size_t i = 0; i < n; i++) {
         int element;
         const Variable *v = variable_find(vr[i], &element);
-        ((double *)storage(m, v))[element] = value[i];
+        if (real)
+            ((double *)storage(m, v))[element] = reals[i];
+        else
+            ((int *)storage(m, v))[element] = integers[i];
         note_given(m, v);
     }
     if (n > 0) forget_start(m);
     return fmi2OK;
 }
 
+fmi2Status slave_SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2Real value[])
+{
+    return set_values(c, vr, n, true, value);
+}
+
 fmi2Status slave_SetInteger(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                             const fmi2Integer value[])
 {
-    Instance *m = c;
-    if (n > 0 && (!vr || !value)) return refuse(m, CALL_SetInteger, "a null pointer for %zu values", n);
-    for (size_t i = 0; i < n; i++) {
-        if (!settable(m, CALL_SetInteger, vr[i], false, value[i])) return fmi2Error;
-    }
-    for (size_t i = 0; i < n; i++) {
-        int element;
-        const Variable *v = variable_find(vr[i], &element);
-        ((int *)storage(m, v))[element] = value[i];
-    }
-    if (n > 0) forget_start(m);
-    return fmi2OK;
+    return set_values(c, vr, n, false, value);
 }
 
 // There are no Boolean and no String variables.
-static fmi2Status no_variables(fmi2Component c, Call call, size_t n, const char *type)
+static fmi2Status no_variables(fmi2Component c, size_t n, const char *type)
 {
     Instance *m = c;
-    return n == 0 ? fmi2OK : refuse(m, call, "this FMU has no %s variables", type);
+    return n == 0 ? fmi2OK : refuse(m, "this FMU has no %s variables", type);
 }
 
 fmi2Status slave_GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Boolean value[])
 {
-    (void)vr;
-    (void)value;
-    return no_variables(c, CALL_GetBoolean, n, "Boolean");
+    (void)vr, (void)value;
+    return no_variables(c, n, "Boolean");
 }
 
 fmi2Status slave_SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
                             const fmi2Boolean value[])
 {
-    (void)vr;
-    (void)value;
-    return no_variables(c, CALL_SetBoolean, n, "Boolean");
+    (void)vr, (void)value;
+    return no_variables(c, n, "Boolean");
 }
 
 fmi2Status slave_GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2String value[])
 {
-    (void)vr;
-    (void)value;
-    return no_variables(c, CALL_GetString, n, "String");
+    (void)vr, (void)value;
+    return no_variables(c, n, "String");
 }
 
 fmi2Status slave_SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2String value[])
 {
-    (void)vr;
-    (void)value;
-    return no_variables(c, CALL_SetString, n, "String");
+    (void)vr, (void)value;
+    return no_variables(c, n, "String");
 }

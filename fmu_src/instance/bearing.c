@@ -7,6 +7,7 @@
 #include "instance/outputs.h"
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
+#include "numbers/error_norm.h"
 #include "physics/ball_turn.h"
 #include "physics/housing.h"
 #include "physics/ring_load.h"
@@ -205,7 +206,6 @@ void part_reset(Bearing *b)
     memset(&b->s, 0, sizeof b->s);
     memset(&b->out, 0, sizeof b->out);
     variables_set_start(&b->s.p, &b->s.u[0]);
-    b->start = b->s.u[0];
     b->reported = false;
     b->current = 0;
     b->evaluated = false;
@@ -699,7 +699,7 @@ void part_restore(Bearing *b, const void *saved)
 static bool outputs_are_numbers(Bearing *b)
 {
     evaluate(b);
-    bool fine = kernels_ops(&b->kernels, &b->model)->finite(b->y_dot);
+    bool fine = all_finite(cage_states(&b->model), b->y_dot);
     for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_OUTPUT) continue;

@@ -281,88 +281,75 @@ bool check_change(Bearing *b)
     return check_geometry(b) && check_temperatures(b, &s->u[0]);
 }
 
-// Inputs that have no effect on a ring whose motion is free, and on one whose motion is prescribed.
-typedef struct {
-    const char *name;
-    size_t offset;
-} InputName;
+// Variables that have no effect on a ring whose motion is free, on one whose motion is prescribed, on one whose tilt is given, on
+// one that tilts freely; parameters cannot change after the start.
+static const char *const OF_PRESCRIBED[] = {"shaft.x",          "shaft.y",          "shaft.z",
+                                            "shaft.v_x",        "shaft.v_y",        "shaft.v_z",
+                                            "shaft.tilt_y_dot", "shaft.tilt_z_dot", NULL};
+static const char *const OF_FREE[] = {"shaft.F_x",      "shaft.F_y",
+                                      "shaft.F_z",      "shaft.M_y",
+                                      "shaft.M_z",      "impact.F_r",
+                                      "impact.F_a",     "pulse.F_r",
+                                      "pulse.F_a",      "pulse.t_start",
+                                      "pulse.duration", "pulse.interval",
+                                      "pulse.count",    "ring.m",
+                                      "ring.J_p",       "ring.J_t",
+                                      "ring.c",         "ring.tilt_mode",
+                                      "ring.k_tilt",    "ring.c_tilt",
+                                      "ring.tilt_time", NULL};
+static const char *const MOMENTS[] = {"shaft.M_y", "shaft.M_z", NULL};
+static const char *const TILTS[] = {"shaft.tilt_y", "shaft.tilt_z", NULL};
 
-#define INPUT(group, member) {#group "." #member, offsetof(Inputs, group.member)}
+// Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.
+static const char *const SIZES_OF_TABLE[] = {"bearing.D", "cage.D_o", "cage.D_i", "cage.width", NULL};
 
-static const InputName OF_PRESCRIBED[] = {
-    INPUT(shaft, x),   INPUT(shaft, y),   INPUT(shaft, z),          INPUT(shaft, v_x),
-    INPUT(shaft, v_y), INPUT(shaft, v_z), INPUT(shaft, tilt_y_dot), INPUT(shaft, tilt_z_dot)};
-static const InputName OF_FREE[] = {INPUT(shaft, F_x), INPUT(shaft, F_y), INPUT(shaft, F_z),
-                                    INPUT(shaft, M_y), INPUT(shaft, M_z), INPUT(impact, F_r),
-                                    INPUT(impact, F_a)};
-static const InputName MOMENTS[] = {INPUT(shaft, M_y), INPUT(shaft, M_z)};
-static const InputName TILTS[] = {INPUT(shaft, tilt_y), INPUT(shaft, tilt_z)};
-static const char *const PARAMETERS_OF_FREE[] = {
-    "pulse.F_r",      "pulse.F_a",   "pulse.t_start", "pulse.duration", "pulse.interval",
-    "pulse.count",    "ring.m",      "ring.J_p",      "ring.J_t",       "ring.c",
-    "ring.tilt_mode", "ring.k_tilt", "ring.c_tilt",   "ring.tilt_time"};
-
-static void add_name(const char *name, char *list, size_t size)
+// Adds the variables whose value is off that of the start by more than a part of it to a list of names.
+static void add_changed(const Bearing *b, const char *const names[], double part, char *list, size_t size)
 {
-    const size_t length = strlen(list);
-    snprintf(list + length, size - length, "%s%s", length > 0 ? ", " : "", name);
+    for (; *names; names++) {
+        const Variable *v = variable_named(*names);
+        const bool input = v->causality == CAUSALITY_INPUT;
+        const double value = variable_value(v, 0, input ? (const void *)&b->s.u[0] : &b->s.p);
+        const size_t length = strlen(list);
+        if (fabs(value - v->start) > part * fabs(v->start) && (input || !b->s.initialized))
+            snprintf(list + length, size - length, "%s%s", length > 0 ? ", " : "", v->name);
+    }
 }
 
-// Adds the inputs whose value is not that of the start.
-static void add_changed(const Bearing *b, const InputName *input, size_t count, char *list, size_t size)
+static void report_changed(Bearing *b, const char *what, const char *is, const char *const names[])
 {
-    const char *now = (const char *)&b->s.u[0], *start = (const char *)&b->start;
-    for (size_t i = 0; i < count; i++)
-        if (*(const double *)(now + input[i].offset) != *(const double *)(start + input[i].offset))
-            add_name(input[i].name, list, size);
-}
-
-static void report_names(Bearing *b, const char *what, const char *is, const char *list)
-{
+    char list[512] = "";
+    add_changed(b, names, 0.0, list, sizeof list);
     if (!*list) return;
     b->reported = true;
     bearing_log(b, LOG_WARNING, "%s is %s: no effect have %s", what, is, list);
-}
-
-// Moments on a ring whose tilt is prescribed, tilts of one that tilts freely.
-static void report_tilts(Bearing *b)
-{
-    char list[512] = "";
-    const int mode = b->s.p.ring.tilt_mode;
-    if (mode == TILT_MODE_PRESCRIBED) add_changed(b, MOMENTS, 2, list, sizeof list);
-    if (mode == TILT_MODE_FREE) add_changed(b, TILTS, 2, list, sizeof list);
-    report_names(b, "ring.tilt_mode", mode == TILT_MODE_FREE ? "free" : "prescribed", list);
 }
 
 void report_without_effect(Bearing *b)
 {
     if (b->reported) return;
     const bool prescribed = b->s.p.ring.motion == RING_MOTION_PRESCRIBED;
-    char list[512] = "";
-    if (prescribed)
-        add_changed(b, OF_FREE, sizeof OF_FREE / sizeof *OF_FREE, list, sizeof list);
-    else
-        add_changed(b, OF_PRESCRIBED, sizeof OF_PRESCRIBED / sizeof *OF_PRESCRIBED, list, sizeof list);
-
-    // parameters cannot change after the start
-    for (size_t i = 0;
-         prescribed && !b->s.initialized && i < sizeof PARAMETERS_OF_FREE / sizeof *PARAMETERS_OF_FREE; i++) {
-        const Variable *v = variable_named(PARAMETERS_OF_FREE[i]);
-        if (variable_value(v, 0, &b->s.p) != v->start) add_name(v->name, list, sizeof list);
-    }
-    report_names(b, "ring.motion", prescribed ? "prescribed" : "free", list);
-    if (!prescribed) report_tilts(b);
+    const int mode = b->s.p.ring.tilt_mode;
+    report_changed(b, "ring.motion", prescribed ? "prescribed" : "free",
+                   prescribed ? OF_FREE : OF_PRESCRIBED);
+    if (prescribed) return;
+    if (mode == TILT_MODE_PRESCRIBED) report_changed(b, "ring.tilt_mode", "prescribed", MOMENTS);
+    if (mode == TILT_MODE_FREE) report_changed(b, "ring.tilt_mode", "free", TILTS);
 }
 
 // Logs that the parts stay at their start temperatures where the oil alone has been given another one.
 static void report_parts_left(Bearing *b)
 {
-    const Inputs *u = &b->s.u[0], *start = &b->start;
-    const bool alone = u->ring.T_i == start->ring.T_i && u->ring.T_e == start->ring.T_e &&
-                       u->ball.T == start->ball.T && u->cage.T == start->cage.T;
+    static const char *const PARTS[] = {"ring.T_i", "ring.T_e", "ball.T", "cage.T", NULL}, *const OIL[] = {
+                                                                                               "oil.T", NULL};
+
+    const Inputs *u = &b->s.u[0];
     const double T = u->oil.T, zero = 273.15;  // [K] of 0 degC
     const bool equal = u->ring.T_i == T && u->ring.T_e == T && u->ball.T == T && u->cage.T == T;
-    if (!alone || equal || T == start->oil.T) return;
+    char parts[128] = "", oil[128] = "";
+    add_changed(b, PARTS, 0.0, parts, sizeof parts);
+    add_changed(b, OIL, 0.0, oil, sizeof oil);
+    if (*parts || equal || !*oil) return;
     bearing_log(
         b, LOG_WARNING,
         "oil.T = %g degC is set, the parts' temperatures are not: ring.T_i = %g degC, ring.T_e = %g degC, "
@@ -370,24 +357,17 @@ static void report_parts_left(Bearing *b)
         T - zero, u->ring.T_i - zero, u->ring.T_e - zero, u->ball.T - zero, u->cage.T - zero);
 }
 
-// Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.
-static const char *const SIZES_OF_TABLE[] = {"bearing.D", "cage.D_o", "cage.D_i", "cage.width"};
-
 // Logs sizes by which the dynamics leave the rivet table behind: 1 % moves a half's bending stiffness by some per cent.
 static void report_sizes_of_table(Bearing *b)
 {
     char list[128] = "";
-    for (size_t i = 0; i < sizeof SIZES_OF_TABLE / sizeof *SIZES_OF_TABLE; i++) {
-        const Variable *v = variable_named(SIZES_OF_TABLE[i]);
-        if (fabs(variable_value(v, 0, &b->s.p) - v->start) > 0.01 * v->start)
-            add_name(v->name, list, sizeof list);
-    }
+    add_changed(b, SIZES_OF_TABLE, 0.01, list, sizeof list);
     if (*list)
-        bearing_log(b, LOG_WARNING,
-                    "%s: more than 1 %% off the start value; contacts and films have the new size, the "
-                    "embedded rivet "
-                    "table (modes, load path, stress) that of the build: build an FMU for this size",
-                    list);
+        bearing_log(
+            b, LOG_WARNING,
+            "%s: more than 1 %% off the start value; contacts and films have the new size, the embedded "
+            "rivet table (modes, load path, stress) that of the build: build an FMU for this size",
+            list);
 }
 
 void report_start(Bearing *b)
@@ -456,23 +436,22 @@ static bool check_recorded(Bearing *b, double time)
     const double amounts[] = {s->force_peak, s->dislocation_max, s->duty_time, s->eccentricity_time};
     const double sums[] = {s->energy_start, s->energy_change, s->omega_time,
                            s->lost,         s->exchanged,     s->jumped};
-    bool fine = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
-                values_are_sane(sums, sizeof sums / sizeof sums[0]);
-    fine &= values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
-    fine &= step_end_is_valid(&s->end);
-    fine = saved_is(b, fine, "peaks and sums") &&
+    bool stress = true, turning = true;
+    for (int k = 0; k < STRESS_CHANNELS; k++)
+        stress &= statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time);
+    for (int k = 0; k < Z; k++)
+        turning &= fatigue_is_valid(&s->fatigue_head[k]) && fatigue_is_valid(&s->fatigue_mid[k]);
+    const bool peaks = values_are_amounts(amounts, sizeof amounts / sizeof amounts[0]) &&
+                       values_are_sane(sums, sizeof sums / sizeof sums[0]) &&
+                       values_are_amounts(s->head_peak, Z) && values_are_amounts(s->mid_peak, Z);
+    return saved_is(b, peaks && step_end_is_valid(&s->end), "peaks and sums") &&
            saved_is(b, event_state_is_valid(&s->event), "counts of events") &&
            saved_is(b, breakage_is_valid(&s->breakage, s->t_start, s->integrator.t), "broken rivets") &&
            saved_is(b, loosening_is_valid(&s->loosening), "lost preloads") &&
-           saved_is(b, lag_is_valid(&s->lag), "a motion that catches up");
-    fine = fine && saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces");
-    for (int k = 0; fine && k < STRESS_CHANNELS; k++)
-        fine = saved_is(b, statistics_is_valid(&s->head[k], time) && statistics_is_valid(&s->mid[k], time),
-                        "statistics of the stress");
-    for (int k = 0; fine && k < Z; k++)
-        fine = saved_is(b, fatigue_is_valid(&s->fatigue_head[k]) && fatigue_is_valid(&s->fatigue_mid[k]),
-                        "turning points of the stress");
-    return fine;
+           saved_is(b, lag_is_valid(&s->lag), "a motion that catches up") &&
+           saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces") &&
+           saved_is(b, stress, "statistics of the stress") &&
+           saved_is(b, turning, "turning points of the stress");
 }
 
 static bool history_is_valid(const MotionHistory *history)
@@ -503,40 +482,43 @@ static bool fixed_are_kept(const Parameters *given, const Parameters *in_force)
     return true;
 }
 
+// Checks a state before the start: parameters and inputs, and nothing else.
+static bool check_unstarted(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    const size_t first = offsetof(InstanceState, u_now), end = offsetof(InstanceState, initialized);
+    return saved_is(b, is_zero((const char *)s + first, end - first), "a run that has not been started") &&
+           check_variables(b, CAUSALITY_PARAMETER, &s->p) && check_variables(b, CAUSALITY_INPUT, &s->u[0]);
+}
+
+// Checks a state in a run but for its records.
+static bool check_running(Bearing *b)
+{
+    const InstanceState *s = &b->s;
+    char message[256];
+    return check_values(b) && check_variables(b, CAUSALITY_PARAMETER, &s->p_now) &&
+           check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now) &&
+           saved_is(b, fixed_are_kept(&s->p, &s->p_now), "parameters that cannot change in a run") &&
+           saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs") &&
+           saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle") &&
+           saved_is(b, values_are_sane(s->ring_angle, 2), "the rings' angles") &&
+           saved_is(b, history_is_valid(&s->history), "the motions given before") &&
+           saved_is(b,
+                    variable_allows(variable_named("solver.tol"), 0, s->tolerance, message, sizeof message),
+                    "the tolerance") &&
+           saved_is(b, integrator_state_is_valid(&s->integrator, &s->p), "states and steps") &&
+           saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
+}
+
 bool check_saved(Bearing *b)
 {
     const InstanceState *s = &b->s;
-    const Variable *tolerance = variable_named("solver.tol");
+    const IntegratorState *i = &s->integrator;
+    const double *rates = (const double *)&s->u[1];
     if (!saved_is(b, s->initialized == 0 || s->initialized == 1, "the mark of a started run")) return false;
-    if (!s->initialized) {
-        const size_t first = offsetof(InstanceState, u_now), end = offsetof(InstanceState, initialized);
-        if (!saved_is(b, is_zero((const char *)s + first, end - first), "a run that has not been started"))
-            return false;
-        return check_variables(b, CAUSALITY_PARAMETER, &s->p) &&
-               check_variables(b, CAUSALITY_INPUT, &s->u[0]) &&
-               saved_is(b,
-                        values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
-                                          LARGEST_DERIVATIVE),
-                        "derivatives of inputs");
-    }
-    char message[256];
-    bool fine = check_values(b) && check_variables(b, CAUSALITY_PARAMETER, &s->p_now) &&
-                check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now);
-    fine = fine && saved_is(b, fixed_are_kept(&s->p, &s->p_now), "parameters that cannot change in a run");
-    fine = fine && saved_is(b,
-                            values_are_within((const double *)&s->u[1], (size_t)INPUT_ORDERS * N_INPUTS,
-                                              LARGEST_DERIVATIVE),
-                            "derivatives of inputs");
-    fine = fine && saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs");
-    fine = fine && saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle");
-    fine = fine && saved_is(b, values_are_sane(s->ring_angle, 2), "the rings' angles");
-    fine = fine && saved_is(b, history_is_valid(&s->history), "the motions given before");
-    fine = fine &&
-           saved_is(b, variable_allows(tolerance, 0, s->tolerance, message, sizeof message), "the tolerance");
-    fine = fine && saved_is(b, integrator_state_is_valid(&s->integrator, &s->p), "states and steps");
-    fine = fine && saved_is(b, values_are_sane(&s->t_start, 1) && s->integrator.t >= s->t_start, "time");
-    const double rounding =
-        s->integrator.steps * DBL_EPSILON *
-        fabs(s->integrator.t);  // of the time, not of the lengths of the steps that are summed
-    return fine && check_recorded(b, s->integrator.t - s->t_start + rounding);
+    if (!(s->initialized ? check_running : check_unstarted)(b)) return false;
+    const bool within = values_are_within(rates, (size_t)INPUT_ORDERS * N_INPUTS, LARGEST_DERIVATIVE);
+    if (!saved_is(b, within, "derivatives of inputs")) return false;
+    const double rounding = i->steps * DBL_EPSILON * fabs(i->t);  // of the time, not of the steps' lengths
+    return !s->initialized || check_recorded(b, i->t - s->t_start + rounding);
 }

@@ -27,22 +27,24 @@
 
 #include "physics/ring_load.h"
 
-typedef enum {
-    EVENT_LAND_CONTACT,
-    EVENT_POCKET_EXIT,
-    EVENT_ELLIPSE_CUT,
-    EVENT_OVERPRESSURE,
-    EVENT_JOINT_OPEN,
-    EVENT_RIVET_YIELD,
-    EVENT_NO_CLEARANCE,
-    EVENT_RIVET_BREAK,
-    EVENT_STEP_TOO_LONG,
-    EVENT_MOTION_LAG,
-    EVENT_CAGE_YIELD,
-    EVENT_ENERGY_OFF,
-    EVENT_RIVET_OVERLOAD,
-    EVENT_COUNT
-} EventKind;
+// X(KIND, member of Outputs.event)
+#define EVENTS(X)                   \
+    X(LAND_CONTACT, land_contact)   \
+    X(POCKET_EXIT, pocket_exit)     \
+    X(ELLIPSE_CUT, ellipse_cut)     \
+    X(OVERPRESSURE, overpressure)   \
+    X(JOINT_OPEN, joint_open)       \
+    X(RIVET_YIELD, rivet_yield)     \
+    X(NO_CLEARANCE, no_clearance)   \
+    X(RIVET_BREAK, rivet_break)     \
+    X(STEP_TOO_LONG, step_too_long) \
+    X(MOTION_LAG, motion_lag)       \
+    X(CAGE_YIELD, cage_yield)       \
+    X(ENERGY_OFF, energy_off)       \
+    X(RIVET_OVERLOAD, rivet_overload)
+#define EVENT_KIND(kind, member) EVENT_##kind,
+
+typedef enum { EVENTS(EVENT_KIND) EVENT_COUNT } EventKind;
 
 // One kind of event at one instant.
 typedef struct {

@@ -62,7 +62,6 @@ struct Part {
     InstanceState s;
     Parameters hot;  // s.p_now at the temperatures in s.u_now, without broken rivets: those of the model
     Derived d;
-    Inputs start;  // start values of the variable table
     InputTrajectory trajectory;
     RingLoad ring_load;
     Model model;

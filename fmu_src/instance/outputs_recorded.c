@@ -29,44 +29,33 @@ static void fill_fatigue(Bearing *b)
     }
 }
 
+static void fill_channel(const StatisticsChannel *channel, double floor, double *mean, double *rms,
+                         double *p999, double *max)
+{
+    *mean = statistics_mean(channel), *rms = statistics_rms(channel);
+    *p999 = statistics_quantile(channel, floor, 0.999), *max = channel->max;
+}
+
 static void fill_stat(Bearing *b)
 {
+#define FILL(channel, floor, name, at)                                                    \
+    fill_channel(channel, floor, &b->out.stat.name##_mean at, &b->out.stat.name##_rms at, \
+                 &b->out.stat.name##_p999 at, &b->out.stat.name##_max at)
     const InstanceState *s = &b->s;
-    const double time = s->force.time / Z, p = 0.999;  // every ball has added the same time
-    const StatisticsChannel *head = &s->head[WORST_RIVET], *mid = &s->mid[WORST_RIVET];
-
-    // pocket force and cage
+    const double time = s->force.time / Z;  // every ball has added the same time
     b->out.stat.time = time;
-    b->out.stat.Q_c_mean = statistics_mean(&s->force);
-    b->out.stat.Q_c_rms = statistics_rms(&s->force);
-    b->out.stat.Q_c_p999 = statistics_quantile(&s->force, FORCE_FLOOR, p);
-    b->out.stat.Q_c_max = s->force.max;
     b->out.stat.contact_duty = time > 0.0 ? s->duty_time / (Z * time) : 0.0;
     b->out.stat.cage_omega = time > 0.0 ? s->omega_time / time : 0.0;
     b->out.stat.eccentricity = time > 0.0 ? s->eccentricity_time / time : 0.0;
     b->out.stat.dislocation_max = s->dislocation_max;
-
-    // worst rivet at each instant
-    b->out.stat.sigma_head_mean = statistics_mean(head);
-    b->out.stat.sigma_head_rms = statistics_rms(head);
-    b->out.stat.sigma_head_p999 = statistics_quantile(head, STRESS_FLOOR, p);
-    b->out.stat.sigma_head_max = head->max;
-    b->out.stat.sigma_mid_mean = statistics_mean(mid);
-    b->out.stat.sigma_mid_rms = statistics_rms(mid);
-    b->out.stat.sigma_mid_p999 = statistics_quantile(mid, STRESS_FLOOR, p);
-    b->out.stat.sigma_mid_max = mid->max;
-
-    // each rivet
+    FILL(&s->force, FORCE_FLOOR, Q_c, );
+    FILL(&s->head[WORST_RIVET], STRESS_FLOOR, sigma_head, );
+    FILL(&s->mid[WORST_RIVET], STRESS_FLOOR, sigma_mid, );
     for (int k = 0; k < Z; k++) {
-        b->out.stat.rivet_head_mean[k] = statistics_mean(&s->head[k]);
-        b->out.stat.rivet_head_rms[k] = statistics_rms(&s->head[k]);
-        b->out.stat.rivet_head_p999[k] = statistics_quantile(&s->head[k], STRESS_FLOOR, p);
-        b->out.stat.rivet_head_max[k] = s->head[k].max;
-        b->out.stat.rivet_mid_mean[k] = statistics_mean(&s->mid[k]);
-        b->out.stat.rivet_mid_rms[k] = statistics_rms(&s->mid[k]);
-        b->out.stat.rivet_mid_p999[k] = statistics_quantile(&s->mid[k], STRESS_FLOOR, p);
-        b->out.stat.rivet_mid_max[k] = s->mid[k].max;
+        FILL(&s->head[k], STRESS_FLOOR, rivet_head, [k]);
+        FILL(&s->mid[k], STRESS_FLOOR, rivet_mid, [k]);
     }
+#undef FILL
 }
 
 static void fill_solver(Bearing *b)
@@ -83,38 +72,11 @@ static void fill_solver(Bearing *b)
 
 static void fill_event(Bearing *b)
 {
-    const double *onsets = b->s.event.onsets;
-    b->out.event.land_contact = b->events[EVENT_LAND_CONTACT].count;
-    b->out.event.pocket_exit = b->events[EVENT_POCKET_EXIT].count;
-    b->out.event.ellipse_cut = b->events[EVENT_ELLIPSE_CUT].count;
-    b->out.event.overpressure = b->events[EVENT_OVERPRESSURE].count;
-    b->out.event.joint_open = b->events[EVENT_JOINT_OPEN].count;
-    b->out.event.rivet_yield = b->events[EVENT_RIVET_YIELD].count;
-    b->out.event.no_clearance = b->events[EVENT_NO_CLEARANCE].count;
-    b->out.event.rivet_break = b->events[EVENT_RIVET_BREAK].count;
-    b->out.event.step_too_long = b->events[EVENT_STEP_TOO_LONG].count;
-    b->out.event.motion_lag = b->events[EVENT_MOTION_LAG].count;
-    b->out.event.cage_yield = b->events[EVENT_CAGE_YIELD].count;
-    b->out.event.rivet_overload = b->events[EVENT_RIVET_OVERLOAD].count;
-    b->out.event.energy_off = b->events[EVENT_ENERGY_OFF].count;
-    b->out.event.land_contact_onsets = onsets[EVENT_LAND_CONTACT];
-    b->out.event.pocket_exit_onsets = onsets[EVENT_POCKET_EXIT];
-    b->out.event.ellipse_cut_onsets = onsets[EVENT_ELLIPSE_CUT];
-    b->out.event.overpressure_onsets = onsets[EVENT_OVERPRESSURE];
-    b->out.event.joint_open_onsets = onsets[EVENT_JOINT_OPEN];
-    b->out.event.rivet_yield_onsets = onsets[EVENT_RIVET_YIELD];
-    b->out.event.no_clearance_onsets = onsets[EVENT_NO_CLEARANCE];
-    b->out.event.rivet_break_onsets = onsets[EVENT_RIVET_BREAK];
-    b->out.event.step_too_long_onsets = onsets[EVENT_STEP_TOO_LONG];
-    b->out.event.motion_lag_onsets = onsets[EVENT_MOTION_LAG];
-    b->out.event.cage_yield_onsets = onsets[EVENT_CAGE_YIELD];
-    b->out.event.rivet_overload_onsets = onsets[EVENT_RIVET_OVERLOAD];
-    b->out.event.energy_off_onsets = onsets[EVENT_ENERGY_OFF];
-}
-
-static void fill_constant(Bearing *b)
-{
-    b->out.bearing.Z = Z;
+#define FILL(kind, member)                               \
+    b->out.event.member = b->events[EVENT_##kind].count; \
+    b->out.event.member##_onsets = b->s.event.onsets[EVENT_##kind];
+    EVENTS(FILL)
+#undef FILL
 }
 
 // Time that the integrals over the communication step cover [s]; 0 before the first one, where outputs are those of the
@@ -130,7 +92,7 @@ void outputs_fill(Bearing *b, OutputGroup group)
                             &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     const IntegratorState *i = &b->s.integrator;
     switch (group) {
-    case GROUP_CONSTANT: fill_constant(b); return;
+    case GROUP_CONSTANT: b->out.bearing.Z = Z; return;
     case GROUP_PEAK: fill_peak(b); return;
     case GROUP_FATIGUE: fill_fatigue(b); return;
     case GROUP_STAT: fill_stat(b); return;

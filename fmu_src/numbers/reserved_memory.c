@@ -8,7 +8,7 @@
 #undef calloc
 #undef free
 
-enum { ALIGNMENT = 16 };  // as malloc's
+enum { ALIGNMENT = 64 };  // a cache line
 
 static _Thread_local ReservedMemory *in_use;
 

@@ -26,16 +26,8 @@
 // counts the drop as part of the approach: P grows as Q does.
 #pragma once
 
-#include "numbers/vec.h"
-#include "physics/race_surface.h"
+#include "physics/race_normal.h"
 #include "physics/traction.h"
-
-// Values of a contact for the turn of a packet of balls: normal, rolling direction, axis of the ring, approach and spin as in
-// Contact, distance r from the ring's axis, cos and sin of the angle on the race, spin of the ring.
-typedef struct {
-    vec n, t, a, approach, spin;
-    wide r, cos_phi, sin_phi, s;
-} RollingPlace;
 
 // Turn of a packet of balls: rolling axis, a_e.k, cos and sin of the angles from the contacts, their rates.
 typedef struct {
@@ -44,13 +36,15 @@ typedef struct {
 } BallRoll;
 
 // angle: chi; turned: angle of the inner ring less that of the outer ring, from where the angles on the races count.
-INLINE BallRoll ball_roll(const RollingPlace *i, const RollingPlace *e, wide angle, scalar turned)
+INLINE BallRoll ball_roll(const BallMotion *ball, const SurfacePlace *i, const SurfacePlace *e, wide angle,
+                          scalar turned)
 {
     const vec across = vec_cross(vec_sub(e->n, i->n), e->t);
     BallRoll out = {.k = vec_scale(1.0 / wide_sqrt(vec_dot(across, across) + 1e-30), across)};
     out.along = vec_dot(e->a, out.k);
-    const wide phi_i = vec_dot(i->t, i->approach) / i->r, phi_e = vec_dot(e->t, e->approach) / e->r;
-    out.rate_e = vec_dot(out.k, e->spin) - out.along * phi_e;
+    const wide phi_i = vec_dot(i->t, surface_approach(ball, i)) / i->r,
+               phi_e = vec_dot(e->t, surface_approach(ball, e)) / e->r;
+    out.rate_e = vec_dot(out.k, vec_sub(ball->omega, e->Omega)) - out.along * phi_e;
     out.rate_i = out.rate_e - (phi_i + i->s - (phi_e + e->s));
 
     // exp(i g), of the angles on the races and of the rings'
@@ -66,7 +60,7 @@ INLINE BallRoll ball_roll(const RollingPlace *i, const RollingPlace *e, wide ang
 }
 
 // Adds the moments P on a packet of balls by their spalls, and the forces that go with them, to the tractions T.
-INLINE void add_ball_spalls(const BallRoll *roll, const RollingPlace *i, const RollingPlace *e, wide P_i,
+INLINE void add_ball_spalls(const BallRoll *roll, const SurfacePlace *i, const SurfacePlace *e, wide P_i,
                             wide P_e, Tangential *T_i, Tangential *T_e)
 {
     const wide beside = P_i - (P_i + P_e) * roll->along;

@@ -362,7 +362,6 @@ static void derive_joint(const Parameters *p, Derived *d)
         standing += d->intact[k];
         factors += d->intact[k] * p->rivet.preload_factor[k];
     }
-    d->any_broken = standing < Z;
     d->P_mean = p->joint.preload * (standing > 0.0 ? factors / standing : 0.0);
     d->k_rivet = joint->k_rivet;
     d->k_plate = joint->k_plate;

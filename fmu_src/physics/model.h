@@ -16,10 +16,8 @@
 enum { LAND_POINTS = 24, BENT_POINTS = 48 };  // of the sums over a land's film, over that of a bent rim
 
 // Motions that a land's film resists: of the land along y and z, and of its rim by cos 2, sin 2, cos 3 and sin 3 theta of the
-// modes that bend it (land_bent.h); place of row i, column k <= i of a symmetric matrix that is stored as its lower triangle.
-enum { RIM = 4, SQUEEZE = 2 + RIM, SQUEEZE_TERMS = SQUEEZE * (SQUEEZE + 1) / 2, BENT_WAVES = 13 };
-
-#define SQUEEZE_AT(i, k) ((i) * ((i) + 1) / 2 + (k))
+// modes that bend it (land_bent.h).
+enum { RIM = 4, SQUEEZE = 2 + RIM, BENT_WAVES = 13 };
 
 // ---- constants, written by model_derive at the start and where a temperature changes ----------------------
 typedef struct {
@@ -190,9 +188,8 @@ typedef struct {
     // stiffnesses [N/m]; k_plate_t: of a joint in the plane as long as its plates stick, k_head: of heads that their slip drags
     double k_rivet, k_plate, k_plate_t, k_head;
     constants k_hole, hole_gap;  // stiffness of the hole [N/m], diametral play of the shank [m]
-    bool any_broken;
-    double c_joint;            // axial damping of one closed joint [N.s/m]
-    double centrifugal[ROWS];  // rows of bonded joints (half_path.h) under that load, per (rad/s)^2
+    double c_joint;              // axial damping of one closed joint [N.s/m]
+    double centrifugal[ROWS];    // rows of bonded joints (half_path.h) under that load, per (rad/s)^2
 
     RelativeInertia relative;  // of the halves, for the substeps of elastic ones
 

@@ -28,6 +28,7 @@
 // Smoothness: C1 at touch-down.  Hertz' ellipse is not cut at the shoulder.
 #include "physics/race_contact.h"
 
+#include "physics/ball_spall.h"
 #include "physics/outer_ring.h"
 #include "physics/race_traction.h"
 #include "physics/ring_fit.h"
@@ -176,20 +177,6 @@ INLINE void surface_contacts(const Model *model, const Work *w, const Race *race
     }
 }
 
-// Values of a place on a race for the turn of a ball.
-INLINE RollingPlace rolling_place(const SurfacePlace *at, const BallMotion *ball)
-{
-    return (RollingPlace){.n = at->n,
-                          .t = at->t,
-                          .a = at->a,
-                          .approach = vec_sub(vec_sub(ball->v, at->v), vec_cross(at->Omega, at->p)),
-                          .spin = vec_sub(ball->omega, at->Omega),
-                          .r = at->r,
-                          .cos_phi = at->cos_phi,
-                          .sin_phi = at->sin_phi,
-                          .s = at->s};
-}
-
 // Balls between races that are not perfect, or with spalls (two).
 INLINE void rough_balls(const Model *model, Work *w, scalar inner_R_g, bool mixed, bool sliced, bool two)
 {
@@ -203,14 +190,13 @@ INLINE void rough_balls(const Model *model, Work *w, scalar inner_R_g, bool mixe
     surface_places(model, w, wide_set(d->outer.R_g), &outer, at_e);
 
     // turns of the balls
-    RollingPlace i[PACKETS], e[PACKETS];
     BallRoll roll[PACKETS];
     wide cos_i[PACKETS], sin_i[PACKETS], rate_i[PACKETS], cos_e[PACKETS], sin_e[PACKETS], rate_e[PACKETS];
     for (int b = 0; two && b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         const BallMotion ball = ball_motion(model, w, j);
-        i[b] = rolling_place(&at_i[b], &ball), e[b] = rolling_place(&at_e[b], &ball);
-        roll[b] = ball_roll(&i[b], &e[b], ball_angles(model, j), given->inner_angle - given->outer_angle);
+        roll[b] = ball_roll(&ball, &at_i[b], &at_e[b], ball_angles(model, j),
+                            given->inner_angle - given->outer_angle);
         cos_i[b] = roll[b].cos_i, sin_i[b] = roll[b].sin_i, rate_i[b] = roll[b].rate_i;
         cos_e[b] = roll[b].cos_e, sin_e[b] = roll[b].sin_e, rate_e[b] = roll[b].rate_e;
         wide_store(&w->turn_rate[j], rate_e[b]);
@@ -223,7 +209,7 @@ INLINE void rough_balls(const Model *model, Work *w, scalar inner_R_g, bool mixe
     surface_contacts(model, w, &d->outer, at_e, two, cos_e, sin_e, rate_e, outer_contact, stored_e, P_e);
     race_tractions(model, inner_contact, outer_contact, mixed, sliced, T_i, T_e);
     for (int b = 0; b < PACKETS; b++) {
-        if (two) add_ball_spalls(&roll[b], &i[b], &e[b], P_i[b], P_e[b], &T_i[b], &T_e[b]);
+        if (two) add_ball_spalls(&roll[b], &at_i[b], &at_e[b], P_i[b], P_e[b], &T_i[b], &T_e[b]);
         wide_store(&w->race_stored[b * LANE_WIDTH], stored_i[b] + stored_e[b]);
         store_contacts(w, b * LANE_WIDTH, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
         store_forces(w, b * LANE_WIDTH, at_i[b].p, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);

@@ -2,7 +2,7 @@
 // perfect.  Sketch and equations in race_contact.c.
 #pragma once
 
-#include "physics/ball_spall.h"
+#include "numbers/vec.h"
 #include "physics/hertz.h"
 #include "physics/race_surface.h"
 
@@ -46,22 +46,36 @@ INLINE void contact_motion(const BallMotion *ball, vec Omega, Contact *c)
         vec_across(vec_axpy(wide_set(-1.0), orbit, vec_scale(wide_set(0.5), vec_add(u_ball, u_race))), c->n);
 }
 
+// Place of a ball p from the centre of a ring with the axis a: distance r from it along e, L from the groove's centre along n.
+typedef struct {
+    vec e, n;
+    wide r, L;
+} GroovePlace;
+
+INLINE GroovePlace groove_place(wide R_g, vec p, vec a)
+{
+    const wide along = vec_dot(p, a), tiny = wide_set(TINY);
+    const vec radial = vec_axpy(-along, a, p);
+    GroovePlace at = {.r = wide_sqrt(vec_dot(radial, radial) + tiny)};
+    at.e = vec_scale(1.0 / at.r, radial);
+    const wide across = at.r - R_g;
+    at.L = wide_sqrt(along * along + across * across + tiny);
+    const wide inv_L = 1.0 / at.L;
+    at.n = vec_axpy(across * inv_L, at.e, vec_scale(along * inv_L, a));
+    return at;
+}
+
 // One race.  R_g: present radius of the circle of groove centres; p: from the centre of the ring to that of
 // the ball; a, v, Omega: axis, velocity and angular velocity of the ring.  All vectors are in the frames of the balls.
 INLINE Contact race_contact(const Model *model, const Race *race, const BallMotion *ball, wide R_g, vec p,
                             vec a, vec v, vec Omega)
 {
-    const wide along = vec_dot(p, a), tiny = wide_set(TINY);
-    const vec radial = vec_axpy(-along, a, p);
-    const wide r = wide_sqrt(vec_dot(radial, radial) + tiny);
-    const vec e = vec_scale(1.0 / r, radial);
-    const wide across = r - R_g, L = wide_sqrt(along * along + across * across + tiny), inv_L = 1.0 / L;
-    Contact c = {
-        .R = ball->R, .n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a)), .t_1 = vec_cross(a, e)};
+    const GroovePlace at = groove_place(R_g, p, a);
+    Contact c = {.R = ball->R, .n = at.n, .t_1 = vec_cross(a, at.e)};
     c.t_2 = vec_cross(c.n, c.t_1);
     c.approach = vec_sub(vec_sub(ball->v, v), vec_cross(Omega, p));
     c.spin = vec_sub(ball->omega, Omega);
-    load_contact(model, race, L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
+    load_contact(model, race, at.L - (race->r_g - ball->R), vec_dot(c.n, c.approach), &c);
     contact_motion(ball, Omega, &c);
     return c;
 }
@@ -100,25 +114,27 @@ typedef struct {
 INLINE SurfacePlace surface_place(const BallMotion *ball, wide R_g, const Rotor *ring, wide cos_theta,
                                   wide sin_theta)
 {
-    const wide tiny = wide_set(TINY);
     const vec a = vec_local(ring->a, cos_theta, sin_theta);
-    SurfacePlace at = {.p = vec_sub(ball->x, vec_local(ring->x, cos_theta, sin_theta)),
+    const vec p = vec_sub(ball->x, vec_local(ring->x, cos_theta, sin_theta));
+    const GroovePlace in = groove_place(R_g, p, a);
+    SurfacePlace at = {.p = p,
+                       .n = in.n,
+                       .r = in.r,
+                       .L = in.L,
                        .v = vec_local(ring->v, cos_theta, sin_theta),
                        .Omega = vec_local(ring->Omega, cos_theta, sin_theta),
                        .a = a,
                        .s = wide_set(ring->s)};
-    const wide along = vec_dot(at.p, a);
-    const vec radial = vec_axpy(-along, a, at.p);
-    at.r = wide_sqrt(vec_dot(radial, radial) + tiny);
-    const vec e = vec_scale(1.0 / at.r, radial);
-    const wide across = at.r - R_g;
-    at.L = wide_sqrt(along * along + across * across + tiny);
-    const wide inv_L = 1.0 / at.L;
-    at.n = vec_axpy(across * inv_L, e, vec_scale(along * inv_L, a));
-    at.t = vec_cross(a, e);
-    at.cos_phi = vec_dot(e, vec_local(ring->b_y, cos_theta, sin_theta));
-    at.sin_phi = vec_dot(e, vec_local(ring->b_z, cos_theta, sin_theta));
+    at.t = vec_cross(a, in.e);
+    at.cos_phi = vec_dot(in.e, vec_local(ring->b_y, cos_theta, sin_theta));
+    at.sin_phi = vec_dot(in.e, vec_local(ring->b_z, cos_theta, sin_theta));
     return at;
+}
+
+// Velocity of the balls' centres against the race there.
+INLINE vec surface_approach(const BallMotion *ball, const SurfacePlace *at)
+{
+    return vec_sub(vec_sub(ball->v, at->v), vec_cross(at->Omega, at->p));
 }
 
 // Spalls in a contact: drops of the path in the race's and in the ball's spalls, their derivatives by the angles on
@@ -153,7 +169,7 @@ INLINE Contact surface_contact(const Model *model, const Race *race, const BallM
                  .n = vec_scale(inv_length, vec_axpy(q, at->t, at->n)),
                  .t_1 = vec_scale(inv_length, vec_axpy(-q, at->n, at->t))};
     c.t_2 = vec_cross(c.n, c.t_1);
-    c.approach = vec_sub(vec_sub(ball->v, at->v), vec_cross(at->Omega, at->p));
+    c.approach = surface_approach(ball, at);
     c.spin = vec_sub(ball->omega, at->Omega);
     c.delta = load.delta;
     c.sqrt_delta = wide_sqrt(wide_max(load.delta, wide_set(0.0)));

@@ -15,14 +15,14 @@ static int step_init(ARKodeMem ark, int init_type)
 }
 
 // One attempt.  ARKODE's own proposal of its length is replaced: after a step that was cut short to meet the stop time the
-// length goes on from where it was (integrator.c).  yn stays as it is, so that the step can be repeated.
+// length goes on from where it was (integrator.c).
 static int step_take(ARKodeMem ark, sunrealtype *error, int *flag)
 {
     const BearingStep *step = ark->step_mem;
     ark->h = step->length(step->context, ark->tstop - ark->tn);
     if (ark->tn + ark->h == ark->tn || ark->h < DBL_MIN)
         return ARK_ERR_FAILURE;  // 1/h of a subnormal h overflows
-    *error = step->take(step->context, ark->tn, ark->h, ark->yn, ark->ycur);
+    *error = step->take(step->context, ark->tn, ark->h);
     if (ark->fixedstep && !(*error < INFINITY))
         return ARK_RHSFUNC_FAIL;  // a step that cannot be repeated shorter
     ark->tcur = ark->tn + ark->h;

@@ -17,13 +17,13 @@ typedef struct {
     // Length of the next attempt, if `left` [s] are left to the stop time.
     double (*length)(void *context, double left);
 
-    // Takes the step of length h [s] at time t from the state y_0 to y; returns the norm of its error, acceptable up to 1.
-    // NaN: the step has left the range of the model.
-    double (*take)(void *context, double t, double h, N_Vector y_0, N_Vector y);
+    // Takes the step of length h [s] at time t; returns the norm of its error, acceptable up to 1.  NaN: the step has left
+    // the range of the model.
+    double (*take)(void *context, double t, double h);
 
     void *context;
 } BearingStep;
 
 // A memory of ARKODE that steps by `step`, to be used with ARKodeEvolve, ARKodeReset and the other functions of ARKODE;
-// NULL if there is no memory.  y: the vector that ARKodeEvolve will be given.
+// NULL if there is no memory.  y: the vector that ARKodeEvolve will be given; the state itself is the integrator's.
 void *bearing_step_create(SUNContext sun, N_Vector y, const BearingStep *step);

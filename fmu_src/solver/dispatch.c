@@ -4,37 +4,10 @@
 
 #include <stdlib.h>
 
-#undef rhs
-#undef vector_ops
-#undef vector_ops_all
-#undef verlet_step
-#undef verlet_evaluate
-#undef race_contact_force
-#undef cage_loads
-#undef cage_slide
-#undef rivet_rom_stress
-#define DECLARE_2(isa)                         \
-    Rhs rhs_##isa;                             \
-    RaceContactForce race_contact_force_##isa; \
-    VerletStep verlet_step_##isa;              \
-    VerletEvaluate verlet_evaluate_##isa;      \
-    CageLoads cage_loads_##isa;                \
-    CageSlide cage_slide_##isa;                \
-    RivetRomStress rivet_rom_stress_##isa;     \
-    extern const VectorOps vector_ops_##isa, vector_ops_all_##isa
-#define KERNELS_2(isa)                                                                              \
-    ((Kernels){#isa, rhs_##isa, race_contact_force_##isa, &vector_ops_##isa, &vector_ops_all_##isa, \
-               verlet_step_##isa, verlet_evaluate_##isa, cage_loads_##isa, cage_slide_##isa,        \
-               rivet_rom_stress_##isa})
-#define DECLARE(isa) DECLARE_2(isa)
-#define KERNELS(isa) KERNELS_2(isa)
-
 #if defined(KERNELS_X86)
 #include <cpuid.h>
 
-DECLARE(sse2);
-DECLARE(avx2);
-DECLARE(avx512);
+extern const Kernels own_kernels_sse2, own_kernels_avx2, own_kernels_avx512;
 
 // Bits of the registers that the operating system keeps for a process (XCR0): 2 SSE, 4 AVX, 0xe0 AVX-512.
 static unsigned registers_kept(void)
@@ -67,45 +40,37 @@ static void processor_has(bool *four, bool *eight)
 #endif
 }
 
-Kernels kernels_select(void)
+static const Kernels *kernels_best(void)
 {
     bool four, eight;
     processor_has(&four, &eight);
-    return eight ? KERNELS(avx512) : four ? KERNELS(avx2) : KERNELS(sse2);
+    return eight ? &own_kernels_avx512 : four ? &own_kernels_avx2 : &own_kernels_sse2;
 }
 
-static bool kernels_named(const char *name, Kernels *kernels)
+static const Kernels *kernels_named(const char *name)
 {
     bool four, eight;
     processor_has(&four, &eight);
-    if (strcmp(name, "avx512") == 0 && eight)
-        *kernels = KERNELS(avx512);
-    else if (strcmp(name, "avx2") == 0 && four)
-        *kernels = KERNELS(avx2);
-    else if (strcmp(name, "baseline") == 0)
-        *kernels = KERNELS(sse2);
-    else
-        return false;
-    return true;
+    if (strcmp(name, "avx512") == 0 && eight) return &own_kernels_avx512;
+    if (strcmp(name, "avx2") == 0 && four) return &own_kernels_avx2;
+    return strcmp(name, "baseline") == 0 ? &own_kernels_sse2 : NULL;
 }
 #else
 #if defined(KERNELS_NEON)
-DECLARE(neon);
-#define BASELINE neon
+#define BASELINE own_kernels_neon
+extern const Kernels own_kernels_neon;
 #else
-DECLARE(ISA);
-#define BASELINE ISA
+#define BASELINE own_kernels
 #endif
 
-Kernels kernels_select(void)
+static const Kernels *kernels_best(void)
 {
-    return KERNELS(BASELINE);
+    return &BASELINE;
 }
 
-static bool kernels_named(const char *name, Kernels *kernels)
+static const Kernels *kernels_named(const char *name)
 {
-    *kernels = kernels_select();
-    return strcmp(name, "baseline") == 0;
+    return strcmp(name, "baseline") == 0 ? &BASELINE : NULL;
 }
 #endif
 
@@ -120,10 +85,15 @@ static const char *environment(const char *name)
 #endif
 }
 
+Kernels kernels_select(void)
+{
+    return *kernels_best();
+}
+
 Kernels kernels_wanted(const char **refused)
 {
     const char *name = environment("RIVETED_BEARING_ISA");
-    Kernels kernels = kernels_select();
-    *refused = name && *name && !kernels_named(name, &kernels) ? name : NULL;
-    return *refused ? kernels_select() : kernels;
+    const Kernels *wanted = name && *name ? kernels_named(name) : kernels_best();
+    *refused = wanted ? NULL : name;
+    return wanted ? *wanted : *kernels_best();
 }

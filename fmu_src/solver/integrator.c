@@ -17,22 +17,22 @@
 
 #include "numbers/aligned.h"
 #include "numbers/elementary.h"
+#include "numbers/error_norm.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
 #include "physics/powers.h"
 #include "physics/race_surface.h"
 #include "solver/bearing_step.h"
 #include "solver/escape.h"
-#include "solver/state_vector.h"
 #include "solver/stepping.h"
 
 #include <arkode/arkode_erkstep.h>
 #include <float.h>
 #include <limits.h>
+#include <nvector/nvector_serial.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <sundials/sundials_nvector.h>
 
 // Size of the block in which SUNDIALS allocates: its 15 vectors of the states, and a part that does not grow with them.
 // A test sees that the block is large enough.
@@ -53,7 +53,7 @@ struct Integrator {
     void *arkode;  // memory of ERKStep
 
     // of the default method
-    N_Vector view;  // the end of the step, see verlet_take
+    N_Vector none;  // ARKODE keeps its time alone
     void *bearing;  // memory of its module
     BearingStep step;
     SUNAdaptController control;
@@ -62,7 +62,6 @@ struct Integrator {
     double tested;            // error of the latest step
     bool steps_are_fixed;     // as ARKODE was told last
 
-    const VectorOps *ops;  // of the scene
     double weight[N_ALL_STATES];
     double orbit_weight;  // of a ball's velocity along its orbit, at a high speed
     double tolerance;     // of these weights
@@ -91,13 +90,15 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->kernels->rhs(in->model, t, y, f, in->w);
     in->s->rhs_evals += 1.0;
     in->latest = f;
-    if (in->ops->finite(f)) return;
-    stepping_refuse(in->weight, in->ops->states, in->nonfinite_stages++, f);
+    const int states = cage_states(in->model);
+    memset(&f[states], 0,
+           (size_t)(N_ALL_STATES - states) * sizeof *f);  // of modes that the scene does not have
+    if (!all_finite(states, f)) stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
 {
-    evaluate(user, t, state_vector_data(y), state_vector_data(f));
+    evaluate(user, t, N_VGetArrayPointer(y), N_VGetArrayPointer(f));
     return 0;
 }
 
@@ -108,16 +109,20 @@ static int explicit_accepted(sunrealtype t, N_Vector y, void *user)
     (void)t;
     Integrator *in = user;
     if (in->warming_up) return 0;
-    in->kernels->cage_slide(in->model, in->s->now.y, state_vector_data(y), in->w);
+    in->kernels->cage_slide(in->model, in->s->now.y, N_VGetArrayPointer(y), in->w);
     return 0;
 }
 
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
     (void)y;
-    memcpy(state_vector_data(ewt), ((const Integrator *)user)->weight,
-           sizeof(double) * (size_t)state_vector_length(ewt));
+    memcpy(N_VGetArrayPointer(ewt), ((const Integrator *)user)->weight, sizeof((Integrator *)user)->weight);
     return 0;
+}
+
+static double norm(N_Vector x, N_Vector weight)
+{
+    return error_norm(true, N_VGetArrayPointer(x), N_VGetArrayPointer(weight));
 }
 
 // ---- control of the default method's steps ----------------------------------------------------------------
@@ -236,13 +241,10 @@ static double tolerance_part(const IntegratorState *s)
     return fmax(part * part * part, QUIET);
 }
 
-// ARKODE's vectors show the states where they are: no number is copied before or behind the step.
-static double verlet_take(void *context, double t, double h, N_Vector y_0, N_Vector y)
+static double verlet_take(void *context, double t, double h)
 {
     Integrator *in = context;
     if (in->warming_up) return 0.0;
-    state_vector_show(y_0, in->now->y);
-    state_vector_show(y, in->next->y);
     const double norm = in->kernels->verlet(in->model, t, h, in->weight, in->now, in->next, in->w);
     const double part = cage_part(&in->next->cage) * tolerance_part(in->s);
     const double error = in->tested = is_fixed(in) ? norm : norm / part;
@@ -342,9 +344,19 @@ static bool warm_up(Integrator *in, void *arkode, N_Vector y)
     return fine;
 }
 
+// A vector of n zeros with a norm of errors of its own.
+static N_Vector vector_new(const Integrator *in, int n, double (*norm_of)(N_Vector, N_Vector))
+{
+    N_Vector v = N_VNew_Serial(n, in->sun);
+    if (v == NULL || N_VEnableLinearCombination_Serial(v, SUNTRUE) != SUN_SUCCESS) return NULL;
+    v->ops->nvwrmsnorm = norm_of;
+    N_VConst(0.0, v);
+    return v;
+}
+
 static bool create_explicit(Integrator *in)
 {
-    in->y = state_vector_new(in->sun, &in->ops);
+    in->y = vector_new(in, N_ALL_STATES, norm);
     if (in->y == NULL) return false;
     in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
     return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
@@ -357,14 +369,13 @@ static bool create_bearing(Integrator *in)
 {
     in->step = (BearingStep){verlet_length, verlet_take, in};
     in->control = control_new(in->sun, in);
-    in->view = state_vector_new(in->sun, &in->ops);
-    if (in->control == NULL || in->view == NULL) return false;
-    in->view->ops->nvwrmsnorm = no_norm;
-    in->bearing = bearing_step_create(in->sun, in->view, &in->step);
+    in->none = vector_new(in, 1, no_norm);
+    if (in->control == NULL || in->none == NULL) return false;
+    in->bearing = bearing_step_create(in->sun, in->none, &in->step);
     return in->bearing != NULL && set_up(in->bearing, no_weights, in) == 0 &&
            ARKodeSetAdaptController(in->bearing, in->control) == ARK_SUCCESS &&
            ARKodeSetPostprocessStepFn(in->bearing, verlet_accepted) == ARK_SUCCESS &&
-           warm_up(in, in->bearing, in->view);
+           warm_up(in, in->bearing, in->none);
 }
 
 Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *w, IntegratorState *state,
@@ -373,7 +384,7 @@ Integrator *integrator_create(const Kernels *kernels, const Model *model, Work *
     Integrator *in = aligned_new(sizeof *in);
     if (in == NULL) return NULL;
     memset(in, 0, sizeof *in);
-    in->kernels = kernels, in->ops = kernels->ops_all, in->model = model, in->w = w, in->s = state;
+    in->kernels = kernels, in->model = model, in->w = w, in->s = state;
     in->hook = hook, in->log = log, in->context = context;
     in->now = &state->now, in->next = &in->trial;
     in->memory = (ReservedMemory){in->block, sizeof in->block, 0};
@@ -402,7 +413,7 @@ void integrator_destroy(Integrator *in)
     if (in->bearing != NULL) ARKodeFree(&in->bearing);
     if (in->control != NULL) SUNAdaptController_Destroy(in->control);
     if (in->y != NULL) N_VDestroy(in->y);
-    if (in->view != NULL) N_VDestroy(in->view);
+    if (in->none != NULL) N_VDestroy(in->none);
     if (in->sun != NULL) SUNContext_Free(&in->sun);
     reserved_memory_use(NULL);
     aligned_delete(in);
@@ -411,7 +422,6 @@ void integrator_destroy(Integrator *in)
 void integrator_tolerance(Integrator *in, double tolerance)
 {
     memset(&in->trial, 0, sizeof in->trial);  // no modes of a scene before this one
-    in->ops = kernels_ops(in->kernels, in->model);
     in->tolerance = tolerance;
     stepping_weights(in->model->d, tolerance, in->weight);
     in->orbit_weight = in->weight[Y_BALL_OMEGA_M];
@@ -480,17 +490,15 @@ static int verlet_advance(Integrator *in, double t_stop, long max_steps)
     in->now = &s->now, in->next = &in->trial, in->goal = s->h;
     if (is_fixed(in)) in->goal = (t_stop - s->t) / fixed_steps(s->h, t_stop - s->t);
 
-    // ARKODE forgets the history of the steps before and copies the state that the view shows; verlet_length begins with
-    // the goal.
+    // ARKODE forgets the history of the steps before; verlet_length begins with the goal.
     double t;
-    state_vector_show(in->view, s->now.y);
-    int status = ARKodeReset(in->bearing, s->t, in->view);
+    int status = ARKodeReset(in->bearing, s->t, in->none);
     if (status == ARK_SUCCESS) status = ARKodeSetStopTime(in->bearing, t_stop);
     if (status == ARK_SUCCESS) status = ARKodeSetMaxNumSteps(in->bearing, max_steps);
     if (status == ARK_SUCCESS) status = set_fixed(in);
     long failed_before = 0, failed = 0;
     ARKodeGetNumErrTestFails(in->bearing, &failed_before);
-    if (status == ARK_SUCCESS) status = ARKodeEvolve(in->bearing, t_stop, in->view, &t, ARK_NORMAL);
+    if (status == ARK_SUCCESS) status = ARKodeEvolve(in->bearing, t_stop, in->none, &t, ARK_NORMAL);
     ARKodeGetNumErrTestFails(in->bearing, &failed);
     s->error_tests_failed += (double)(failed - failed_before);
     if (in->now != &s->now) s->now = *in->now;
@@ -569,7 +577,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
 
     // ARKODE forgets the history of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
-    memcpy(state_vector_data(in->y), s->now.y, sizeof s->now.y);
+    memcpy(N_VGetArrayPointer(in->y), s->now.y, sizeof s->now.y);
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
     if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
@@ -597,7 +605,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
             in->escaped = true;
             break;
         }
-        const double h = stepping_accept(s, t, state_vector_data(in->y));
+        const double h = stepping_accept(s, t, N_VGetArrayPointer(in->y));
         const Exchange before = s->now.exchange;
         s->now.exchange = exchange_at(in->w);
         exchange_add(h, &before, &s->now.exchange, &s->sum);
@@ -621,7 +629,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     // Without a derivative at the start there is no step.
     integrator_evaluate(in);
-    if (!in->ops->finite(in->s->now.f)) {
+    if (!all_finite(cage_states(in->model), in->s->now.f)) {
         memset(in->s->now.f, 0, sizeof in->s->now.f);
         in->s->f_is_current = 0;
         return ARK_RHSFUNC_FAIL;

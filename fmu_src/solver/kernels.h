@@ -6,7 +6,6 @@
 #include "physics/rhs.h"
 #include "rivet/rivet_rom.h"
 #include "solver/implicit.h"
-#include "solver/vector_ops.h"
 #include "solver/verlet.h"
 
 // The kernels of one instruction set.
@@ -14,7 +13,6 @@ typedef struct {
     const char *name;
     Rhs *rhs;
     RaceContactForce *race_contact_force;
-    const VectorOps *ops, *ops_all;  // without and with the states of modes
     VerletStep *verlet;
     VerletEvaluate *verlet_evaluate;
     CageLoads *cage_loads;
@@ -22,11 +20,8 @@ typedef struct {
     RivetRomStress *rivet_rom_stress;
 } Kernels;
 
-// The operations on the state vector of the scene.
-static inline const VectorOps *kernels_ops(const Kernels *kernels, const Model *model)
-{
-    return cage_states(model) == N_STATES ? kernels->ops : kernels->ops_all;
-}
+#define own_kernels FOR_ISA(own_kernels)
+extern const Kernels own_kernels;
 
 // The kernels of the best instruction set that this processor and its operating system support.
 Kernels kernels_select(void);

@@ -21,6 +21,7 @@
 #include "solver/verlet.h"
 
 #include "cage/cage.h"
+#include "numbers/error_norm.h"
 #include "numbers/trapezoid.h"
 #include "physics/ball_turn.h"
 #include "physics/housing.h"
@@ -28,7 +29,6 @@
 #include "physics/rhs.h"
 #include "physics/ring_load.h"
 #include "solver/implicit.h"
-#include "solver/vector_ops.h"
 
 // Rows of the state: positions from 0 on, friction states from FRICTION on, the work, velocities from
 // VELOCITY on.  The velocity of position i < FRICTION is in row VELOCITY + i; the balls' spins come last and
@@ -199,6 +199,5 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int part = 0; part < PARTS; part++)
         trapezoid_end(h, FIRST[part], END[part], f, delta, second_difference, to->f, to->jerk);
     to->h = h;
-    const VectorOps *ops = cage_states(model) == N_STATES ? &vector_ops : &vector_ops_all;
-    return ops->wrms_norm(error, weight);
+    return error_norm(model->modes != NULL, error, weight);
 }

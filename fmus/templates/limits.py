@@ -12,23 +12,31 @@ from math import inf, pi, sin
 class Limit:
     """One limit: value, sign and bound as functions of parameters p, the number Z of balls and the index j of an element.
 
-    allowed: what is allowed, in words, with {bound} for the number; keys: names that it is about, needs: those of its condition too.
+    allowed: in words, with {bound} for the number; keys: names that it is about, more: those of its condition alone.
     """
 
     quantity: str
     unit: str
     allowed: str
     reason: str
-    at: str  # everywhere, run or build
-    is_array: bool
     keys: tuple
-    needs: tuple
     sign: str
-    zero: bool  # whether a value of 0 is allowed too
-    rounding: float  # share of the bound by which the value may miss it
     value: Callable
     bound: Callable
-    when: Callable  # whether the limit counts
+    at: str = "everywhere"  # or run or build
+    more: tuple = ()
+    when: Callable = lambda p, Z, j: True  # whether the limit counts
+    zero: bool = False  # whether a value of 0 is allowed too
+    rounding: float = 0.0  # share of the bound by which the value may miss it
+
+    @property
+    def needs(self):
+        """Names that the limit and its condition are about."""
+        return self.keys + self.more
+
+    @property
+    def is_array(self):
+        return any("[j]" in key for key in self.keys)
 
     def margin(self, p, Z, j=None):
         """How far the value is inside the bound; negative if the limit does not hold, infinite if it does not count."""
@@ -45,17 +53,19 @@ class Limit:
 
     def message(self, p, Z, j=None):
         """Name, value and what is allowed."""
-        said = f"{self.quantity} = {self.value(p, Z, j):g}{self.unit}: {self.allowed.format(bound=self.bound(p, Z, j))}"
+        allowed = self.allowed.format(bound=self.bound(p, Z, j))
+        said = f"{self.quantity} = {self.value(p, Z, j):g}{self.unit}: {allowed} is allowed for {self.reason}"
         return said.replace("[j]", f"[{j + 1}]") if self.is_array else said
 
 
 LIMITS = (
 {% for limit in table.limits %}
-    Limit({{ limit.quantity | quoted }}, {{ limit.unit | quoted }}, {{ limit.allowed.replace("{bound}", "{bound:g}") | quoted }},
-          {{ limit.reason | quoted }}, {{ limit.at | quoted }}, {{ limit.is_array }}, {{ limit.keys }},
-          {{ limit.needs }}, "{{ limit.sign }}", {{ limit.zero != "" }}, {{ limit.rounding }},
-          value=lambda p, Z, j: {{ limit.written("value", "Python") }},
-          bound=lambda p, Z, j: {{ limit.written("bound", "Python") }},
-          when=lambda p, Z, j: {{ limit.written("when", "Python") if limit.when else "True" }}),
+    Limit({{ limit.quantity | quoted }}, {{ limit.unit | quoted }}, {{ limit.range.replace("{bound}", "{bound:g}") | quoted }}, {{ limit.reason | quoted }}, {{ limit.keys }},
+          "{{ limit.sign }}", lambda p, Z, j: {{ limit.written("value", "Python") }}, lambda p, Z, j: {{ limit.written("bound", "Python") }}
+{%- if limit.at != "everywhere" %}, at={{ limit.at | quoted }}{% endif %}
+{%- if limit.zero %}, zero=True{% endif %}
+{%- if limit.rounding %}, rounding={{ limit.rounding }}{% endif %}
+{%- if limit.when %},
+          more={{ limit.needs[limit.keys | length:] }}, when=lambda p, Z, j: {{ limit.written("when", "Python") }}{% endif %}),
 {% endfor %}
 )

@@ -144,7 +144,8 @@ def check_guidance(path, values):
     )
     for limit in LIMITS:
         if limit.quantity == "cage.guidance" and not limit.holds(SimpleNamespace(cage=cage), variables.Z):
-            raise refusal(path, "cage.guidance", values["cage.guidance"], limit.allowed)
+            allowed = f"{limit.allowed} is allowed for {limit.reason}"
+            raise refusal(path, "cage.guidance", values["cage.guidance"], allowed)
 
 
 def changed(parts, key, value):

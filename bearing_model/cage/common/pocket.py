@@ -77,6 +77,12 @@ def pocket_gap(model, w, h):
     return SimpleNamespace(a=a, b=b, e_t=e_t, p=p, S=S, n_x=x / S, n_t=t / S, delta=S - (d.R_c - d.R))
 
 
+def pocket_velocity(w, h, gap):
+    """Velocity of the balls' centres against half h there."""
+    v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (w.half[h].v, w.half[h].Omega))
+    return vec(w.v_x, w.v_r, w.v_t) - v_h - vec_cross(Omega, gap.p)
+
+
 def pocket_approach(model, h, n_x, delta):
     """Approach [..., Z] of ball and wall without that of the wall's compliance c: delta_h + c w K delta_h^1.5 = delta, by
     Newton's method.
@@ -92,15 +98,12 @@ def pocket_approach(model, h, n_x, delta):
 
 def pocket_contacts(model, w, h, gap, wall=None):
     """Forces in the pockets of half h: sets w.pocket[h] and adds to the balls.  wall: velocity u_dot (x, r, t) and tilt of the
-    walls of an elastic half.  Returns the forces (x, r, t) on the walls, rates of approach and contact loads.
+    walls of an elastic half.  Returns the forces (x, r, t) on the walls and contact loads.
     """
     p, d, half = model.p, model.d, w.half[h]
     a, b, e_t, n_x, n_t, delta = gap.a, gap.b, gap.e_t, gap.n_x, gap.n_t, gap.delta
-    v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
-
-    # velocity of the ball's centre against the half there
-    omega_b, v_b = vec(w.omega_x, w.omega_r, w.omega_t), vec(w.v_x, w.v_r, w.v_t)
-    v = v_b - v_h - vec_cross(Omega, gap.p)
+    omega_b, Omega = vec(w.omega_x, w.omega_r, w.omega_t), vec_local(half.Omega, w.cos_theta, w.sin_theta)
+    v = pocket_velocity(w, h, gap)
     if wall:
         v = v - (wall.u_dot[0] * a + wall.u_dot[1] * b + wall.u_dot[2] * e_t)
     n = n_x * a + n_t * e_t
@@ -153,7 +156,7 @@ def pocket_contacts(model, w, h, gap, wall=None):
         w.pocket_dissipated = w.pocket_dissipated + film.F * vec_dot(film.m, v)
     drawn = F_s + F_c
     on_wall = Q * n_x - vec_dot(drawn, a) + by_film[0], -vec_dot(drawn, b), Q * n_t - vec_dot(drawn, e_t) + by_film[1]
-    return on_wall, delta_dot, Q, (film, v)
+    return on_wall, Q, (film, v)
 
 
 def pocket_clear(w):
@@ -183,7 +186,7 @@ def pocket_rigid(model, w):
     for h in range(2):
         gap = pocket_gap(model, w, h)
         w.delta_c[h] = gap.delta
-        _, _, _, (film, v) = pocket_contacts(model, w, h, gap)
+        _, _, (film, v) = pocket_contacts(model, w, h, gap)
         if film:
             w.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), RIGID, True)
 
@@ -198,20 +201,22 @@ def pocket_elastic(model, w):
     elastic_clear(e)
     for h in range(2):
         gap = pocket_gap(model, w, h)
-        u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, gap.delta)
+        # how far balls come nearer in the longest step; a wall moves where its ball, or the film before it, may be reached
+        rate = vec_dot(gap.n_x * gap.a + gap.n_t * gap.e_t, pocket_velocity(w, h, gap))
+        ahead = maximum(rate, 0.0) * model.modes.longest_step
+        within = gap.delta + (ahead + (model.d.squeeze.reach if model.d.squeeze else 0.0))
+        u, u_dot, tilt, shape = elastic_wall(model, w, h, gap.n_x, gap.n_t, gap.S, within)
         gap.delta = pocket_approach(model, h, gap.n_x, gap.delta - gap.n_x * u[0] - gap.n_t * u[2])
         w.delta_c[h] = gap.delta
         wall = SimpleNamespace(u_dot=u_dot, tilt=tilt)
-        on_wall, delta_dot, e.touch_Q[h], (film, v) = pocket_contacts(model, w, h, gap, wall)
+        on_wall, e.touch_Q[h], (film, v) = pocket_contacts(model, w, h, gap, wall)
         if film:
             near = np.real(gap.delta) > -model.d.squeeze.reach
             w.films[h] = film_before_wall(film, v, (gap.a, gap.b, gap.e_t), shape, near)
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )
-        rate = delta_dot + gap.n_x * u_dot[0] + gap.n_t * u_dot[2]  # by rigid motions
-        ahead = gap.delta + maximum(rate, 0.0) * model.modes.longest_step
-        reached = np.where(np.real(gap.delta) > 0.0, gap.delta, ahead)
+        reached = np.where(np.real(gap.delta) > 0.0, gap.delta, gap.delta + ahead)
         share = pocket_share(model.d, h, gap.n_x, reached)[0]
         e.touch_x[h], e.touch_t[h] = gap.n_x, gap.n_t
         e.touch_r[h] = e.touch_chi[h] = e.touch_radius[h] = e.touch_front[h] = 0.0 * gap.n_x

@@ -33,7 +33,6 @@
 // whose equator leaves the cage's section is reported (events.h), not modelled.
 #include "cage/common/pocket.h"
 
-#include "cage/common/pocket_forces.h"
 #include "cage/common/pocket_squeeze.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
@@ -65,12 +64,12 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     const wide R = wide_load(&d->R[j]);
 
     // normal
-    const vec a = gap->a, e_t = gap->e_t;
-    const PocketAxes axes = {a, gap->b, e_t, gap->p};
+    const PocketAxes *axes = &gap->axes;
+    const vec a = axes->a, e_t = axes->e_t;
     const wide n_x = gap->n_x, n_t = gap->n_t;
     const vec n = vec_axpy(n_t, e_t, vec_scale(n_x, a));
 
-    const PocketMotion motion = pocket_motion(w, half, j, &axes, wall ? wall->u_dot : NULL);
+    const PocketMotion motion = pocket_motion(w, half, j, axes, wall ? wall->u_dot : NULL);
     const vec v = motion.v;
     const wide delta_dot = vec_dot(n, v);
 
@@ -90,7 +89,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         film = pocket_squeeze(d, h, j, gap, v);
         F_n = vec_axpy(-film.F, film.m, F_n);
         pressed |= wide_above(film.F, 0.0);
-        squeeze_leave(&film, v, a, gap->b, e_t, h, j, w);
+        squeeze_leave(&film, v, axes, h, j, w);
     }
 
     // friction at the contact point (F_s), film force through the ball's centre (F_c)
@@ -112,7 +111,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     if (wall) {
         const vec drawn = vec_add(F_s, F_c);
         wide_store(&on_wall[0][j], Q * n_x - vec_dot(drawn, a));
-        wide_store(&on_wall[1][j], -vec_dot(drawn, gap->b));
+        wide_store(&on_wall[1][j], -vec_dot(drawn, axes->b));
         wide_store(&on_wall[2][j], Q * n_t - vec_dot(drawn, e_t));
         if (d->squeeze.filled) {
             wide_store(&on_wall[0][j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&on_wall[0][j])));
@@ -129,7 +128,7 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
         wide_store(&pocket->push_x[j], wide_fma(film.F, vec_dot(film.m, a), wide_load(&pocket->push_x[j])));
         wide_store(&pocket->push_t[j], wide_fma(film.F, vec_dot(film.m, e_t), wide_load(&pocket->push_t[j])));
     }
-    pocket_on_half(w, j, &axes, pressed, F, M, pocket);
+    pocket_on_half(w, j, axes, pressed, F, M, pocket);
     wide lost = (Q - Q_0) * delta_dot - vec_dot(F_s, slip) - vec_dot(F_c, v);
     if (d->squeeze.filled) lost += film.F * vec_dot(film.m, v);
     pocket_on_balls(model, w, j, pressed, n, F, M, g, lost);
@@ -171,9 +170,8 @@ typedef struct {
 // How far the balls of a packet come nearer to the wall in the longest step, both as rigid bodies.
 INLINE wide pocket_ahead(const Model *model, const Work *w, int h, int j, const PocketGap *gap)
 {
-    const PocketAxes axes = {gap->a, gap->b, gap->e_t, gap->p};
-    const vec v = pocket_motion(w, &w->half[h], j, &axes, NULL).v;
-    const wide rate = gap->n_x * vec_dot(v, gap->a) + gap->n_t * vec_dot(v, gap->e_t);
+    const vec v = pocket_motion(w, &w->half[h], j, &gap->axes, NULL).v;
+    const wide rate = gap->n_x * vec_dot(v, gap->axes.a) + gap->n_t * vec_dot(v, gap->axes.e_t);
     return wide_max(rate, wide_set(0.0)) * model->modes->longest_step;
 }
 
@@ -226,18 +224,6 @@ static int find_touched(const Model *model, Work *w, int h, int j, int near, Poc
     return near & wide_mask(*pressed | wide_above(gap->delta, -model->d->squeeze.reach));
 }
 
-// No contact in a packet of walls.
-static void clear_touches(Work *w, int h, int j)
-{
-    const wide zero = wide_set(0.0);
-    pocket_clear(&w->pocket[h], j);
-    wide_store(&w->cage.elastic.touch.x[h][j], zero);
-    wide_store(&w->cage.elastic.touch.t[h][j], zero);
-    wide_store(&w->cage.elastic.touch.K[h][j], zero);
-    wide_store(&w->cage.elastic.touch.delta[h][j], zero);
-    wide_store(&w->cage.elastic.touch.Q[h][j], zero);
-}
-
 // Motion of the walls, forces and modal forces of a packet.
 static void press_walls(const Model *model, Work *w, const TouchedPacket *at, const WallPlaces *places,
                         bool mixed)
@@ -286,7 +272,7 @@ void pocket_elastic(const Model *model, Work *w)
             if (at->touched != 0)
                 count++;
             else {
-                clear_touches(w, h, j);
+                walls_clear(w, h, j);
                 if (near != 0) leave_to_substeps(model, w, h, j, &at->gap, at->ahead);
                 wide_store(&w->delta_c[h][j], at->gap.delta);
             }

@@ -1,8 +1,8 @@
 // Contact of the balls with the cage pockets.  Equations in pocket.c.
 #pragma once
 
+#include "cage/common/pocket_forces.h"
 #include "numbers/isa.h"
-#include "numbers/vec.h"
 #include "physics/hertz.h"
 
 // Contacts of all pockets of two rigid or two elastic halves: add to the balls' forces, moments, rates and dissipation, set
@@ -12,10 +12,9 @@ void pocket_rigid(const Model *model, Work *w);
 #define pocket_elastic FOR_ISA(pocket_elastic)
 void pocket_elastic(const Model *model, Work *w);
 
-// Where a packet of balls is in the pockets of a half, in the frames of the balls.
+// Where a packet of balls is in the pockets of a half.
 typedef struct {
-    vec a, b, e_t;  // axis of the half, radial direction of the pocket, tangent
-    vec p;          // ball centre - geometric centre of the half
+    PocketAxes axes;
     wide inv_S;     // 1 / distance of the ball from the pocket's axis
     wide n_x, n_t;  // direction from this axis to the ball
     wide delta;     // elastic approach (negative: the pocket is open)
@@ -23,21 +22,9 @@ typedef struct {
 
 INLINE PocketGap pocket_gap(const Derived *d, const Work *w, const Rotor *half, int j)
 {
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-    PocketGap gap;
-
-    // direction of pocket j: body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b
-    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
-    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
-    gap.a = vec_local(half->a, cos_theta, sin_theta);
-    gap.b = vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
-    gap.e_t = vec_cross(gap.a, gap.b);
-
-    // ball against the pocket's axis; 1e-30 gives a centred ball a direction
-    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
-    gap.p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
-    const wide x = vec_dot(gap.p, gap.a), t = vec_dot(gap.p, gap.e_t);
-    const wide S = wide_sqrt(x * x + t * t + 1e-30);
+    PocketGap gap = {.axes = pocket_axes(d, w, half, j)};
+    const wide x = vec_dot(gap.axes.p, gap.axes.a), t = vec_dot(gap.axes.p, gap.axes.e_t);
+    const wide S = wide_sqrt(x * x + t * t + 1e-30);  // 1e-30 gives a centred ball a direction
     gap.inv_S = 1.0 / S, gap.n_x = x * gap.inv_S, gap.n_t = t * gap.inv_S;
     gap.delta = S - (wide_load(&d->R_c[j]) - wide_load(&d->R[j]));
     return gap;

@@ -27,10 +27,26 @@ INLINE void add_vec(vec v, scalar *x, scalar *r, scalar *t)
     vec_store(vec_add(vec_load(x, r, t), v), x, r, t);
 }
 
-// Axes of a packet of pockets: of the half, of the pocket's radius and tangent; p: from the half's centre to the ball's.
+// Axes of a packet of pockets in the frames of the balls: of the half, of the pocket's radius and tangent; p: from the half's centre
+// to the ball's.
 typedef struct {
     vec a, b, e_t, p;
 } PocketAxes;
+
+INLINE PocketAxes pocket_axes(const Derived *d, const Work *w, const Rotor *half, int j)
+{
+    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
+    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
+    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
+    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
+    PocketAxes at = {.a = vec_local(half->a, cos_theta, sin_theta)};
+
+    // body angle phi_j turned by the half, b = b_y cos phi + b_z sin phi, e_t = a x b
+    at.b = vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
+    at.e_t = vec_cross(at.a, at.b);
+    at.p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
+    return at;
+}
 
 // A ball against the half: velocity of its centre against the place there, and its rotation.
 typedef struct {
@@ -96,6 +112,16 @@ INLINE void pocket_clear(Pockets *pocket, int j)
     vec_store(none, &pocket->F_x[j], &pocket->F_r[j], &pocket->F_t[j]);
     vec_store(none, &pocket->half_F_x[j], &pocket->half_F_y[j], &pocket->half_F_z[j]);
     vec_store(none, &pocket->half_M_x[j], &pocket->half_M_y[j], &pocket->half_M_z[j]);
+}
+
+// No contact in a packet of walls.
+INLINE void walls_clear(Work *w, int h, int j)
+{
+    WallTouch *touch = &w->cage.elastic.touch;
+    scalar *const all[] = {touch->x[h], touch->r[h],   touch->t[h],      touch->K[h],    touch->delta[h],
+                           touch->Q[h], touch->chi[h], touch->radius[h], touch->front[h]};
+    pocket_clear(&w->pocket[h], j);
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) wide_store(&all[i][j], wide_set(0.0));
 }
 
 // Adds the forces of all pockets to their half.

@@ -42,7 +42,6 @@
 // jumps there would hold a ball by chatter in steps of 10 ns.  At a corner the force is continuous, its slope is not.
 #include "cage/common/pocket_spheres.h"
 
-#include "cage/common/pocket_forces.h"
 #include "cage/common/spheres_squeeze.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/hertz.h"
@@ -60,10 +59,11 @@ INLINE SqueezeFilm sphere_film(const Derived *d, int h, int j, const SphereGap *
                                wide c, vec v)
 {
     const wide side = wide_set(h == 0 ? -1.0 : 1.0), q[3] = {gap->x, gap->r, gap->t};
-    const wide along[3] = {side * vec_dot(v, gap->a), vec_dot(v, gap->b), vec_dot(v, gap->e_t)};
+    const wide along[3] = {side * vec_dot(v, gap->axes.a), vec_dot(v, gap->axes.b),
+                           vec_dot(v, gap->axes.e_t)};
     const SphereSqueeze film = spheres_squeeze(d, j, q, c * at->Q, along);
-    const vec m = vec_axpy(side * film.m_x, gap->a, vec_scale(film.m_t, gap->e_t));
-    return (SqueezeFilm){film.D, film.F, vec_axpy(film.m_r, gap->b, m)};
+    const vec m = vec_axpy(side * film.m_x, gap->axes.a, vec_scale(film.m_t, gap->axes.e_t));
+    return (SqueezeFilm){film.D, film.F, vec_axpy(film.m_r, gap->axes.b, m)};
 }
 
 // Bits of the balls before whose sphere there may be a film when the wall moves by up to `moves`.
@@ -84,11 +84,11 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     const Derived *d = model->d;
     const Rotor *half = &w->half[h];
     Pockets *pocket = &w->pocket[h];
-    const PocketAxes axes = {gap->a, gap->b, gap->e_t, gap->p};
+    const PocketAxes *axes = &gap->axes;
     const wide R = wide_load(&d->R[j]), n_x = (h == 0 ? -1.0 : 1.0) * at->n_x;
-    const vec n = vec_axpy(at->n_t, gap->e_t, vec_axpy(at->n_r, gap->b, vec_scale(n_x, gap->a)));
+    const vec n = vec_axpy(at->n_t, axes->e_t, vec_axpy(at->n_r, axes->b, vec_scale(n_x, axes->a)));
 
-    const PocketMotion motion = pocket_motion(w, half, j, &axes, walls ? walls->u_dot : NULL);
+    const PocketMotion motion = pocket_motion(w, half, j, axes, walls ? walls->u_dot : NULL);
     const vec v = motion.v;
     const wide delta_dot = vec_dot(n, v);
     const wide Q =
@@ -114,7 +114,7 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
         push = vec_scale(1.0 / wide_sqrt(vec_dot(push, push) + 1e-60), push);
         lost += film.F * vec_dot(film.m, v);
         pressed |= wide_above(film.F, 0.0);
-        squeeze_leave(&film, v, gap->a, gap->b, gap->e_t, h, j, w);
+        squeeze_leave(&film, v, axes, h, j, w);
     }
 
     // A pocket without contact beside others in its packet adds -0, as in pocket.c.
@@ -123,13 +123,13 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     if (walls) {
         wide tilt[3];
         for (int i = 0; i < 3; i++) tilt[i] = at->Q * wide_load(&walls->slope[i][j]);
-        const vec along = vec_axpy((h == 0 ? -1.0 : 1.0) * tilt[0], gap->a, vec_scale(tilt[2], gap->e_t));
-        F = vec_add(F, vec_axpy(tilt[1], gap->b, along));
-        wide_store(&on_wall[0][j], Q * n_x - vec_dot(F_s, gap->a));
-        wide_store(&on_wall[1][j], Q * at->n_r - vec_dot(F_s, gap->b));
-        wide_store(&on_wall[2][j], Q * at->n_t - vec_dot(F_s, gap->e_t));
+        const vec along = vec_axpy((h == 0 ? -1.0 : 1.0) * tilt[0], axes->a, vec_scale(tilt[2], axes->e_t));
+        F = vec_add(F, vec_axpy(tilt[1], axes->b, along));
+        wide_store(&on_wall[0][j], Q * n_x - vec_dot(F_s, axes->a));
+        wide_store(&on_wall[1][j], Q * at->n_r - vec_dot(F_s, axes->b));
+        wide_store(&on_wall[2][j], Q * at->n_t - vec_dot(F_s, axes->e_t));
         if (d->squeeze.filled) {
-            const vec axis[3] = {gap->a, gap->b, gap->e_t};
+            const vec axis[3] = {axes->a, axes->b, axes->e_t};
             for (int i = 0; i < 3; i++)
                 wide_store(&on_wall[i][j],
                            wide_fma(film.F, vec_dot(film.m, axis[i]), wide_load(&on_wall[i][j])));
@@ -143,13 +143,13 @@ INLINE void sphere_forces(const Model *model, Work *w, int h, int j, const Spher
     // place of the contact on the wall
     wide push_x = n_x, push_r = at->n_r, push_t = at->n_t;
     if (d->squeeze.filled)
-        push_x = vec_dot(push, gap->a), push_r = vec_dot(push, gap->b), push_t = vec_dot(push, gap->e_t);
+        push_x = vec_dot(push, axes->a), push_r = vec_dot(push, axes->b), push_t = vec_dot(push, axes->e_t);
     const wide side = wide_set(h == 0 ? -1.0 : 1.0);
     const wide place_r = gap->r + R * push_r + d->spheres.r, place_t = gap->t + R * push_t;
     wide_store(&pocket->push_x[j], side * (gap->x + R * (side * push_x)));
     wide_store(&pocket->push_t[j], place_t);
     wide_store(&pocket->radius[j], wide_sqrt(place_r * place_r + place_t * place_t));
-    pocket_on_half(w, j, &axes, pressed, F, M, pocket);
+    pocket_on_half(w, j, axes, pressed, F, M, pocket);
     pocket_on_balls(model, w, j, pressed, n, F, M, g, lost);
 }
 
@@ -332,24 +332,6 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
     }
 }
 
-// No contact in a packet.
-static void clear_walls(Work *w, int h, int j)
-{
-    const wide zero = wide_set(0.0);
-    ElasticWork *e = &w->cage.elastic;
-    pocket_clear(&w->pocket[h], j);
-    wide_store(&e->touch.x[h][j], zero);
-    wide_store(&e->touch.r[h][j], zero);
-    wide_store(&e->touch.t[h][j], zero);
-    wide_store(&e->touch.K[h][j], zero);
-    wide_store(&e->touch.delta[h][j], zero);
-    wide_store(&e->touch.Q[h][j], zero);
-    wide_store(&e->touch.chi[h][j], zero);
-    wide_store(&e->touch.radius[h][j], zero);
-    wide_store(&e->touch.front[h][j], zero);
-    wide_store(&e->wall_energy[h][j], zero);
-}
-
 // Contacts of a packet with the walls, modal forces on them; wet: bits of the walls before which there may be a film.
 static void press_spheres(const Model *model, Work *w, int h, int j, const SphereGap *gap,
                           const SphereContact *contact, bits pressed, int wet, const SpherePlaces *at,
@@ -429,8 +411,10 @@ void spheres_elastic(const Model *model, Work *w)
             if (wide_any(pressed) || wet != 0) {
                 press_spheres(model, w, h, j, &gap, &contact, pressed, wet, &at, shape);
                 touched = true;
-            } else
-                clear_walls(w, h, j);
+            } else {
+                walls_clear(w, h, j);
+                wide_store(&w->cage.elastic.wall_energy[h][j], wide_set(0.0));
+            }
         }
         if (touched) add_pockets(&w->pocket[h], &w->half[h]);
     }

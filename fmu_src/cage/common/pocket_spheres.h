@@ -1,9 +1,8 @@
 // Contact of the balls with the pockets of a ribbon cage.  Equations in pocket_spheres.c.
 #pragma once
 
+#include "cage/common/pocket_forces.h"
 #include "numbers/isa.h"
-#include "numbers/vec.h"
-#include "physics/model.h"
 
 // Constants of the pockets of a ribbon cage; d->R and d->R_c are known.
 void spheres_derive(const Parameters *p, double E_star, Derived *d);
@@ -27,29 +26,17 @@ static const double SEAT =
 static const double BEND =
     0.05;  // angle on both sides of the fillet's seam over which a place begins to turn with the ball
 
-// Where the ball is in the sphere of a half, in the frame of the ball.
+// Where the ball is in the sphere of a half.
 typedef struct {
-    vec a, b, e_t;  // axis of the half, radial direction of the pocket, tangent
-    vec p;          // ball centre - geometric centre of the half
-    wide x, r, t;   // q
+    PocketAxes axes;
+    wide x, r, t;  // q
 } SphereGap;
 
 INLINE SphereGap sphere_gap(const Derived *d, const Work *w, int h, int j)
 {
-    const Rotor *half = &w->half[h];
-    const wide cos_theta = wide_load(&w->cos_theta[j]), sin_theta = wide_load(&w->sin_theta[j]);
-    SphereGap gap;
-    const vec b_y = vec_local(half->b_y, cos_theta, sin_theta);
-    const vec b_z = vec_local(half->b_z, cos_theta, sin_theta);
-    gap.a = vec_local(half->a, cos_theta, sin_theta);
-    gap.b = vec_axpy(wide_load(&d->pocket_sin[j]), b_z, vec_scale(wide_load(&d->pocket_cos[j]), b_y));
-    gap.e_t = vec_cross(gap.a, gap.b);
-    const vec centre = {wide_load(&w->x[j]), wide_load(&w->r[j]), wide_set(0.0)};
-    gap.p = vec_sub(centre, vec_local(half->x, cos_theta, sin_theta));
-    gap.x = (h == 0 ? -1.0 : 1.0) * vec_dot(gap.p, gap.a) + d->spheres.e;
-    gap.r = vec_dot(gap.p, gap.b) - d->spheres.r;
-    gap.t = vec_dot(gap.p, gap.e_t);
-    return gap;
+    const PocketAxes at = pocket_axes(d, w, &w->half[h], j);
+    return (SphereGap){at, (h == 0 ? -1.0 : 1.0) * vec_dot(at.p, at.a) + d->spheres.e,
+                       vec_dot(at.p, at.b) - d->spheres.r, vec_dot(at.p, at.e_t)};
 }
 
 // A coordinate of q on either side of the middle, its size and the size's slope.  A ball that sits on the corners of both sides presses

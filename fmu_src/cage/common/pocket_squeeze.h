@@ -57,14 +57,14 @@ INLINE void squeeze_clear(const Model *model, Work *w)
 }
 
 // Leaves a film to the step (pocket_films.c).
-INLINE void squeeze_leave(const SqueezeFilm *film, vec v, vec a, vec b, vec e_t, int h, int j, Work *w)
+INLINE void squeeze_leave(const SqueezeFilm *film, vec v, const PocketAxes *at, int h, int j, Work *w)
 {
     FilmWork *to = &w->cage.films;
     wide_store(&to->D[h][j], film->D);
     wide_store(&to->u[h][j], vec_dot(film->m, v));
-    wide_store(&to->m[0][h][j], vec_dot(film->m, a));
-    wide_store(&to->m[1][h][j], vec_dot(film->m, b));
-    wide_store(&to->m[2][h][j], vec_dot(film->m, e_t));
+    wide_store(&to->m[0][h][j], vec_dot(film->m, at->a));
+    wide_store(&to->m[1][h][j], vec_dot(film->m, at->b));
+    wide_store(&to->m[2][h][j], vec_dot(film->m, at->e_t));
 }
 
 // The motion of wall k by each mode along its film; a wall that is not near has none.
@@ -99,7 +99,8 @@ INLINE SqueezeFilm pocket_squeeze(const Derived *d, int half, int j, const Pocke
 {
     const PocketSqueeze *film = &d->squeeze;
     const wide zero = wide_set(0.0), c = wide_load(&film->c[j]);
-    const wide v_x = vec_dot(v, gap->a), v_t = vec_dot(v, gap->e_t), n_x = gap->n_x, n_t = gap->n_t;
+    const vec a = gap->axes.a, e_t = gap->axes.e_t;
+    const wide v_x = vec_dot(v, a), v_t = vec_dot(v, e_t), n_x = gap->n_x, n_t = gap->n_t;
 
     // gap with its floor; below 1 nm/s the film is linear in the speed
     const wide closing = wide_max(n_x * v_x + n_t * v_t, wide_set(1e-9));
@@ -111,7 +112,7 @@ INLINE SqueezeFilm pocket_squeeze(const Derived *d, int half, int j, const Pocke
     const wide l_2 = 2.0 * h / (wide_load(&film->C[j]) + 4.0 * h), nn = n_x * n_x;
     const wide root = wide_sqrt(l_2 + nn);  // l sqrt(1 + u^2)
     const wide w = 0.5 * (1.0 + side * n_x / root), across = (0.425 * side) * l_2 / (w * root) * n_t;
-    const vec m = vec_axpy(n_t - across * n_x, gap->e_t, vec_scale(n_x + across * n_t, gap->a));
+    const vec m = vec_axpy(n_t - across * n_x, e_t, vec_scale(n_x + across * n_t, a));
 
     const wide D = w * c * squeeze_shape(film, wide_max(-gap->delta, zero), j) / h;
     const wide speed = (n_x + across * n_t) * v_x + (n_t - across * n_x) * v_t;
