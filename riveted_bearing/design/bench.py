@@ -106,7 +106,7 @@ class Bench:
         self.seeds, self.first = file.seeds, file.seed
         self.description, self.fmu = file.description, model.path.read_bytes()
         self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
-        self.scenes = {}
+        self.scenes, self.rows = {}, {"key": ()}  # rows: those of the last call that simulated
         self.counts_damage = False
         self.label = "the scene"  # of a point without names, for messages
 
@@ -166,8 +166,10 @@ class Bench:
                 run = replace(scene, parameters=scene.parameters | {"start.seed": seed})
                 keys.append(key_of(run, self.fingerprint))
                 self.scenes[keys[-1]] = run
-        sweep = self.sweep(names, self.scenes)
-        rows = run_sweep(sweep, self.folder, self.client, self.progress, list(dict.fromkeys(keys)))
+        if not set(keys) <= set(self.rows["key"]):
+            sweep = self.sweep(names, self.scenes)
+            self.rows = run_sweep(sweep, self.folder, self.client, self.progress, list(dict.fromkeys(keys)))
+        rows = self.rows
         places = {key: i for i, key in enumerate(rows["key"])}
         chosen = np.array([places[key] for key in keys])
         for i in chosen:

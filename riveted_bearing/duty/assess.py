@@ -16,7 +16,7 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
-from ..running.accuracy import finer_tolerance
+from ..running.accuracy import FINE_STEPS, FINER, FINEST, tolerance_of
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
@@ -33,7 +33,7 @@ SAFETY = 10.0  # of the bound on the damage of points that are not simulated
 SPEED_SQUARED = ("shaft.omega",)  # centrifugal loads
 RECORD = "life.json"
 PAIRS = 3  # finer runs of the case that decides
-FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind")
+FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind", "solver.steps")
 
 
 @dataclass(frozen=True)
@@ -73,13 +73,13 @@ class Runs:
         """
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
         fmu = model.path.read_bytes()
-        fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
+        self.fingerprint, first = hashlib.sha256(fmu).hexdigest(), mission.settings["seed"]
         self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
         for c, case in enumerate(mission.cases):
             for s in range(mission.settings["max_seeds"]):
                 scene = started(replace(case.scene, outputs=outputs), model, first, s)
-                self.keys[c, s] = key_of(scene, fingerprint)
+                self.keys[c, s] = key_of(scene, self.fingerprint)
                 scenes[self.keys[c, s]] = scene
         self.sweep = Sweep(
             mission.name,
@@ -110,11 +110,23 @@ class Runs:
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
 
     def finer(self, c):
-        """Keys of the finer runs of case c, on its first seeds."""
-        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), []
+        """Keys of the finer runs of case c, on its first seeds; the tolerance is that of accuracy.Runs.tolerance."""
+        tolerance = tolerance_of(self.model, self.mission.cases[c].scene)
+        keys = [key for s in range(PAIRS) if (key := self.keys.get((c, s))) in self.figures]
+        least = FINE_STEPS * self.figures[keys[0]]["solver.steps"]
+        while tolerance > 2.0 * FINEST:
+            tolerance *= FINER
+            keys = self.at(c, tolerance)
+            if self.figures[keys[0]]["solver.steps"] >= least:
+                break
+        return keys
+
+    def at(self, c, tolerance):
+        """Keys of the runs of case c on its first seeds at another tolerance."""
+        keys = []
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
             scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
-            keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
+            keys.append(key_of(scene, self.fingerprint))
             self.sweep.scenes[keys[-1]] = scene
         if missing := [key for key in keys if key not in self.damages]:
             rows = run_sweep(self.sweep, self.folder, self.client, self.progress, missing)

@@ -34,7 +34,7 @@ def rainflow_columns(result):
     ]
     columns = [np.concatenate([np.full(len(table), channel) for channel, table in tables])]
     columns += list(np.concatenate([table for _, table in tables]).T)
-    found = {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
+    found = {f"cycles.{name}": column for name, column in zip(COLUMNS, columns, strict=True)}
     blocks = (
         block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]}) if has_statistics(result) else {}
     )
@@ -60,8 +60,8 @@ def classed(history):
     if not len(cycles):
         return cycles
     span, mean, count = cycles.T
-    key = np.column_stack([np.floor(np.log(span) / RANGE_STEP), np.floor(mean / MEAN_STEP)])
-    _, group = np.unique(key, axis=0, return_inverse=True)
+    key = 2.0**32 * np.floor(np.log(span) / RANGE_STEP) + np.floor(mean / MEAN_STEP)  # exact: one number for both
+    _, group = np.unique(key, return_inverse=True)
     total = np.bincount(group, count)
     return np.column_stack([np.bincount(group, count * span) / total, np.bincount(group, count * mean) / total, total])
 

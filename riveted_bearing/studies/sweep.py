@@ -52,19 +52,25 @@ from ..running.basis import basis
 from ..running.fmu import Model
 from ..running.runner import closing_names, simulate
 from ..running.summary import has_statistics, settled
-from .rows import Store, columns_of
+from .rows import Store
 from .sweep_file import ROW_VERSION
 
 if TYPE_CHECKING:
     from .sweep_file import Sweep
 
-KINDS = {
-    "mean": np.mean,
-    "rms": lambda x: np.sqrt(np.mean(x**2)),
-    "min": np.min,
-    "max": np.max,
-    "p001": lambda x: np.quantile(x, 0.001),
-    "p999": lambda x: np.quantile(x, 0.999),
+KINDS = {  # of each row
+    "mean": lambda x: np.mean(x, axis=1),
+    "rms": lambda x: np.sqrt(np.mean(x**2, axis=1)),
+    "min": lambda x: np.min(x, axis=1),
+    "max": lambda x: np.max(x, axis=1),
+    "p001": lambda x: np.quantile(x, 0.001, axis=1),
+    "p999": lambda x: np.quantile(x, 0.999, axis=1),
+}
+CONFIG = {  # of Dask
+    "distributed.admin.large-graph-warning-threshold": "64MB",  # the FMU travels inside the graph
+    "distributed.worker.profile.enabled": False,  # nobody looks at it, and samples take time from the runs
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "10s",
 }
 
 
@@ -81,8 +87,11 @@ def perform(scene, fmu, measure=None):
     except UserError as problem:
         return {"status": "failed", "message": str(problem), "date": started}
     late = settled(result)
+    samples = np.array([result.data[name][late] for name in scene.outputs])
     sampled = {
-        f"{kind}({name})": float(of(result.data[name][late])) for name in scene.outputs for kind, of in KINDS.items()
+        f"{kind}({name})": value
+        for kind, of in KINDS.items()
+        for name, value in zip(scene.outputs, of(samples).tolist(), strict=True)
     }
     about = {
         "status": "stopped" if result.stopped else "done",
@@ -128,7 +137,7 @@ class cluster:
         import dask
         from distributed import Client, LocalCluster
 
-        dask.config.set({"distributed.admin.large-graph-warning-threshold": "64MB"})  # the FMU travels inside the graph
+        dask.config.set(CONFIG)
         # run_sweep says in one line what a lost scheduler means
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         if self.address:
@@ -169,8 +178,8 @@ def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, key
             run_missing(sweep, store, client, progress or (lambda *_: None), list(keys or sweep.scenes))
         finally:
             with ignored_interrupts():
-                store.export(schema_of(sweep), sweep.scenes, sweep.grows)
-    return columns_of(folder)
+                columns = store.export(schema_of(sweep), sweep.scenes, sweep.grows)
+    return columns
 
 
 def run_missing(sweep, store, client, progress, keys):
