@@ -746,3 +746,22 @@ def test_a_change_divides_the_point_in_which_it_falls(model):
 def test_a_change_that_cannot_be_is_refused(model, change, words):
     with pytest.raises(UserError, match=words):
         mission_of(model, [(2.0, {"shaft.F_y": 2000.0})], change=[change])
+
+
+@pytest.mark.parametrize(
+    ("steps", "chosen"), [((1.4, 1.6, 9.0), 1e-5), ((1.5, 9.0, 9.0), 1e-4), ((1.0, 1.1, 1.2), 1e-6)]
+)
+def test_the_tolerance_of_finer_runs(monkeypatch, steps, chosen):
+    """The first tenth with half as many steps again, or the finest; the plain run that is there says how many it had."""
+    runs, asked = object.__new__(Runs), []
+    runs.model, runs.mission, runs.keys = None, SimpleNamespace(cases=[SimpleNamespace(scene=None)]), {(0, 0): "plain"}
+    runs.figures = {"plain": {"solver.steps": 1000.0}}
+
+    def at(c, tolerance):
+        asked.append(tolerance)
+        runs.figures[tolerance] = {"solver.steps": 1000.0 * steps[len(asked) - 1]}
+        return [tolerance]
+
+    monkeypatch.setattr("riveted_bearing.duty.assess.tolerance_of", lambda model, scene: 1e-3)
+    monkeypatch.setattr(runs, "at", at)
+    assert runs.finer(0) == pytest.approx([chosen]) and asked == pytest.approx([1e-4, 1e-5, 1e-6][: len(asked)])

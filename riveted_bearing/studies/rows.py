@@ -110,9 +110,8 @@ class Store:
         with self.errors():
             found = dict(self.file.execute("SELECT key, row FROM runs ORDER BY rowid"))
         keys = dict.fromkeys([*keys, *(found if grows else ())])
-        rows = [
-            json.loads(found[key], object_hook=decoded) | {"run": place} for place, key in enumerate(keys) if key in found
-        ]
+        there = [(place, found[key]) for place, key in enumerate(keys) if key in found]
+        rows = [json.loads(text, object_hook=decoded) | {"run": place} for place, text in there]
         table = pa.Table.from_pylist(rows, schema=schema)
         write_atomically(self.folder / ROWS, lambda temporary: write_table(table, temporary))
         return numbers(table)

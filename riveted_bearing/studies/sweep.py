@@ -109,15 +109,16 @@ def unpacked(fmu: bytes) -> Model:
     """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one Model a process."""
     from distributed import get_worker
 
-    path = Path(get_worker().local_directory) / f"{hashlib.sha256(fmu).hexdigest()}.fmu"
-    if path not in MODELS:
+    place = get_worker().local_directory, fmu
+    if place not in MODELS:
+        path = Path(place[0]) / f"{hashlib.sha256(fmu).hexdigest()}.fmu"
         if not path.is_file():
             write_atomically(path, lambda temporary: temporary.write_bytes(fmu))
-        MODELS[path] = Model(path)
-    return MODELS[path]
+        MODELS[place] = Model(path)
+    return MODELS[place]
 
 
-MODELS = {}  # by path
+MODELS = {}  # by folder and bytes
 
 
 # What the driver does -------------------------------------------------------------------------------------------------
