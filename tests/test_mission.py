@@ -732,3 +732,23 @@ def test_a_change_divides_the_point_in_which_it_falls(model):
     ]
     assert [part.scene.parameters.get("joint.mu") for part in mission.parts] == [None, None, 0.2, 0.2]
     assert mission.hours == 5.0
+
+
+@pytest.mark.parametrize(
+    ("steps", "chosen"), [((1.4, 1.6, 9.0), 1e-5), ((1.5, 9.0, 9.0), 1e-4), ((1.0, 1.1, 1.2), 1e-6)]
+)
+def test_the_tolerance_of_finer_runs(monkeypatch, steps, chosen):
+    """The first tenth with half as many steps again, or the finest; the plain run that is there says how many it had."""
+    runs, asked = object.__new__(Runs), []
+    runs.mission = SimpleNamespace(cases=[SimpleNamespace(scene=None)], settings={"max_seeds": 1})
+    runs.model, runs.keys, runs.damages = None, {(0, 0): "plain"}, {"plain": 0.0}
+    runs.figures = {"plain": {"solver.steps": 1000.0}}
+
+    def at(c, tolerance):
+        asked.append(tolerance)
+        runs.figures[tolerance] = {"solver.steps": 1000.0 * steps[len(asked) - 1]}
+        return [tolerance]
+
+    monkeypatch.setattr("riveted_bearing.duty.assess.tolerance_of", lambda model, scene: 1e-3)
+    monkeypatch.setattr(runs, "at", at)
+    assert runs.finer(0) == pytest.approx([chosen]) and asked == pytest.approx([1e-4, 1e-5, 1e-6][: len(asked)])

@@ -15,7 +15,7 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
-from ..running.accuracy import finer_tolerance
+from ..running.accuracy import FINE_STEPS, FINER, FINEST, tolerance_of
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
@@ -32,7 +32,7 @@ SAFETY = 10.0  # of the bound on the damage of points that are not simulated
 SPEED_SQUARED = ("shaft.omega",)  # centrifugal loads
 RECORD = "life.json"
 PAIRS = 3  # finer runs of the case that decides
-FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind")
+FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind", "solver.steps")
 
 
 @dataclass(frozen=True)
@@ -91,8 +91,19 @@ class Runs:
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
 
     def finer(self, c):
-        """Keys of the finer runs of case c, on its first seeds."""
-        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), {}
+        """Keys of the finer runs of case c, on its first seeds; the tolerance is that of accuracy.Runs.tolerance."""
+        tolerance, keys = tolerance_of(self.model, self.mission.cases[c].scene), self.keys_of(c)
+        least = FINE_STEPS * self.figures[keys[0]]["solver.steps"]
+        while tolerance > 2.0 * FINEST:
+            tolerance *= FINER
+            keys = self.at(c, tolerance)
+            if self.figures[keys[0]]["solver.steps"] >= least:
+                break
+        return keys[:PAIRS]
+
+    def at(self, c, tolerance):
+        """Keys of the runs of case c on its first seeds at another tolerance."""
+        keys = {}
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
             scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
             keys[c, s] = key_of(scene, self.model.digest)
