@@ -31,10 +31,10 @@ from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.mission_file import Life
 from riveted_bearing.duty.notes import matrix_warnings, notes, oil_in_pockets
 from riveted_bearing.duty.page import life_density, write_page, write_picture
-from riveted_bearing.duty.starts import started
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History
 from riveted_bearing.running.runner import simulate
+from riveted_bearing.running.seeds import started
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}

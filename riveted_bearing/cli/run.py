@@ -148,7 +148,8 @@ def print_known(result):
         console.print(table(heads, rows, left=2))
         n, m = next(iter(found["figures"].values()))["runs"]
         console.print(
-            f"{n} seeds at tolerance {found['tolerance']:.0e}, {m} of them with finer steps too: {found['cost']:.2g} times the processor time of a plain run"
+            f"{n} seeds with steps of {1e6 * found['step']:.2g} us on average, {m} of them with finer ones too: {found['cost']:.2g} times the "
+            "processor time of a plain run"
         )
     print_budgets([of_record(record) for record in result.about.get("budget", {}).values()])
 

@@ -16,7 +16,7 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
-from ..running.accuracy import finer_tolerance
+from ..running.accuracy import finer_settings
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
@@ -26,7 +26,7 @@ from .miner import Duty, part_rates
 from .mission import Mission
 from .raceways import finite
 from .raceways import record as raceway_record
-from .starts import started
+from ..running.seeds import started
 
 PLACES = ("head", "mid")
 SAFETY = 10.0  # of the bound on the damage of points that are not simulated
@@ -111,9 +111,10 @@ class Runs:
 
     def finer(self, c):
         """Keys of the finer runs of case c, on its first seeds."""
-        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), []
+        settings, keys = finer_settings(self.model, self.mission.cases[c].scene), []
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
-            scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
+            scene = self.sweep.scenes[self.keys[c, s]]
+            scene = replace(scene, parameters=scene.parameters | settings)
             keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
             self.sweep.scenes[keys[-1]] = scene
         if missing := [key for key in keys if key not in self.damages]:

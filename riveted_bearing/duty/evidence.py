@@ -23,7 +23,7 @@ from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
 from .page import ends_of, interval_text
 from .raceways import Raceways
-from .starts import started
+from ..running.seeds import started
 
 if TYPE_CHECKING:
     from ..running.fmu import Model

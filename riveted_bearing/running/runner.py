@@ -217,6 +217,7 @@ def origin_of(model: Model, scene: Scene) -> dict[str, Any]:
         "ruled": sorted(ruled_names(model)),
         "example": is_example(model),
         "screening": known(model) or {},
+        "ranges": {name: ends for name, ends in model.ranges.items() if name not in {*scene.parameters, *scene.inputs}},
         "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},
         "rivet": model.rivet,
         "not_given": not_given(
