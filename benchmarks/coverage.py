@@ -59,7 +59,11 @@ def drawn(number, options):
     values = draw(options.seed, number, model, "any")
     scene = scene_of(fmu, values)
     first = {"start.seed": APART * (number + 1)}
-    return model, replace(scene, parameters=scene.parameters | first), {"bearing": Path(fmu).stem, "words": in_words(*values)}
+    return (
+        model,
+        replace(scene, parameters=scene.parameters | first),
+        {"bearing": Path(fmu).stem, "words": in_words(*values)},
+    )
 
 
 def reference(number, options):
@@ -77,7 +81,10 @@ def checked(number, options):
     plain, finer = CHECKS
     levels = {"default": runs(0, plain), "finer": runs(1, finer)}
     return {
-        name: [run.values | {f"block_{n}": v for n, v in run.blocks.items()} | {"cost": run.cost, "steps": run.steps} for run in found]
+        name: [
+            run.values | {f"block_{n}": v for n, v in run.blocks.items()} | {"cost": run.cost, "steps": run.steps}
+            for run in found
+        ]
         for name, found in levels.items()
     }
 
@@ -88,7 +95,13 @@ def to_accuracy(number, options):
     reached = accuracy.accurate(model, scene, options.accuracy, WITHIN)
     values = {name: found.value for name, found in reached.found.items()}
     runs = [found.runs for found in reached.found.values()][:1]
-    return {"cost": reached.cost, "refined": bool(reached.settings), "missed": reached.missed, "runs": runs, "values": values}
+    return {
+        "cost": reached.cost,
+        "refined": bool(reached.settings),
+        "missed": reached.missed,
+        "runs": runs,
+        "values": values,
+    }
 
 
 def kept(options, kind, make):
@@ -152,7 +165,9 @@ def summary(rows):
         "refused": sum("refused" in row for row in fine),
         "cost": {f"q{q}": float(np.quantile(costs, 0.01 * q)) for q in (10, 25, 50, 75, 90, 100)} if costs else {},
         "suffices": len(enough),
-        "cost_where_it_suffices": {f"q{q}": float(np.quantile(enough, 0.01 * q)) for q in (10, 50, 90, 100)} if enough else {},
+        "cost_where_it_suffices": {f"q{q}": float(np.quantile(enough, 0.01 * q)) for q in (10, 50, 90, 100)}
+        if enough
+        else {},
         "figures": {},
     }
     for name in FIGURES:

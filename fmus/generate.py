@@ -165,7 +165,9 @@ class Table:
     @property
     def guid(self):
         """Digest of all that description and binary must agree on."""
-        content = {n: value for n, value in asdict(replace(self, limits=())).items() if n not in ("numbers", "ranges") or value}
+        content = {
+            n: value for n, value in asdict(replace(self, limits=())).items() if n not in ("numbers", "ranges") or value
+        }
         del content["limits"]
         digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
         return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"

@@ -137,7 +137,10 @@ def test_damages_of_two_peaks_are_held(far):
         off, scatter = abs(x.mean() - 5.0 * far), x.std(ddof=1) / 2.0
         V, freedom, _ = spread_of(x, (), accuracy.KURTOSIS["damage"])
         assert V == pytest.approx(4.0 * scatter**2) and freedom == pytest.approx(2.0 / (2.0 / 3.0 + 2.3 / 4.0))
-        held, normal = held + (off <= stats.t.ppf(0.95, freedom) * scatter), normal + (off <= stats.t.ppf(0.95, 3) * scatter)
+        held, normal = (
+            held + (off <= stats.t.ppf(0.95, freedom) * scatter),
+            normal + (off <= stats.t.ppf(0.95, 3) * scatter),
+        )
     assert 0.85 <= held / (5 * SCENES) <= 0.97 and normal < held - 0.05 * 5 * SCENES
 
 
@@ -160,7 +163,11 @@ def test_seeds_differ_in_the_phase_of_pulses(model, speed, width):
 
 def test_the_budget_says_where_pulses_have_other_phases():
     found = Found(200e6, 200e6, 1e6, 4e6, 2e6, False, (4, 2))
-    told = {name: part.source for pulses in (PULSED, {}) for name, part in [(bool(pulses), [*budget.numerical_parts("stress", found, pulses)][1])]}
+    told = {
+        name: part.source
+        for pulses in (PULSED, {})
+        for name, part in [(bool(pulses), [*budget.numerical_parts("stress", found, pulses)][1])]
+    }
     assert told == {True: "4 seeds, each with another phase of the pulses", False: "4 seeds"}
 
 
@@ -198,14 +205,20 @@ def test_equal_steps_that_fail_the_error_test_are_shortened(model, monkeypatch):
     """5 % of the first ones fail, none of the plain run: the finer run has 3 times its steps."""
     stand_in(monkeypatch, failed=(0.0, 0.05, 0.0))
     scene = load_scene(None, model)
-    assert accuracy.finer_settings(model, scene) == {"solver.method": "fixed", "solver.step": pytest.approx(scene.t_end / 3e4)}
+    assert accuracy.finer_settings(model, scene) == {
+        "solver.method": "fixed",
+        "solver.step": pytest.approx(scene.t_end / 3e4),
+    }
 
 
 def test_a_bias_is_refined_away(model, monkeypatch):
     """9 % by the plain run, 0.5 % with shorter steps: the runs are those with shorter steps, their value is right to 0.5 %."""
     stand_in(monkeypatch, bias=(0.09, 0.005, 0.001), noise=1e-4)
     found = reach(model, 0.01)
-    assert found.settings["solver.step"] == pytest.approx(load_scene(None, model).t_end / 1e4 / math.sqrt(3.0)) and not found.missed
+    assert (
+        found.settings["solver.step"] == pytest.approx(load_scene(None, model).t_end / 1e4 / math.sqrt(3.0))
+        and not found.missed
+    )
     assert all(each.value == pytest.approx(100.0, rel=0.005) for each in found.found.values())
 
 
@@ -278,21 +291,22 @@ def few(monkeypatch, model, tmp_path):
     return Model(copy)
 
 
+def mean_of(model, t_end, **settings):
+    """Mean stress of three seeds by the Python interface."""
+    runs = (rb.run(None, fmu=model.path, seed=s, t_end=t_end, outputs=["ring.y"], **settings) for s in (1, 2, 3))
+    return np.mean([run.summary["stat.sigma_head_p999"] for run in runs])
+
+
 def test_an_effect_is_the_difference_of_runs(few):
     """Mean of three seeds against runs of the Python interface; a tilting inertia moves nothing where the tilt is prescribed."""
     record = screen.screened(few)
     (low, _), _ = record["entries"]["oil.B"]["effect"]["stress"]
 
-    def mean(**parameters):
-        t_end = record["t_end"]
-        runs = (
-            rb.run(None, fmu=few.path, seed=s, t_end=t_end, parameters=parameters, outputs=["ring.y"])
-            for s in (1, 2, 3)
-        )
-        return np.mean([run.summary["stat.sigma_head_p999"] for run in runs])
-
-    base = mean()
-    assert low == pytest.approx(mean(**{"oil.B": 1.1}) / base - 1.0, rel=1e-9) and low != 0.0
+    base = mean_of(few, record["t_end"])
+    assert (
+        low == pytest.approx(mean_of(few, record["t_end"], parameters={"oil.B": 1.1}) / base - 1.0, rel=1e-9)
+        and low != 0.0
+    )
     assert record["entries"]["ring.J_t"]["effect"]["stress"] == [[0.0, 0.0], [0.0, 0.0]]
 
 
@@ -309,6 +323,37 @@ def test_a_screening_is_kept_by_the_digest(few, monkeypatch):
     with few.path.open("ab") as file:
         file.write(b"\0")
     assert screening.known(SimpleNamespace(path=few.path, digest="another")) is None
+
+
+def test_a_drawings_range_takes_the_place_of_the_assumed_one(few, monkeypatch, tmp_path):
+    """Of a value with a usual range, of the oil's temperature, and of a rivet's dimension, which is named as not covered; the budget tells
+    whose range it is.
+    """
+    ranges = {"oil.B": (2.0, 3.0), "oil.T": (350.0, 360.0), "rivet.shank_diameter": (2.4e-3, 2.5e-3)}
+    monkeypatch.setattr(Model, "ranges", ranges)
+    record = screen.screened(few)
+    ends = {name: (one["low"], one["high"], one["source"]) for name, one in record["entries"].items()}
+    assert ends == {n: (*ranges[n], "your own range") for n in ("oil.B", "oil.T")} | {
+        "ring.J_t": (1e-4, 2e-4, "a book")
+    }
+    assert record["not_covered"] == {"rivet.shank_diameter": screen.OF_BUILD}
+    T = {name: few.default(few.inputs[name]) for name in ("oil.T", "ring.T_i", "ring.T_e", "ball.T", "cage.T")}
+    hotter = {
+        name: own + 360.0 - T["oil.T"] for name, own in T.items()
+    }  # nobody gave those of the parts: they move with the oil's
+    hot = mean_of(few, record["t_end"], inputs=hotter) / mean_of(few, record["t_end"]) - 1.0
+    assert record["entries"]["oil.T"]["effect"]["stress"][1][0] == pytest.approx(hot, rel=1e-9)
+
+    result = rb.run(None, fmu=few.path, t_end=record["t_end"], outputs=["ring.y"])
+    about = result.about | {"rivet": {"rivet.shank_diameter": 2.45e-3}}
+    rows = {row.name: row for row in all_assumed(about, result.parameters) if row.name in ranges}
+    assert rows["oil.T"].words[1] == "76.9 … 86.9 degC" and rows["rivet.shank_diameter"].words == (
+        "2.45 mm",
+        "2.4 … 2.5 mm",
+    )
+    assert budget.assumed_part(rows["oil.T"], "stress", 1.0).source == "your own range, 76.9 … 86.9 degC"
+    assert budget.assumed_part(rows["rivet.shank_diameter"], "stress", 1.0) is None
+    assert rows["rivet.shank_diameter"].unknown == screen.OF_BUILD
 
 
 def of_bearing(entries):

@@ -48,8 +48,8 @@ class Range:
 
 @dataclass(frozen=True)
 class Assumed:
-    """An assumed value with its usual range in `unit`, or a given one with a range of the user's own; value, low, high are None where the FMU does not hold the value,
-    a dimension of the rivet.
+    """An assumed value with its usual range in `unit`, or a given one with a range of the user's own; value, low, high are None where
+    the FMU does not hold the value, a dimension of the rivet.
 
     effect: changes of each figure at both ends with their standard errors, {"stress": [[-0.07, 0.01], [0.33, 0.02]]}: relative, of the
     damage in decades; None where it is not known, for the reason `unknown`.  screened: where it was measured.
@@ -148,8 +148,8 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
     for name, pair in own.items():
         if name in values:
             unit, factor, offset = shown_in(name)
-            value, *ends = (factor * x + offset for x in (values[name], *pair))
-            yield Assumed(name, unit, value, *ends, YOURS, tuple(ends), *known_effect(name, screening))
+            value, low, high = (factor * x + offset for x in (values[name], *pair))
+            yield Assumed(name, unit, value, low, high, YOURS, (low, high), *known_effect(name, screening))
 
 
 def own_ranges(ranges, screening):

@@ -228,7 +228,9 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
         rivet_by_rule | sizes | steel,
         origin,
         found,
-        drawing_ranges(path, file.between, values | {f"rivet.{name}": size for name, size in sizes.items()}, origin, own),
+        drawing_ranges(
+            path, file.between, values | {f"rivet.{name}": size for name, size in sizes.items()}, origin, own
+        ),
         bare,
         oil=oil_name,
     )
@@ -249,7 +251,12 @@ def drawing_ranges(path, tree, values, origin, own):
         except UserError as problem:
             raise refusal(path, f"between.{name}", pair, problem) from None
         if not (low < high and low <= values[name] <= high):
-            raise refusal(path, f"between.{name}", pair, f"the lowest value must be below the highest, and {shown(name, values[name], pair[0])} between them")
+            raise refusal(
+                path,
+                f"between.{name}",
+                pair,
+                f"the lowest value must be below the highest, and {shown(name, values[name], pair[0])} between them",
+            )
         found[name] = (low, high)
     return found
 

@@ -18,6 +18,7 @@ from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
 from ..running.accuracy import finer_settings
 from ..running.rainflow import fatigue_law, fatigue_law_at
+from ..running.seeds import started
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
 from .confidence import Estimate, until_sure
@@ -26,7 +27,6 @@ from .miner import Duty, part_rates
 from .mission import Mission
 from .raceways import finite
 from .raceways import record as raceway_record
-from ..running.seeds import started
 
 PLACES = ("head", "mid")
 SAFETY = 10.0  # of the bound on the damage of points that are not simulated

@@ -52,7 +52,9 @@ PRIOR = {
     "pocket_force": 0.039,
     "damage": 0.09,
 }  # of 102 scenes: their 95 % quantiles over 1.96
-KURTOSIS = {DECADES: 2.3}  # excess, of 24 seeds: mean of 38 scenes of benchmarks/coverage.py; the other figures are pooled with blocks
+KURTOSIS = {
+    DECADES: 2.3
+}  # excess, of 24 seeds: mean of 38 scenes of benchmarks/coverage.py; the other figures are pooled with blocks
 FINER = math.sqrt(3.0)  # times the steps
 FEW = 1e-3  # of equal steps may fail the error test, or as many as of the plain run
 SHORTEST = 3  # times FINER
@@ -322,7 +324,9 @@ class Runs:
 
     def settings(self, level):
         """The parameters that make the steps of a level."""
-        return {name: value for name, value in self.scene(level).parameters.items() if level and name in equal_steps(0.0)}
+        return {
+            name: value for name, value in self.scene(level).parameters.items() if level and name in equal_steps(0.0)
+        }
 
 
 def equal_steps(step):

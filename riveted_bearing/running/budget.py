@@ -203,7 +203,9 @@ def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
         return None
     ends = [math.copysign(math.sqrt(max(0.0, e**2 - se**2)), e) for e, se in row.effect[figure]]
     below, above = max(0.0, -min(ends)), max(0.0, *ends)
-    return Part(row.name, 0.0, size * below, size * above, f"{YOURS if row.source == YOURS else ASSUMED}, {row.words[1]}")
+    return Part(
+        row.name, 0.0, size * below, size * above, f"{YOURS if row.source == YOURS else ASSUMED}, {row.words[1]}"
+    )
 
 
 def computed_share(result: Result) -> float:
