@@ -174,15 +174,17 @@ def test_the_budget_says_where_pulses_have_other_phases():
 # To an accuracy -------------------------------------------------------------------------------------------------------
 
 
-def stand_in(monkeypatch, bias=(0.0, 0.0, 0.0), noise=0.0, failed=(0.0,)):
+def stand_in(monkeypatch, bias=(0.0, 0.0, 0.0), noise=0.0, failed=(0.0,), limited=True):
     """Runs that need no FMU: figures of 100 with a bias and failed error tests at each level of the steps, and scatter; 10,000 steps
-    take a second.
+    take a second.  A tenth of the tolerance takes 3^(1/2) times the steps, if it limits them.
     """
     rng = np.random.default_rng(3)
 
     def sample(model, scene, whole):
-        steps = scene.t_end / scene.parameters.get("solver.step", scene.t_end / 1e4)
-        level = round(math.log(steps / 1e4, math.sqrt(3.0)))
+        level = round(limited * math.log10(1e-3 / scene.parameters.get("solver.tol", 1e-3)))
+        if step := scene.parameters.get("solver.step"):
+            level = round(math.log(scene.t_end / step / 1e4, math.sqrt(3.0)))
+        steps = 1e4 * 3.0 ** (0.5 * level)
         value = 100.0 * (1.0 + bias[min(level, len(bias) - 1)] + noise * rng.normal())
         figures = (dict.fromkeys(accuracy.NAMED, x) for x in (value, (100.0 * noise) ** 2))
         return accuracy.Sample(*figures, steps / 1e4, steps, failed[min(level, len(failed) - 1)])
@@ -194,21 +196,31 @@ def reach(model, target, **settings):
     return accuracy.accurate(model, load_scene(None, model), target, **settings)
 
 
-def test_a_plain_run_that_suffices_costs_less_than_four(model, monkeypatch):
-    """Two runs, and a finer one with 3^(1/2) times the steps."""
-    stand_in(monkeypatch, noise=0.002)
+@pytest.mark.parametrize("failed", [0.0, 0.01])
+def test_a_plain_run_that_suffices_costs_less_than_four(model, monkeypatch, failed):
+    """Two runs, and a finer one with 3^(1/2) times the steps, be it by the tolerance or by equal steps."""
+    stand_in(monkeypatch, noise=0.002, failed=(failed,))
     found = reach(model, 0.02)
     assert found.cost == pytest.approx(2.0 + math.sqrt(3.0)) and (found.settings, found.missed) == ({}, {})
 
 
-def test_equal_steps_that_fail_the_error_test_are_shortened(model, monkeypatch):
-    """5 % of the first ones fail, none of the plain run: the finer run has 3 times its steps."""
-    stand_in(monkeypatch, failed=(0.0, 0.05, 0.0))
+@pytest.mark.parametrize(
+    ("failed", "limited", "settings"),
+    [
+        ((0.01,), True, {"solver.tol": 1e-4}),  # the tolerance limits the steps
+        ((0.0,), True, {"solver.step": 1.0 / 3.0**0.5}),  # no step fails: something else limits them
+        ((0.01, 0.0), False, {"solver.step": 1.0 / 3.0**0.5}),  # steps fail, but a tenth of the tolerance takes as many
+        ((0.0, 0.05, 0.0), True, {"solver.step": 1.0 / 3.0}),  # 5 % of the first equal steps fail: shorter ones
+    ],
+)
+def test_finer_is_what_limits_the_steps(model, monkeypatch, failed, limited, settings):
+    """Lengths of steps are relative to the plain run's."""
+    stand_in(monkeypatch, failed=failed, limited=limited)
     scene = load_scene(None, model)
-    assert accuracy.finer_settings(model, scene) == {
-        "solver.method": "fixed",
-        "solver.step": pytest.approx(scene.t_end / 3e4),
-    }
+    if step := settings.get("solver.step"):
+        settings = {"solver.method": "fixed", "solver.step": pytest.approx(step * scene.t_end / 1e4)}
+    assert accuracy.finer_settings(model, scene) == (settings if step else {"solver.tol": pytest.approx(1e-4)})
+    assert accuracy.with_settings(replace(scene, tolerance=1e-3), {"solver.tol": 1e-4}).tolerance is None
 
 
 def test_a_bias_is_refined_away(model, monkeypatch):

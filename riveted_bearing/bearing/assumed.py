@@ -152,7 +152,7 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
             yield Assumed(name, unit, value, low, high, YOURS, (low, high), *known_effect(name, screening))
 
 
-def own_ranges(ranges, screening):
+def own_ranges(ranges: dict[str, Any], screening: dict[str, Any]) -> dict[str, Any]:
     """{name: (lowest, highest)} of the user's own ranges: those of a bearing's file, and of a study with which the FMU was screened."""
     entries = screening.get("entries", {}).items()
     return ranges | {name: (entry["low"], entry["high"]) for name, entry in entries if entry["source"] == YOURS}

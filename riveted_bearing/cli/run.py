@@ -49,7 +49,7 @@ def run(
     step: Annotated[str | None, typer.Option(help='communication step, e.g. 1e-4 or "0.1 ms"')] = None,
     accuracy: Annotated[
         str | None,
-        typer.Option(help='"2 %" of stress and pocket force: tolerance and seeds are chosen, in several runs'),
+        typer.Option(help='"2 %" of stress and pocket force: steps and seeds are chosen, in several runs'),
     ] = None,
     within: Annotated[str, typer.Option(help='processor time that an accuracy may take, e.g. "1 h"')] = "10 min",
     check: Annotated[

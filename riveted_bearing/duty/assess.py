@@ -16,7 +16,7 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
-from ..running.accuracy import finer_settings
+from ..running.accuracy import finer_settings, with_settings
 from ..running.rainflow import fatigue_law, fatigue_law_at
 from ..running.seeds import started
 from ..studies.sweep import run_sweep
@@ -114,7 +114,7 @@ class Runs:
         settings, keys = finer_settings(self.model, self.mission.cases[c].scene), []
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
             scene = self.sweep.scenes[self.keys[c, s]]
-            scene = replace(scene, parameters=scene.parameters | settings)
+            scene = with_settings(scene, settings)
             keys.append(key_of(scene, hashlib.sha256(self.sweep.fmu).hexdigest()))
             self.sweep.scenes[keys[-1]] = scene
         if missing := [key for key in keys if key not in self.damages]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..bearing.assumed import all_assumed
-from ..running.accuracy import DECADES, FIGURES, accurate, found_of
+from ..running.accuracy import DECADES, FIGURES, accurate, found_of, with_settings
 from ..running.budget import Budget, budget_of
 from ..running.runner import origin_of
 from .assess import places, used_cases
@@ -73,7 +73,7 @@ def to_accuracy(mission: Any, model: Any) -> tuple[Any, list[str]]:
             told += [
                 f"{mission.parts[case.part].name}: {FIGURES[name][0]}: {why}" for name, why in reached.missed.items()
             ]
-            case = replace(case, scene=replace(plain, parameters=plain.parameters | reached.settings))
+            case = replace(case, scene=with_settings(plain, reached.settings))
             chosen[case.part] = case.scene
         cases.append(case)
     if not chosen:

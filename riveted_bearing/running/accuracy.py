@@ -1,7 +1,8 @@
 """How far a run's statistics are from converged ones: the error of the step, and the scatter of the seeds.
 
-From n runs x of the default tolerance with different seeds, and m finer runs y on the first m seeds.  Finer are equal steps
-(solver.method = fixed), sqrt(3) times shorter than the plain run's are on average: an error of second order falls to a third.
+From n runs x of the default with different seeds, and m finer runs y on the first m seeds.  Where the tolerance limits the steps, which
+shows in steps that failed the error test, finer is a tenth of it.  Elsewhere finer are equal steps (solver.method = fixed), sqrt(3) times
+shorter than they are on average: an error of second order falls to a third.
 
     V      variance of a run about the long run, of the seeds or of the blocks of a run (spread_of)
     b      mean of y - x, the numerical bias of x with the opposite sign; s_b its standard error
@@ -55,9 +56,10 @@ PRIOR = {
 KURTOSIS = {
     DECADES: 2.3
 }  # excess, of 24 seeds: mean of 38 scenes of benchmarks/coverage.py; the other figures are pooled with blocks
-FINER = math.sqrt(3.0)  # times the steps
-FEW = 1e-3  # of equal steps may fail the error test, or as many as of the plain run
-SHORTEST = 3  # times FINER
+FINER, FINE_STEPS = 0.1, 1.05  # of the tolerance, and the least number of steps that it then takes over that before
+SHORTER, SHORTEST = math.sqrt(3.0), 3  # of equal steps, times SHORTER
+FEW = 1e-3  # share of steps that may fail the error test where the tolerance does not limit them
+FINEST = 1e-5  # tolerance; below, other limits act
 RESOLUTION = 1e-3  # of a value, or decades: less is never told
 BLOCKS = 4  # of a run
 CONFIDENCE = 0.9
@@ -106,6 +108,11 @@ class Found:
 
 
 # One run --------------------------------------------------------------------------------------------------------------
+
+
+def tolerance_of(model: Model, scene: Scene) -> float:
+    """The tolerance at which a scene runs."""
+    return float(scene.tolerance or value_of(scene.parameters, model, "solver.tol"))
 
 
 def sample(model: Model, scene: Scene, whole: bool = False) -> Sample:
@@ -242,7 +249,7 @@ def found_in(plain: Any, fine: Any = (), confidence: float = CONFIDENCE) -> dict
 # To an accuracy -------------------------------------------------------------------------------------------------------
 
 SURE = 0.95  # confidence of an accuracy that is reached
-LEVELS = 4  # of the steps, each by FINER shorter than the one before it
+LEVELS = 3  # of the steps, each finer than the one before it
 WITHIN = 600.0  # s of processor time, unless more is allowed
 GROWTH = 2.0  # of the runs in a round
 ENOUGH = 4  # runs from which on their scatter is believed
@@ -289,7 +296,7 @@ class Runs:
     """Samples of a scene by seed and level of the steps, simulated when they are asked for."""
 
     def __init__(self, model, scene, progress):
-        self.model, self.progress, self.scenes = model, progress, [scene]
+        self.model, self.progress, self.scenes, self.settings = model, progress, [scene], [{}]
         self.first = int(value_of(scene.parameters, model, "start.seed"))
         self.done, self.seconds = {}, 0.0
 
@@ -302,18 +309,27 @@ class Runs:
         return [self.done[level, s] for s in range(count)]
 
     def scene(self, level):
-        """The scene with the steps of a level; where too many of its first run fail the error test, shorter ones are tried."""
+        """The scene with the steps of a level: the first finer ones that prove to be finer."""
         while len(self.scenes) <= level:
             above = self(len(self.scenes) - 1, 1)[0]
-            for shorter in range(1, SHORTEST + 1):
-                step = self.scenes[0].t_end / above.steps / FINER**shorter
-                scene = replace(self.scenes[0], parameters=self.scenes[0].parameters | equal_steps(step))
+            for settings in self.finer(above):
+                scene = with_settings(self.scenes[0], settings)
                 found = self.run(scene, 0)
-                if found.failed <= max(above.failed, FEW):
+                limited = found.failed > max(above.failed, FEW)
+                if found.steps >= FINE_STEPS * above.steps and not ("solver.step" in settings and limited):
                     break
             self.done[len(self.scenes), 0] = found
             self.scenes.append(scene)
+            self.settings.append(settings)
         return self.scenes[level]
+
+    def finer(self, above):
+        """Settings that may be finer than those of the last level, of whose first run is `above`."""
+        tolerance = tolerance_of(self.model, self.scenes[-1])
+        if above.failed > FEW and tolerance * FINER >= FINEST:
+            yield {"solver.tol": tolerance * FINER}
+        for shorter in range(1, SHORTEST + 1):
+            yield {"solver.method": "fixed", "solver.step": self.scenes[0].t_end / above.steps / SHORTER**shorter}
 
     def run(self, scene, s):
         """The Sample of a scene with a seed, that of the first seed with its Result; its processor time counts."""
@@ -322,21 +338,17 @@ class Runs:
         self.progress(len(self.done) + 1)
         return found
 
-    def settings(self, level):
-        """The parameters that make the steps of a level."""
-        return {
-            name: value for name, value in self.scene(level).parameters.items() if level and name in equal_steps(0.0)
-        }
 
-
-def equal_steps(step):
-    """The parameters of steps of one length [s]."""
-    return {"solver.method": "fixed", "solver.step": step}
+def with_settings(scene: Scene, settings: dict[str, Any]) -> Scene:
+    """A scene with other steps."""
+    return replace(scene, tolerance=None, parameters=scene.parameters | settings) if settings else scene
 
 
 def finer_settings(model: Model, scene: Scene) -> dict[str, Any]:
     """The parameters of a scene's finer runs."""
-    return Runs(model, scene, lambda runs: None).settings(1)
+    runs = Runs(model, scene, lambda runs: None)
+    runs.scene(1)
+    return runs.settings[1]
 
 
 def accurate(
@@ -374,7 +386,7 @@ def accurate(
         m = (n + 1) // 2
     return Reached(
         target,
-        runs.settings(level),
+        runs.settings[level],
         scene.t_end / plain[0].steps,
         found,
         missed,

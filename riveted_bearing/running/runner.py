@@ -38,7 +38,7 @@ def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
     """
     if scene.accuracy is not None:
         raise UserError(
-            f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose tolerance and seeds by it; here both are given"
+            f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose steps and seeds by it; here both are given"
         )
     with held_interrupts() as interrupts, Instance(model) as instance:
         instance.initialize(scene)

@@ -1,10 +1,17 @@
 """What differs by chance from run to run: the balls' spacing, the phase of a train of pulses, and the start, which the joints remember."""
 
+from __future__ import annotations
+
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .inputs import History
+
+if TYPE_CHECKING:
+    from .fmu import Model
+    from .scene import Scene
 
 SPEED = "shaft.omega"
 CAGE_SPEED = 0.4  # of the shaft's, about
@@ -14,7 +21,7 @@ FROM = 0.1  # of the speed
 SETTLED = 0.5  # of start.settle: by then a run-up is over
 
 
-def seeded(scene, model, first, s):
+def seeded(scene: Scene, model: Model, first: int, s: int) -> Scene:
     """The Scene of run number s (from 0), whose start.seed is first + s.
 
     Pulses begin later by a part of their interval, or of the cage's turn if that is shorter: their phase to the cage is chance.  The parts
@@ -49,7 +56,7 @@ def van_der_corput(s):
     return sum((s >> bit & 1) / 2.0 ** (bit + 1) for bit in range(s.bit_length()))
 
 
-def started(scene, model, first, s):
+def started(scene: Scene, model: Model, first: int, s: int) -> Scene:
     """The Scene of run number s as of seeded().  Every second run is run up from a tenth of its speed, the others start at speed with
     joints that carry no shear, so that the scatter of the runs holds that of the start.  All start at speed where it varies, or where
     start.settle leaves no time for a run-up.
