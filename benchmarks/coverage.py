@@ -207,9 +207,11 @@ def say_summary(found):
         f"where the first runs suffice ({found['suffices']}) {found['cost_where_it_suffices']}"
     )
     for name, row in found["figures"].items():
+        moving = row["scenes"] - row["still"]
         say(
-            f"{name}: {100 * row['held']:.0f} % of {row['scenes']} held, by seeds alone {100 * row['held_by_seeds_alone']:.0f} %, "
-            f"one motion in {row['one_motion']}, of those that move ({row['scenes'] - row['still']}) {100 * row['held_of_moving']:.0f} %; accuracy met in {100 * row['met']:.0f} % of {row['accuracies']}"
+            f"{name}: {100 * row['held']:.0f} % of {row['scenes']} held, {100 * row['held_of_moving']:.0f} % of the {moving} that move, "
+            f"by seeds alone {100 * row['held_by_seeds_alone']:.0f} %, one motion in {row['one_motion']}; "
+            f"accuracy met in {100 * row['met']:.0f} % of {row['accuracies']}"
         )
 
 
