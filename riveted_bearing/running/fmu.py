@@ -155,6 +155,11 @@ class Model:
         return {name: float(note["value"]) for name, note in self.noted.items() if "value" in note}
 
     @functools.cached_property
+    def ranges(self):
+        """(lowest, highest) of what the drawing allows of a value, SI, by the names of a bearing file."""
+        return {name: (float(note["low"]), float(note["high"])) for name, note in self.noted.items() if "low" in note}
+
+    @functools.cached_property
     def cage_modes(self):
         """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg];
         None if the FMU does not list them.
