@@ -149,6 +149,7 @@ class Table:
     assumptions: dict
     origin: dict  # where the values of another bearing come from, by name
     numbers: dict  # its boundary dimensions, load ratings and rivet, which are no variables
+    ranges: dict  # what the drawing allows of its values, by name
     essentials: dict  # names by question
     retired_items: dict  # of enumerations: number and reason, by name
     elastic_states: tuple = ()  # behind the states, of elastic cage halves only
@@ -164,7 +165,9 @@ class Table:
     @property
     def guid(self):
         """Digest of all that description and binary must agree on."""
-        content = {n: value for n, value in asdict(replace(self, limits=())).items() if n != "numbers" or value}
+        content = {
+            n: value for n, value in asdict(replace(self, limits=())).items() if n not in ("numbers", "ranges") or value
+        }
         del content["limits"]
         digest = hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
         return "{" + "-".join((digest[:8], digest[8:12], digest[12:16], digest[16:20], digest[20:32])) + "}"
@@ -207,6 +210,7 @@ def load_table(bearing=None, path=None):
         raw.get("assumptions", {}),
         changes.get("origin", {}),
         changes.get("numbers", {}),
+        changes.get("ranges", {}),
         raw.get("essentials", {}),
         raw.get("retired_items", {}),
         tuple(states[n_plain:]),
@@ -468,7 +472,8 @@ def add_origin(root, table):
     values = etree.SubElement(tool, "Origin")
     for name, origin in table.origin.items():
         value = {"value": repr(table.numbers[name])} if name in table.numbers else {}
-        etree.SubElement(values, "Value", name=name, origin=origin, **value)
+        ends = zip(("low", "high"), map(repr, table.ranges.get(name, ())), strict=False)
+        etree.SubElement(values, "Value", name=name, origin=origin, **value, **dict(ends))
 
 
 def add_variables(root, table):

@@ -72,7 +72,7 @@ def run(
     inputs; parameters, inputs: changes by full variable name, values as in the file (SI numbers, "30 N", item names;
     inputs also {"t": [...], "value": [...]}); fmu: path of the FMU, None for the default one;
     seed: start.seed; t_end, step: s; outputs: names or patterns; progress: called with the simulated time [s] about
-    twenty times a second.  accuracy: "2 %" of stress and pocket force, for which tolerance and seeds are chosen in several runs of at
+    twenty times a second.  accuracy: "2 %" of stress and pocket force, for which steps and seeds are chosen in several runs of at
     most `within` seconds of processor time; check: the error budgets, for which the FMU is screened once.  Both stand in the Result's
     `about` as "accuracy" and "budget".  Raises UserError (a ValueError) naming what cannot be used.  If the FMU ends a run early, the
     Result holds the run up to that time, and its member `stopped` gives the reason.

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 import psutil
+import pyarrow as pa
 import pytest
 from commands import rows_kept
 
@@ -399,6 +400,24 @@ def test_rows_of_parquet_files_alone_are_taken_over(plan, tmp_path):
     assert done == set(plan.scenes) and {name: list(map(str, column)) for name, column in after.items()} == {
         name: list(map(str, column)) for name, column in before.items()
     }
+
+
+def test_arrays_of_rows_come_back_bit_by_bit(plan, tmp_path):
+    """Beside lists, as an earlier version wrote them; any bits, also those of no number."""
+    arrays = [np.array([0.1, -0.0, np.inf, 5e-324]), np.array([], float), [1.5, 2.5]]
+    schema = (
+        schema_of(plan)
+        .append(pa.field("numbers", pa.list_(pa.float64())))
+        .append(pa.field("places", pa.list_(pa.int16())))
+    )
+    keys = list(map(str, range(len(arrays))))
+    with Store(tmp_path) as store:
+        for key, array in zip(keys, arrays, strict=True):
+            store.add({"key": key, "status": "done", "numbers": array, "places": np.arange(3)})
+        columns = store.export(schema, keys)
+    for found in (columns, columns_of(tmp_path)):
+        assert [column.tobytes() for column in found["numbers"]] == [np.asarray(array).tobytes() for array in arrays]
+        assert [column.tolist() for column in found["places"]] == [[0, 1, 2]] * 3
 
 
 def test_progress_goes_on_when_the_clock_goes_back(monkeypatch):

@@ -31,10 +31,12 @@ from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.mission_file import Life
 from riveted_bearing.duty.notes import matrix_warnings, notes, oil_in_pockets
 from riveted_bearing.duty.page import life_density, write_page, write_picture
-from riveted_bearing.duty.starts import started
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.inputs import History
 from riveted_bearing.running.runner import simulate
+from riveted_bearing.running.scene import Scene
+from riveted_bearing.running.seeds import started
+from riveted_bearing.studies.sweep_file import key_of
 
 ROOT = Path(__file__).resolve().parents[1]
 SHORT = {"simulation": {"t_end": 0.01}, "parameters": {"start.settle": 0.002}}
@@ -732,3 +734,49 @@ def test_a_change_divides_the_point_in_which_it_falls(model):
     ]
     assert [part.scene.parameters.get("joint.mu") for part in mission.parts] == [None, None, 0.2, 0.2]
     assert mission.hours == 5.0
+
+
+@pytest.mark.parametrize(
+    ("failed", "steps", "chosen"),
+    [
+        (2.0, (1.1,), {"solver.tol": 1e-4}),  # 2 of 1,000 steps fail: the tolerance limits them
+        (
+            2.0,
+            (1.0, 1.7),
+            {"solver.method": "fixed", "solver.step": 1e-3 / math.sqrt(3.0)},
+        ),  # a tenth of it takes as many
+        (0.0, (1.7,), {"solver.method": "fixed", "solver.step": 1e-3 / math.sqrt(3.0)}),
+    ],
+)
+def test_steps_of_finer_runs(monkeypatch, failed, steps, chosen):
+    """By the rule of accuracy.Runs from the plain run that is there; of the finer ones none is done twice."""
+    scene, calls = Scene(name="", t_end=1.0, tolerance=1e-3), []
+    runs = object.__new__(Runs)
+    runs.mission = SimpleNamespace(cases=[SimpleNamespace(scene=scene)], settings={"max_seeds": 2})
+    runs.model = SimpleNamespace(digest="")
+    runs.keys = {(0, s): key_of(at_seed(scene, s), "") for s in range(2)}
+    runs.sweep = SimpleNamespace(scenes={runs.keys[0, s]: at_seed(scene, s) for s in range(2)})
+    runs.folder = runs.client = runs.progress = None
+    runs.damages, runs.cost, runs.figures = {}, {}, {}
+    numbers = [(1000.0, failed), *((1000.0 * share, failed) for share in steps)]
+
+    def run_sweep(sweep, folder, client, progress, keys):
+        calls.append([sweep.scenes[key] for key in keys])
+        return keys
+
+    def take(c, s, key, rows, i):
+        count, tests = numbers[len(calls) - 1]
+        runs.damages[key] = runs.cost[key] = 1.0
+        runs.figures[key] = {"solver.steps": count, "solver.error_tests_failed": tests}
+
+    monkeypatch.setattr("riveted_bearing.duty.assess.run_sweep", run_sweep)
+    monkeypatch.setattr(runs, "take", take)
+    runs.simulate(runs.keys)
+    finer = [runs.sweep.scenes[key] for key in runs.finer(0)]
+    assert len(calls) == 1 + len(steps) and finer == calls[-1]
+    assert [scene.parameters for scene in finer] == [{"start.seed": s} | chosen for s in range(2)]
+    assert {scene.tolerance for scene in finer} == {None}
+
+
+def at_seed(scene, s):
+    return replace(scene, parameters=scene.parameters | {"start.seed": s})

@@ -387,6 +387,59 @@ def test_an_fmu_keeps_the_catalogues_values(tmp_path):
     assert float(values["bore"]["value"]) == 0.045 and "value" not in values["bearing.D"]
 
 
+DRAWN = f"""{OWN}[parameters]
+cage.pocket_clearance = "0.25 mm"
+[rivet]
+shank_diameter = "2.5 mm"
+[inputs]
+oil.T = "90 degC"
+"""
+
+
+def test_what_a_drawing_allows_goes_into_the_fmu(tmp_path):
+    """Of a parameter, a temperature and a dimension of the rivet, in SI: 70 degC are 343.15 K."""
+    case = read(
+        tmp_path,
+        f'{DRAWN}[between]\ncage.pocket_clearance = ["0.23 mm", "0.28 mm"]\noil.T = ["70 degC", "110 degC"]\nrivet.shank_diameter = ["2.45 mm", "2.5 mm"]\n',
+    )
+    expected = {
+        "cage.pocket_clearance": (0.23e-3, 0.28e-3),
+        "oil.T": (343.15, 383.15),
+        "rivet.shank_diameter": (2.45e-3, 2.5e-3),
+    }
+    assert case.ranges == {name: pytest.approx(ends, rel=1e-12) for name, ends in expected.items()}
+    resolved = tmp_path / "bearing.toml"
+    document = {"Z": 8, "origin": case.origin, "ranges": case.ranges}
+    resolved.write_text("\n".join(to_toml(document)), encoding="utf-8")
+    root = etree.fromstring(write_description(load_table(resolved)).encode())
+    values = {v.get("name"): v.attrib for v in root.iterfind("VendorAnnotations/Tool/Origin/Value")}
+    assert {name for name, one in values.items() if "low" in one} == set(expected)
+    assert float(values["oil.T"]["low"]) == pytest.approx(343.15) and float(values["oil.T"]["high"]) == pytest.approx(
+        383.15
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        (
+            'cage.pocket_clearance = ["0.26 mm", "0.28 mm"]',
+            "between.cage.pocket_clearance = .*, and 0.25 mm between them",
+        ),
+        ('cage.pocket_clearance = ["0.28 mm", "0.23 mm"]', "lowest value must be below the highest"),
+        ('cage.pocket_clearance = "0.2 mm"', r"\[lowest, highest\] is needed"),
+        ('cage.pocket_clearance = ["0.2 N", "0.3 mm"]', "does not fit"),
+        ('cage.guide_clearance = ["0.2 mm", "0.3 mm"]', "the file has to give its value too"),
+        ('rivet.shank = ["2 mm", "3 mm"]', "rivet.shank.*rivet.shank_diameter"),
+        ('shaft.F_y = ["2 N", "3 N"]', "shaft.F_y"),
+        ('scene.cage = ["elastic", "two_half"]', "only real numbers have ranges"),
+    ],
+)
+def test_what_is_no_range_of_a_drawing_is_refused(tmp_path, text, why):
+    with pytest.raises(UserError, match=why):
+        read(tmp_path, f"{DRAWN}[between]\n{text}\n")
+
+
 # What nobody gave, for whose bearing ---------------------------------------------------------------------------------
 
 

@@ -215,3 +215,14 @@ def test_shaken_matrices(model, name):
     idle = idle_settings(model, scene, point, False, False)
     assert (name in idle) == (name in ("shaft.v_y", "shaft.x", "oil.sigma_pocket", "ring.m"))
     assert "start.settle" in idle
+
+
+def test_an_input_that_begins_late_needs_no_whole_run(model, monkeypatch):
+    """It acts soon after its first point: runs end there, not at the end of the scene."""
+    from riveted_bearing.running import effects
+
+    force = {"t": [0.02, 0.021], "value": [0.0, 500.0]}
+    document = {"simulation": {"t_end": 0.3}, "parameters": {"start.settle": 0.004}, "inputs": {"impact.F_r": force}}
+    scene, ends = load_scene(None, model, ("late", document)), []
+    monkeypatch.setattr(effects, "simulate", lambda m, one: ends.append(one.t_end) or simulate(m, one))
+    assert without_effect(model, scene, ["impact.F_r"])[0] == [] and 0.02 < max(ends) < 0.05

@@ -1,4 +1,4 @@
-"""Values that nobody gave and that the rivets' stress moves with, and who gave the others.
+"""Values that nobody gave and that the rivets' stress moves with, who gave the others, and what a drawing allows of these.
 
 Ranges of the 6207's own values stand in fmus/variables.toml, those of values by rule in data/rules.csv, which
 benchmarks/rules.py writes with docs/own_bearing.md.  How far a range moves stress and damage is another amount in each bearing:
@@ -45,8 +45,8 @@ class Range:
 
 @dataclass(frozen=True)
 class Assumed:
-    """An assumed value with its usual range in `unit`; value, low, high are None where the FMU does not hold the value,
-    a dimension of the rivet.
+    """An assumed value with its usual range in `unit`, or a given one with a range of the user's own; value, low, high are None where
+    the FMU does not hold the value, a dimension of the rivet.
 
     effect: changes of each figure at both ends with their standard errors, {"stress": [[-0.07, 0.01], [0.33, 0.02]]}: relative, of the
     damage in decades; None where it is not known, for the reason `unknown`.  screened: where it was measured.
@@ -126,30 +126,39 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
     sizes, given = about.get("rivet", {}), set(about.get("given", ()))
     example = about.get("example", not (about.get("ruled") or about.get("not_given")))
     screening = about.get("screening") or {}
+    temperatures = about.get("temperatures", {})
+    own = own_ranges(about.get("ranges", {}), screening)
     for name, each in ranges_of(given, example, parameters).items():
-        if name.startswith("rivet."):
-            yield assumed(name, "mm", 1e3, sizes.get(name), each, screening=screening)
-        elif name in parameters:
-            unit, factor = shown_unit(name)
-            yield assumed(name, unit, factor, parameters[name], each, parameters, screening)
-    temperatures = {name: T - 273.15 for name, T in about.get("temperatures", {}).items()}
-    for name, T in temperatures.items():
-        low, high, source = TEMPERATURES[name]
-        if name not in given:
-            ends = min(T, temperatures["oil.T"] + low), max(T, temperatures["oil.T"] + high)
+        if name not in own and (name.startswith("rivet.") or name in parameters):
+            unit, factor, _ = shown_in(name)
+            value = sizes.get(name) if name.startswith("rivet.") else parameters[name]
+            yield assumed(name, unit, factor, value, each, parameters, screening)
+    for name, (low, high, source) in TEMPERATURES.items():
+        if name in temperatures and name not in given and name not in own:
+            T, of_oil = (temperatures[n] - 273.15 for n in (name, "oil.T"))
+            ends = min(T, of_oil + low), max(T, of_oil + high)
             yield Assumed(name, "degC", T, *ends, source, (low, high), *known_effect(name, screening))
-    for name, entry in screening.get("entries", {}).items():
-        if entry["source"] == YOURS and name in parameters:
-            unit, factor = shown_unit(name)
-            ends = (factor * entry["low"], factor * entry["high"])
-            yield Assumed(name, unit, factor * parameters[name], *ends, YOURS, ends, *known_effect(name, screening))
+    values = parameters | sizes | temperatures
+    for name, pair in own.items():
+        if name in values:
+            unit, factor, offset = shown_in(name)
+            value, low, high = (factor * x + offset for x in (values[name], *pair))
+            yield Assumed(name, unit, value, low, high, YOURS, (low, high), *known_effect(name, screening))
 
 
-def shown_unit(name):
-    """Unit in which people read a parameter, and the factor to it."""
-    variable = variables.PARAMETERS[name]
+def own_ranges(ranges: dict[str, Any], screening: dict[str, Any]) -> dict[str, Any]:
+    """{name: (lowest, highest)} of the user's own ranges: those of a bearing's file, and of a study with which the FMU was screened."""
+    entries = screening.get("entries", {}).items()
+    return ranges | {name: (entry["low"], entry["high"]) for name, entry in entries if entry["source"] == YOURS}
+
+
+def shown_in(name):
+    """Unit in which people read a value, with factor and offset from SI."""
+    if name.startswith("rivet."):
+        return "mm", 1e3, 0.0
+    variable = (variables.PARAMETERS | variables.INPUTS)[name]
     unit = variable.display or variable.unit
-    return unit, variables.UNITS[variable.unit][unit][0]
+    return unit, *variables.UNITS[variable.unit][unit]
 
 
 def known_effect(name, screening):

@@ -14,6 +14,8 @@ simulation.
     head = "DIN 660"      # optional: head diameter and height by a standard (rivet_heads.py)
     [inputs]              # start values too
     shaft.F_y = 6000.0
+    [between]             # optional: what the drawing allows of a given value, a dimension of the rivet or a temperature too
+    cage.pocket_clearance = ["0.18 mm", "0.23 mm"]
 
 A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the
 designation, by rule (scaling.py) from the rivet's shank, and from balls and pitch diameter if these differ from the
@@ -31,11 +33,12 @@ from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
 from ..base.toml_files import read_toml, section_of
+from ..base.units import check_alike, to_si
 from . import catalogue, materials, oil, ribbon, rivet_heads, scaling, seats
 from .bearing_keys import RIVET_MATERIAL, RIVET_SIZES, BearingFile, RivetFile
 from .case import Case
 from .designations import find_bearing, shipped_bearings, unknown_designation
-from .file_values import BOUNDARY, CATALOGUE, defaults, flat, shown, start_values
+from .file_values import BOUNDARY, CATALOGUE, defaults, flat, shown, start_values, unit_of, unit_scales
 from .origin import EXAMPLE, SOURCE
 from .rules import CAGES, SHAPE, check_guidance, check_limits, in_cage, rules
 
@@ -198,8 +201,44 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     check_limits(path, document, parts, lambda name: called(name, prefix), inside)
     check_guidance(path, values)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
-    rivet = rivet_by_rule | sizes | steel
-    return Case(designation, file.description, all_Z, values, data, rivet, origin, found, bare, oil=oil_name)
+    rivet, given_values = (
+        rivet_by_rule | sizes | steel,
+        values | {f"rivet.{name}": size for name, size in sizes.items()},
+    )
+    allowed = drawing_ranges(path, file.between, given_values, origin, own)
+    return Case(designation, file.description, all_Z, values, data, rivet, origin, found, allowed, bare, oil=oil_name)
+
+
+def drawing_ranges(path, tree, values, origin, own):
+    """(lowest, highest) by name of what the drawing allows of a file's own values [SI]."""
+    found = {}
+    for name, pair in flat(tree):
+        unit = unit_with_range(path, name)
+        if origin.get(name) != own:
+            raise refusal(path, f"between.{name}", pair, "the file has to give its value too")
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise refusal(path, f"between.{name}", pair, "[lowest, highest] is needed")
+        with refusing(path, f"between.{name}", pair):
+            check_alike(pair, unit_scales(unit))
+            low, high = (to_si(end, unit_scales(unit)) for end in pair)
+        if not (low < high and low <= values[name] <= high):
+            own_value = shown(name, values[name], pair[0])
+            reason = f"the lowest value must be below the highest, and {own_value} between them"
+            raise refusal(path, f"between.{name}", pair, reason)
+        found[name] = (low, high)
+    return found
+
+
+def unit_with_range(path, name):
+    """SI unit of a value that a drawing or an operation may have between two ends: a number of the bearing, or a temperature."""
+    if name.startswith("rivet.") and name.removeprefix("rivet.") in RIVET_SIZES:
+        return unit_of(name)
+    known = variables.PARAMETERS | {name: variables.INPUTS[name] for name in oil.ALL_TEMPERATURES}
+    if name not in known:
+        raise unknown(path, "value with a range", name, [*known, *(f"rivet.{size}" for size in RIVET_SIZES)])
+    if known[name].type != "Real":
+        raise UserError(f"{path}: between.{name}: only real numbers have ranges")
+    return known[name].unit
 
 
 def check_boundary(path, document, data, entry):

@@ -73,3 +73,4 @@ class BearingFile(Section):
     rings: Named = {}
     balls: Named = {}
     rivet: Named = Field({}, description="its keys as schema rivet")
+    between: Named = Field({}, description="[lowest, highest] of a given value by name, as the drawing allows")

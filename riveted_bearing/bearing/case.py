@@ -26,6 +26,7 @@ class Case:
     is not in it has the variable table's default.
     rivet: dimensions and material of the rivet by the names of rivet_model.geometry, None if not known; materials: the
     Material of each part, of a bearing file's case.
+    ranges: (lowest, highest) of given values by name, as the drawing allows.
     bare: whether only a designation was given, which says nothing of the cage; alone: what a scene sets of a bearing's
     shape, from which nothing follows; model: the Model of a scene's case; oil: the name of its oil, "" for none;
     cleanliness: of the oil, as of raceways.cleanliness_of, None if nobody gave one.
@@ -39,6 +40,7 @@ class Case:
     rivet: dict | None = field(default_factory=dict)
     origin: dict = field(default_factory=dict)
     materials: dict = field(default_factory=dict)
+    ranges: dict = field(default_factory=dict)
     bare: bool = False
     alone: tuple = ()
     model: object = field(default=None, compare=False)

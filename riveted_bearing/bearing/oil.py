@@ -38,6 +38,7 @@ OF_PROPERTY = {  # names of a kind's properties by those of the FMU
 TRACTION = {name: PARAMETERS[name].start for name in ("oil.A", "oil.B", "oil.C")}
 VG, OF_GRADE = "ISO VG ", 0.1  # a grade of ISO 3448 is 10 % wide to both sides
 PARTS_TEMPERATURES = ("ring.T_i", "ring.T_e", "ball.T", "cage.T")  # the oil's unless given
+ALL_TEMPERATURES = ("oil.T", *PARTS_TEMPERATURES)
 T_DENSITY, T_40, T_100, T_JONES = 288.15, 313.15, 373.15, 311.15  # [K]
 
 POINTS = ("oil.nu_1", "oil.nu_2")

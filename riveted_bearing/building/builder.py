@@ -151,7 +151,12 @@ def start_document(case, path):
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
     modes = table.modes.room if table.modes else default_count(case.Z)
     rivet = {f"rivet.{name}": value for name, value in case.rivet.items() if f"rivet.{name}" in case.origin}
-    about = {"description": fmu_description(case, table), "origin": case.origin, "numbers": case.catalogue | rivet}
+    about = {
+        "description": fmu_description(case, table),
+        "origin": case.origin,
+        "numbers": case.catalogue | rivet,
+        "ranges": case.ranges,
+    }
     return {"Z": case.Z, "modes": modes} | about | start
 
 

@@ -50,7 +50,7 @@ def run(
     step: Annotated[str | None, typer.Option(help='communication step, e.g. 1e-4 or "0.1 ms"')] = None,
     accuracy: Annotated[
         str | None,
-        typer.Option(help='"2 %" of stress and pocket force: tolerance and seeds are chosen, in several runs'),
+        typer.Option(help='"2 %" of stress and pocket force: steps and seeds are chosen, in several runs'),
     ] = None,
     within: Annotated[str, typer.Option(help='processor time that an accuracy may take, e.g. "1 h"')] = "10 min",
     check: Annotated[
@@ -137,7 +137,8 @@ def print_known(result):
         console.print(table(heads, rows, left=2))
         n, m = next(iter(found["figures"].values()))["runs"]
         console.print(
-            f"{n} seeds at tolerance {found['tolerance']:.0e}, {m} of them with finer steps too: {found['cost']:.2g} times the processor time of a plain run"
+            f"{n} seeds with steps of {1e6 * found['step']:.2g} us on average, {m} of them with finer ones too: {found['cost']:.2g} times the "
+            "processor time of a plain run"
         )
     print_budgets([of_record(record) for record in result.about.get("budget", {}).values()])
 

@@ -70,6 +70,7 @@ def sensitivity(
 def own_ranges(study, model):
     """Ranges of a study's [between] by name, such as the tolerances of a drawing; none without a study."""
     from ..base.schema import checked
+    from ..bearing.oil import ALL_TEMPERATURES
     from ..design.bench import Box
     from ..design.sensitivity import SensitivityFile
 
@@ -77,9 +78,10 @@ def own_ranges(study, model):
         return {}
     between = checked(SensitivityFile, document_of(study, "study"), study).between
     box = Box(study, between, model)
-    if inputs := [name for name in box.names if name not in model.parameters]:
-        raise UserError(f"{study}: between: {', '.join(inputs)}: inputs are not screened; parameters are allowed")
-    return {name: (low, high) for name, low, high in zip(box.names, box.low, box.high, strict=True)}
+    allowed = {*model.parameters, *ALL_TEMPERATURES}
+    if others := [name for name in box.names if name not in allowed]:
+        raise UserError(f"{study}: between: {', '.join(others)}: not screened; parameters and temperatures are allowed")
+    return {name: (float(low), float(high)) for name, low, high in zip(box.names, box.low, box.high, strict=True)}
 
 
 def print_screening(model, record):

@@ -28,6 +28,7 @@ from ..duty.mission import curves
 from ..running.basis import basis
 from ..running.responses import COLUMNS, response, shown
 from ..running.scene import load_scene
+from ..studies.rows import of_keys
 from ..studies.sweep import run_sweep, schema_of
 from ..studies.sweep_file import Settings, Sweep, beside, bounds, key_of, known_names, sections_of
 
@@ -97,7 +98,7 @@ class Bench:
         self.seeds, self.first = file.seeds, file.seed
         self.description, self.fmu = file.description, model.path.read_bytes()
         self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
-        self.scenes = {}
+        self.scenes, self.rows, self.known = {}, {}, set()  # rows: those read so far; known: their keys
         self.counts_damage = False
         self.label = "the scene"  # of a point without names, for messages
 
@@ -144,7 +145,11 @@ class Bench:
                 run = replace(scene, parameters=scene.parameters | {"start.seed": seed})
                 keys.append(key_of(run, self.fingerprint))
                 self.scenes[keys[-1]] = run
-        rows = run_sweep(self.sweep(names, self.scenes), self.folder, self.client, self.progress, keys)
+        if missing := list(dict.fromkeys(key for key in keys if key not in self.known)):
+            found = run_sweep(self.sweep(names, self.scenes), self.folder, self.client, self.progress, missing)
+            self.rows = {name: np.concatenate([self.rows.get(name, x[:0]), x]) for name, x in found.items()}
+            self.known.update(missing)
+        rows = of_keys(self.rows, keys)
         for i in np.flatnonzero(rows["status"] == "failed"):
             point = self.point_text(names, rows, i) or self.label
             raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")

@@ -15,8 +15,9 @@ from bearing_model.generated.variables import INPUTS
 from ..base.errors import UserError
 from ..base.files import write_json
 from ..bearing.strength import Strength, damage_of_cycles, damage_of_matrix, read_strength
-from ..running.accuracy import finer_tolerance
+from ..running.accuracy import Sample, finer_settings, steps_of, with_settings
 from ..running.rainflow import fatigue_law, fatigue_law_at
+from ..running.seeds import started
 from ..studies.sweep import run_sweep
 from ..studies.sweep_file import Sweep, key_of
 from .confidence import Estimate, until_sure
@@ -25,14 +26,13 @@ from .miner import Duty, part_rates
 from .mission import Mission
 from .raceways import finite
 from .raceways import record as raceway_record
-from .starts import started
 
 PLACES = ("head", "mid")
 SAFETY = 10.0  # of the bound on the damage of points that are not simulated
 SPEED_SQUARED = ("shaft.omega",)  # centrifugal loads
 RECORD = "life.json"
 PAIRS = 3  # finer runs of the case that decides
-FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind")
+FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind", "solver.steps", "solver.error_tests_failed")
 
 
 @dataclass(frozen=True)
@@ -92,9 +92,19 @@ class Runs:
 
     def finer(self, c):
         """Keys of the finer runs of case c, on its first seeds."""
-        tolerance, keys = finer_tolerance(self.model, self.mission.cases[c].scene), {}
+
+        def found(key):
+            return Sample({}, {}, self.cost[key], *steps_of(self.figures[key]))
+
+        scene, plain = self.mission.cases[c].scene, found(self.keys[c, 0])
+        settings, _ = finer_settings(self.model, scene, plain, lambda settings: found(self.at(c, settings)[0]))
+        return self.at(c, settings)
+
+    def at(self, c, settings):
+        """Keys of the runs of case c on its first seeds with other steps, which are done if need be."""
+        keys = {}
         for s in range(min(PAIRS, self.mission.settings["max_seeds"])):
-            scene = replace(self.sweep.scenes[self.keys[c, s]], tolerance=tolerance)
+            scene = with_settings(self.sweep.scenes[self.keys[c, s]], settings)
             keys[c, s] = key_of(scene, self.model.digest)
             self.sweep.scenes[keys[c, s]] = scene
         self.simulate(keys)

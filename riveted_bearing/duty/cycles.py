@@ -29,7 +29,7 @@ def rainflow_columns(result):
     rivets = sum(name.startswith("rivet[") and name.endswith("].sigma_head") for name in result.data)
     tables = [classed(stress_history(result, k, name)) for k in range(1, rivets + 1) for name in CHANNELS]
     columns = [np.repeat(np.arange(len(tables)), list(map(len, tables))), *np.concatenate(tables).T]
-    found = {f"cycles.{name}": column.tolist() for name, column in zip(COLUMNS, columns, strict=True)}
+    found = {f"cycles.{name}": column for name, column in zip(COLUMNS, columns, strict=True)}
     blocks = {}
     if has_statistics(result):
         blocks = block_variances(result, {"stress": result.summary["stat.sigma_head_p999"]})
@@ -55,8 +55,8 @@ def classed(history):
     if not len(cycles):
         return cycles
     span, mean, count = cycles.T
-    key = np.column_stack([np.floor(np.log(span) / RANGE_STEP), np.floor(mean / MEAN_STEP)])
-    _, group = np.unique(key, axis=0, return_inverse=True)
+    key = 2.0**32 * np.floor(np.log(span) / RANGE_STEP) + np.floor(mean / MEAN_STEP)  # exact: one number for both
+    _, group = np.unique(key, return_inverse=True)
     total = np.bincount(group, count)
     return np.column_stack([np.bincount(group, count * span) / total, np.bincount(group, count * mean) / total, total])
 

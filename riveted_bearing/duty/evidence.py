@@ -16,13 +16,13 @@ from ..running.budget import of_result as of_run
 from ..running.fmu import Model
 from ..running.rainflow import CHANNELS, cycle_damages, fatigue_law_at
 from ..running.runner import simulate
+from ..running.seeds import started
 from ..running.summary import breaks, columns, has_statistics, life_is_known, settled
 from .assess import Life, Runs, part_duty, place_text, places, used_cases
 from .cycles import rainflow_columns, stored_cycles
 from .miner import lives
 from .page import ends_of, interval_text
 from .raceways import Raceways
-from .starts import started
 
 
 @dataclass(frozen=True)

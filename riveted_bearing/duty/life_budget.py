@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..bearing.assumed import all_assumed
-from ..running.accuracy import DECADES, FIGURES, accurate, found_of
+from ..running.accuracy import DECADES, FIGURES, accurate, found_of, with_settings
 from ..running.budget import Budget, budget_of
 from ..running.runner import origin_of
 from .assess import places, used_cases
@@ -61,7 +61,7 @@ def budgets_of(mission: Any, found: Any, kept: Any, runs: Runs) -> dict[str, Bud
 
 
 def to_accuracy(mission: Any, model: Any) -> tuple[Any, list[str]]:
-    """The Mission with the tolerances that its simulation.accuracy needs, and a sentence on each case whose figures are not within
+    """The Mission with the steps that its simulation.accuracy needs, and a sentence on each case whose figures are not within
     it; the seeds are those of the life's interval.
     """
     cases, told, chosen = [], [], {}
@@ -73,7 +73,7 @@ def to_accuracy(mission: Any, model: Any) -> tuple[Any, list[str]]:
             told += [
                 f"{mission.parts[case.part].name}: {FIGURES[name][0]}: {why}" for name, why in reached.missed.items()
             ]
-            case = replace(case, scene=replace(plain, tolerance=reached.tolerance))
+            case = replace(case, scene=with_settings(plain, reached.settings))
             chosen[case.part] = case.scene
         cases.append(case)
     if not chosen:

@@ -1,18 +1,21 @@
 """How far a run's statistics are from converged ones: the error of the step, and the scatter of the seeds.
 
-From n runs x of the default tolerance with different seeds, and m finer runs y on the first m seeds.  Finer is the first tenth of the
-tolerance whose run takes FINE_STEPS times the steps: where something else limits the step, the next tenth is tried.
+From n runs x of the default with different seeds, and m finer runs y on the first m seeds.  Where the tolerance limits the steps, which
+shows in steps that failed the error test, finer is a tenth of it.  Elsewhere finer are equal steps (solver.method = fixed), sqrt(3) times
+shorter than they are on average: an error of second order falls to a third.
 
     V      variance of a run about the long run, of the seeds or of the blocks of a run (spread_of)
     b      mean of y - x, the numerical bias of x with the opposite sign; s_b its standard error
     w      tau^2/(tau^2 + s_b^2), tau^2 the larger of PRIOR^2 and b^2 - s_b^2: the share of b that is no scatter
     value  mean x + w b
-    seeds  t [var(mean x + w b) + C]^(1/2)               C: common to all seeds, where they fall on one motion
-    numerical  [z^2 (1 - w)^2 tau^2 + (w b/2)^2]^(1/2)   what b leaves open, and the bound of the finer run's own error; RESOLUTION at least
+    seeds  t [var(mean x + w b) + C]^(1/2)             C: common to all seeds, where they fall on one motion
+    numerical  [z^2 (1 - w)^2 tau^2 + (w b)^2]^(1/2)   what b leaves open, and the bound of the finer run's own error; RESOLUTION at least
 
-PRIOR is the standard deviation of the default's bias in the scenes of benchmarks/blind.py, known before any finer run.  The error of
-a run falls by three at least with a tenth of the tolerance, so that the finer run still has half of b.  Both half-widths add as the
-root of their squares.  benchmarks/coverage.py measures how often the interval holds a reference.
+PRIOR is the standard deviation of the default's bias in the scenes of benchmarks/blind.py, known before any finer run.  The finer run's
+own error is at most b if it is at most half of the plain run's: an order of 1.3.  Both half-widths add as the root of their squares.
+t has fewer degrees of freedom where the seeds' scatter has heavy tails: the variance of a sample variance is
+V^2 [2/(n-1) + K/n] with the excess kurtosis K, that of 2/[2/(n-1) + K/n] degrees of freedom of a normal law.
+benchmarks/coverage.py measures how often the interval holds a reference.
 """
 
 from __future__ import annotations
@@ -25,6 +28,7 @@ import numpy as np
 
 from ..base.errors import UserError
 from .runner import simulate
+from .seeds import seeded
 from .summary import columns, has_statistics, settled
 
 if TYPE_CHECKING:
@@ -49,7 +53,13 @@ PRIOR = {
     "pocket_force": 0.039,
     "damage": 0.09,
 }  # of 102 scenes: their 95 % quantiles over 1.96
-FINER, FINE_STEPS, FINEST = 0.1, 1.5, 1e-6  # of the tolerance, times the steps, and the least tolerance
+KURTOSIS = {
+    DECADES: 2.3
+}  # excess, of 24 seeds: mean of 38 scenes of benchmarks/coverage.py; the other figures are pooled with blocks
+FINER, FINE_STEPS = 0.1, 1.05  # of the tolerance, and the least number of steps that it then takes over that before
+SHORTER, SHORTEST = math.sqrt(3.0), 3  # of equal steps, times SHORTER
+FEW = 1e-3  # share of steps that may fail the error test where the tolerance does not limit them
+FINEST = 1e-5  # tolerance; below, other limits act
 RESOLUTION = 1e-3  # of a value, or decades: less is never told
 BLOCKS = 4  # of a run
 CONFIDENCE = 0.9
@@ -59,12 +69,13 @@ ONE_MOTION = 0.1  # variance of the seeds over that of the blocks, below which a
 
 @dataclass(frozen=True)
 class Sample:
-    """Figures of one run, the variance of each by its blocks, and its processor time [s]."""
+    """Figures of one run, the variance of each by its blocks, its processor time [s], steps, and the share that failed the error test."""
 
     values: dict
     blocks: dict
     cost: float
     steps: float = 0.0
+    failed: float = 0.0
     result: Any = field(default=None, repr=False)
 
 
@@ -101,25 +112,16 @@ class Found:
 
 def tolerance_of(model: Model, scene: Scene) -> float:
     """The tolerance at which a scene runs."""
-    given = scene.tolerance or scene.parameters.get("solver.tol")
-    return float(given or model.default(model.parameters["solver.tol"]))
+    return float(scene.tolerance or scene.value("solver.tol", model))
 
 
-def sample(
-    model: Model, scene: Scene, seed: int | None = None, tolerance: float | None = None, whole: bool = False
-) -> Sample:
-    """The Sample of a scene with a start seed and a tolerance, None for its own; UserError where it has no statistics.
-
-    whole: with the Result and all outputs of the scene.
-    """
-    parameters = dict(scene.parameters) | ({} if seed is None else {"start.seed": seed})
+def sample(model: Model, scene: Scene, whole: bool = False) -> Sample:
+    """The Sample of a scene; UserError where it has no statistics.  whole: with the Result and all outputs of the scene."""
+    parameters = dict(scene.parameters)
     if parameters.get("scene.stress", "peak") == "peak":
         parameters["scene.stress"] = "fatigue"  # counts damage, and leaves the motion as it is
     outputs = tuple(dict.fromkeys([*scene.outputs, *CHANNELS])) if whole else CHANNELS
-    changes: dict[str, Any] = {"parameters": parameters, "outputs": outputs}
-    result = simulate(
-        model, replace(scene, accuracy=None, **changes | ({} if tolerance is None else {"tolerance": tolerance}))
-    )
+    result = simulate(model, replace(scene, accuracy=None, parameters=parameters, outputs=outputs))
     found = sample_of(result, scene.name)
     return found if whole else replace(found, result=None)
 
@@ -143,9 +145,15 @@ def sample_of(result: Result, name: str = "the run", damage: float | None = None
         values,
         {name: blocks[name] for name in values if name in blocks},
         float(summary["cpu_time"]),
-        float(summary["solver.steps"]),
+        *steps_of(summary),
         result,
     )
+
+
+def steps_of(summary: Any) -> tuple[float, float]:
+    """Steps of a run, and the share that failed the error test."""
+    steps = float(summary["solver.steps"])
+    return steps, float(summary["solver.error_tests_failed"]) / max(steps, 1.0)
 
 
 def block_variances(result: Result, values: dict[str, float]) -> dict[str, float]:
@@ -177,8 +185,9 @@ def block_variances(result: Result, values: dict[str, float]) -> dict[str, float
 # Several runs ---------------------------------------------------------------------------------------------------------
 
 
-def spread_of(values: Any, blocks: Any) -> tuple[float, float, float]:
-    """Variance of a run about the long run, its degrees of freedom, and the part of it that is common to all seeds.
+def spread_of(values: Any, blocks: Any, kurtosis: float = 0.0) -> tuple[float, float, float]:
+    """Variance of a run about the long run, its degrees of freedom, and the part of it that is common to all seeds; kurtosis: excess of
+    the seeds' scatter.
 
     Seeds and blocks tell the same where both are chance: then both count.  Seeds that scatter more have come to several
     motions; seeds that scatter less fall on one motion, whose change from block to block no seed shows.
@@ -186,9 +195,9 @@ def spread_of(values: Any, blocks: Any) -> tuple[float, float, float]:
     from scipy import stats  # the extra full has it, an installation to simulate not
 
     n, own = len(values), float(np.var(values, ddof=1)) if len(values) > 1 else 0.0
-    within = float(np.mean(blocks)) if len(blocks) else 0.0
+    within, of_seeds = float(np.mean(blocks)) if len(blocks) else 0.0, 2.0 / (2.0 / max(n - 1, 1) + kurtosis / n)
     if not len(blocks) or within <= 0.0:
-        return own, max(n - 1, 1), 0.0
+        return own, of_seeds, 0.0
     freedom = n * (BLOCKS - 1)
     if n < 2:
         return within, freedom, 0.0
@@ -197,7 +206,7 @@ def spread_of(values: Any, blocks: Any) -> tuple[float, float, float]:
     if ratio < min(low, ONE_MOTION):
         return own, BLOCKS - 1, within - own
     if not low < ratio < high:
-        return own, n - 1, 0.0
+        return own, of_seeds, 0.0
     return ((n - 1) * own + freedom * within) / (n - 1 + freedom), n - 1 + freedom, 0.0
 
 
@@ -210,7 +219,7 @@ def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confiden
     x, y = np.asarray(plain, float), np.asarray(fine, float)
     n, m, mean = len(x), len(y), float(np.mean(plain))
     size = 1.0 if figure == DECADES else abs(mean)
-    V, freedom, common = spread_of(x, blocks)
+    V, freedom, common = spread_of(x, blocks, KURTOSIS.get(figure, 0.0))
     t, z = stats.t.ppf(0.5 + 0.5 * confidence, freedom), stats.norm.ppf(0.5 + 0.5 * confidence)
     tau, one = PRIOR[figure] * size, bool(common > 0.0)
     if not m:
@@ -223,7 +232,7 @@ def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confiden
     tau2 = max(tau**2, b**2 - s2)
     w = tau2 / (tau2 + s2) if s2 > 0.0 else 1.0
     variance = max(V / n + w**2 * s2 + 2.0 * w * shared / n, 0.0) + common
-    left = max(math.hypot(float(z) * (1.0 - w) * math.sqrt(tau2), 0.5 * w * b), RESOLUTION * size)
+    left = max(math.hypot(float(z) * (1.0 - w) * math.sqrt(tau2), w * b), RESOLUTION * size)
     return Found(mean + w * b, mean, w * b, float(t) * math.sqrt(variance), left, one, (n, m))
 
 
@@ -245,21 +254,22 @@ def found_in(plain: Any, fine: Any = (), confidence: float = CONFIDENCE) -> dict
 # To an accuracy -------------------------------------------------------------------------------------------------------
 
 SURE = 0.95  # confidence of an accuracy that is reached
-LEVELS = 3  # of the tolerance, each a tenth of the one before it
+LEVELS = 3  # of the steps, each finer than the one before it
 WITHIN = 600.0  # s of processor time, unless more is allowed
 GROWTH = 2.0  # of the runs in a round
 ENOUGH = 4  # runs from which on their scatter is believed
-FALLS = 0.5  # largest share of a bias that a tenth of the tolerance may leave, else it does not fall
+FALLS = 0.8  # largest share of a bias that shorter steps may leave, else it does not fall
 
 
 @dataclass(frozen=True)
 class Reached:
-    """What an accuracy took: the tolerance of its runs, their Found by figure, why a figure is not within it, the plain run, the
-    Result and Samples (plain, finer) at that tolerance, and the processor time [s].
+    """What an accuracy took: the parameters of its steps and their mean length [s], the runs' Found by figure, why a figure is not within
+    it, the plain run, the Result and Samples (plain, finer) with these steps, and the processor time [s].
     """
 
     target: float
-    tolerance: float
+    settings: dict
+    step: float
     found: dict
     missed: dict
     plain: Sample
@@ -277,7 +287,8 @@ class Reached:
         return {
             "target": self.target,
             "confidence": SURE,
-            "tolerance": self.tolerance,
+            "settings": self.settings,
+            "step": self.step,
             "cost": self.cost,
             "figures": {
                 name: each.record() | {"plain_run": self.plain.values[name]} for name, each in self.found.items()
@@ -287,46 +298,68 @@ class Reached:
 
 
 class Runs:
-    """Samples of a scene by seed and level of the tolerance, simulated when they are asked for."""
+    """Samples of a scene by seed and level of the steps, simulated when they are asked for."""
 
     def __init__(self, model, scene, progress):
-        self.model, self.scene, self.progress = model, scene, progress
-        self.tolerances = [tolerance_of(model, scene)]
-        self.first = int(scene.parameters.get("start.seed", model.default(model.parameters["start.seed"])))
+        self.model, self.progress, self.scenes, self.settings = model, progress, [scene], [{}]
+        self.first = int(scene.value("start.seed", model))
         self.done, self.seconds = {}, 0.0
 
     def __call__(self, level, count):
         """The first samples of a level."""
         for s in range(count):
-            tolerance = self.tolerance(level)
+            scene = self.scene(level)
             if (level, s) not in self.done:
-                self.done[level, s] = self.run(s, tolerance)
+                self.done[level, s] = self.run(scene, s)
         return [self.done[level, s] for s in range(count)]
 
-    def tolerance(self, level):
-        """The tolerance of a level; the first run with a finer one shows whether it is."""
-        while len(self.tolerances) <= level:
-            above, tolerance = len(self.tolerances) - 1, self.tolerances[-1]
-            steps = self(above, 1)[0].steps
-            while tolerance > 2.0 * FINEST:  # rounding
-                tolerance *= FINER
-                self.done[above + 1, 0] = self.run(0, tolerance)
-                if self.done[above + 1, 0].steps >= FINE_STEPS * steps:
-                    break
-            self.tolerances.append(tolerance)
-        return self.tolerances[level]
+    def scene(self, level):
+        """The scene with the steps of a level: the first finer ones that prove to be finer."""
+        while len(self.scenes) <= level:
+            above = self(len(self.scenes) - 1, 1)[0]
+            settings, found = finer_settings(
+                self.model,
+                self.scenes[-1],
+                above,
+                lambda settings: self.run(with_settings(self.scenes[0], settings), 0),
+            )
+            self.done[len(self.scenes), 0] = found
+            self.scenes.append(with_settings(self.scenes[0], settings))
+            self.settings.append(settings)
+        return self.scenes[level]
 
-    def run(self, s, tolerance):
-        """The Sample of a seed at a tolerance, that of the first seed with its Result; its processor time counts."""
-        found = sample(self.model, self.scene, self.first + s, tolerance, s == 0)
+    def run(self, scene, s):
+        """The Sample of a scene with a seed, that of the first seed with its Result; its processor time counts."""
+        found = sample(self.model, seeded(scene, self.model, self.first, s), s == 0)
         self.seconds += found.cost
         self.progress(len(self.done) + 1)
         return found
 
 
-def finer_tolerance(model: Model, scene: Scene) -> float:
-    """The tolerance of a scene's finer runs."""
-    return Runs(model, scene, lambda runs: None).tolerance(1)
+def with_settings(scene: Scene, settings: dict[str, Any]) -> Scene:
+    """A scene with other steps."""
+    return replace(scene, tolerance=None, parameters=scene.parameters | settings) if settings else scene
+
+
+def finer_settings(model: Model, scene: Scene, above: Sample, run: Any) -> tuple[dict[str, Any], Sample]:
+    """The parameters of the first steps that prove to be finer than those of the scene, and the Sample run(parameters) with them; above:
+    the scene's own Sample.
+    """
+    for settings in shorter_steps(model, scene, above):
+        found = run(settings)
+        limited = found.failed > max(above.failed, FEW)
+        if found.steps >= FINE_STEPS * above.steps and not ("solver.step" in settings and limited):
+            break
+    return settings, found
+
+
+def shorter_steps(model, scene, above):
+    """Parameters with which steps may be shorter than those of a scene's Sample."""
+    tolerance = tolerance_of(model, scene)
+    if above.failed > FEW and tolerance * FINER >= FINEST:
+        yield {"solver.tol": tolerance * FINER}
+    for shorter in range(1, SHORTEST + 1):
+        yield {"solver.method": "fixed", "solver.step": scene.t_end / above.steps / SHORTER**shorter}
 
 
 def accurate(
@@ -335,7 +368,7 @@ def accurate(
     """Run a scene until its NAMED figures are within `target` of their values, or until more runs do not help; UserError where it
     would take longer than `within` [s of processor time].
 
-    Two runs and a finer one, then more of both, or a finer tolerance where the bias decides.
+    Two runs and a finer one, then more of both, or shorter steps where the bias decides.
     """
     runs, level, n, m, before = Runs(model, scene, progress), 0, 2, 1, {}
     while True:
@@ -363,13 +396,21 @@ def accurate(
         n = int(max(n + 1, min(math.ceil(needed), GROWTH * n)))
         m = (n + 1) // 2
     return Reached(
-        target, runs.tolerance(level), found, missed, runs(0, 1)[0], plain[0].result, (plain, fine), runs.seconds
+        target,
+        runs.settings[level],
+        scene.t_end / plain[0].steps,
+        found,
+        missed,
+        runs(0, 1)[0],
+        plain[0].result,
+        (plain, fine),
+        runs.seconds,
     )
 
 
 def of_bias(each):
     """The part of a half-width that the finer run's own error makes, which no seeds reduce."""
-    return 0.5 * abs(each.shift)
+    return abs(each.shift)
 
 
 def is_bias(each):
@@ -392,11 +433,11 @@ def reachable(each, target, needed, runs):
 def no_way(each, target, before, level):
     """Why no further runs bring a figure within the target, "" if they may."""
     share = 100.0 / abs(each.value)
-    if each.one_motion and each.runs[0] >= ENOUGH and each.seeds > target * abs(each.value):
+    if each.one_motion and each.seeds > target * abs(each.value):
         return f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
     if is_bias(each) and of_bias(each) > target * abs(each.value):
         if before and abs(each.shift) > FALLS * abs(before):
-            return f"its bias of {share * abs(before):.2g} % does not fall with the tolerance: {share * abs(each.shift):.2g} % is left at a tenth of it"
+            return f"its bias of {share * abs(before):.2g} % does not fall with the step: {share * abs(each.shift):.2g} % is left at shorter ones"
         if level + 1 >= LEVELS:
-            return f"its bias is still {share * abs(each.shift):.2g} % at the finest tolerance"
+            return f"its bias is still {share * abs(each.shift):.2g} % with the shortest steps"
     return ""

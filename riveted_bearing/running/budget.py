@@ -3,7 +3,7 @@
     numerical      bias of the default tolerance, from finer runs on common seeds (accuracy.py)
     seeds          interval of the runs (accuracy.py; of a life: duty/confidence.py)
     rivet table    error of this FMU's table at loads that did not make it; of half and joints in other bearings (docs/rivet.md)
-    assumed        effect of each assumed value over its range in this bearing (screening.py)
+    assumed        effect of each assumed value over its range in this bearing (screening.py), of a given one over the drawing's
     model          a fixed list with what docs/validation.md knows; most of it has no size and is not added
 
 A part is the distance of the truth from the number: a shift, and half-widths below and above.  Parts are taken as independent:
@@ -21,8 +21,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..base.errors import UserError
 from ..base.units import certain, figure, with_error
-from ..bearing.assumed import Assumed, all_assumed
+from ..bearing.assumed import YOURS, Assumed, all_assumed
 from .accuracy import CONFIDENCE, DECADES, FIGURES, PRIOR, WITHIN, Found, Runs, accurate, found_in, sample_of
+from .seeds import PULSES
 from .summary import TABLE_TITLE, Row
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ MODEL = (
 )
 DIGITS = ((0.2, 1), (0.02, 2))  # half-width in decades from which on a life has so few digits
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
+ASSUMED = "assumed"  # begins the source of such a part
 SHOWN = 6  # parts in a line of text
 JUDGED = ("stress", DECADES)
 CHECKS = (4, 2)  # runs and finer runs of a check
@@ -150,7 +152,7 @@ def budget_of(
     value = found.plain
     size = 1.0 if figure == DECADES else abs(value)
     swing = PRIOR[DECADES] / PRIOR["stress"] if figure == DECADES else 1.0  # decades of damage per relative stress
-    parts = [*numerical_parts(figure, found), *table_parts(about, summary, size, swing, figure, value)]
+    parts = [*numerical_parts(figure, found, parameters), *table_parts(about, summary, size, swing, figure, value)]
     parts += [part for row in rows if (part := assumed_part(row, figure, size))]
     unsized = [(row.name, row.unknown) for row in rows if row.effect is None]
     if parameters.get("scene.cage") == "two_half":
@@ -160,12 +162,14 @@ def budget_of(
     return Budget(figure, value, tuple(ranked), (*unsized, *MODEL))
 
 
-def numerical_parts(figure, found):
-    """Error of the step and of the seeds."""
+def numerical_parts(figure, found, parameters):
+    """Error of the step and of the seeds; parameters: of the run."""
     n, m = found.runs
     source = f"{m} runs of finer steps on common seeds" if m else "no finer run: 102 scenes of benchmarks/blind.py"
     yield Part("numerical", found.shift, found.numerical, found.numerical, source)
     runs = f"{n} seeds" if n > 1 else "blocks of one run"
+    if n > 1 and any(parameters.get(name) for name in PULSES):
+        runs += ", each with another phase of the pulses"
     if found.one_motion:
         runs += ", which all fall on one motion: the scatter of its blocks counts, which more seeds do not reduce"
     yield Part("seeds", 0.0, found.seeds, found.seeds, runs)
@@ -191,7 +195,7 @@ def table_parts(about, summary, size, swing, figure, value):
 
 
 def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
-    """The part of an assumed value, None if its effect on the figure is not measured.
+    """The part of a value with a range, None if its effect on the figure is not measured.
 
     An effect's variance is taken from its square, so that many values without effect do not add up.
     """
@@ -199,15 +203,17 @@ def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
         return None
     ends = [math.copysign(math.sqrt(max(0.0, e**2 - se**2)), e) for e, se in row.effect[figure]]
     below, above = max(0.0, -min(ends)), max(0.0, *ends)
-    return Part(row.name, 0.0, size * below, size * above, f"assumed, {row.words[1]}")
+    return Part(
+        row.name, 0.0, size * below, size * above, f"{YOURS if row.source == YOURS else ASSUMED}, {row.words[1]}"
+    )
 
 
 def computed_share(result: Result) -> float:
-    """Half-width of the stress over the stress by what computes it: all parts but the assumed values."""
+    """Half-width of the stress over the stress by what computes it: all parts but those of values with ranges."""
     budget = of_result(result).get("stress")
     if budget is None or not budget.value:
         return 0.0
-    parts = [part for part in budget.parts if not part.source.startswith("assumed")]
+    parts = [part for part in budget.parts if not part.source.startswith((ASSUMED, YOURS))]
     return math.sqrt(sum((0.5 * (part.below + part.above)) ** 2 for part in parts)) / abs(budget.value)
 
 

@@ -1,7 +1,8 @@
 """Settings without effect: what a scene sets otherwise than its FMU and yet leaves every figure of a command as it was.
 
 Runs are the same to the last bit where nothing acts.  So a value acts if the FMU's own value in its place gives other bits:
-most values do in the first steps, others once damage and statistics count, and the rest is tried over the whole run.
+most values do in the first steps, others once damage and statistics count or an input changes; the rest is tried over the
+whole run.
 """
 
 from dataclasses import replace
@@ -16,7 +17,7 @@ from .runner import simulate
 from .scene import ALWAYS, Scene
 
 FIRST = 5  # communication steps
-COUNTED = 0.01  # s after start.settle
+COUNTED = 0.01  # s after start.settle, and after the first point of an input
 LONGEST = 30.0  # s of computing that whole runs may take
 TIMES = ("solver.", "simulated_time", "cpu_time", "wall_time", "real_time_factor")  # of a summary: how, not what
 
@@ -51,11 +52,13 @@ def without_effect(
     figures(result): what counts of a run, {name: array}; prepared(scene): what the command runs of it; whole: figures of the whole
     run, if they are known; cost: of a whole run [s].
     """
-    settle = scene.value("start.settle", model)
-    for length in (FIRST * scene.step, settle + COUNTED, scene.t_end):
+    begins = [scene.value("start.settle", model)]
+    begins += [float(scene.inputs[name].t[0]) for name in names if name in scene.inputs]
+    counted = max(begins) + COUNTED
+    for length in (FIRST * scene.step, counted, scene.t_end):
         end = min(length, scene.t_end)
         if length == scene.t_end and len(names) * cost > LONGEST:
-            return list(names), settle + COUNTED
+            return list(names), counted
 
         def run(one, end=end):
             return figures(simulate(model, replace(prepared(one), t_end=end)))

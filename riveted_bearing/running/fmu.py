@@ -155,6 +155,11 @@ class Model:
         return {name: float(note["value"]) for name, note in self.noted.items() if "value" in note}
 
     @functools.cached_property
+    def ranges(self):
+        """(lowest, highest) of what the drawing allows of a value, SI, by the names of a bearing file."""
+        return {name: (float(note["low"]), float(note["high"])) for name, note in self.noted.items() if "low" in note}
+
+    @functools.cached_property
     def cage_modes(self):
         """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg];
         None if the FMU does not list them.
@@ -303,14 +308,15 @@ class Instance:
 
     def parameters(self):
         """All parameters as the FMU has them: SI value or item name by full name."""
-        values = {}
-        for name, variable in self.model.parameters.items():
-            if variable.type == "Real":
-                values[name] = self.fmu.getReal([variable.valueReference])[0]
-            else:
-                value = self.fmu.getInteger([variable.valueReference])[0]
-                values[name] = item_name(variable, value) if variable.type == "Enumeration" else value
-        return values
+        reals, others = [], []
+        for variable in self.model.parameters.values():
+            (reals if variable.type == "Real" else others).append(variable)
+        numbers = self.fmu.getReal([variable.valueReference for variable in reals])
+        items = self.fmu.getInteger([variable.valueReference for variable in others])
+        found = {variable.name: number for variable, number in zip(reals, numbers)}
+        for variable, code in zip(others, items):
+            found[variable.name] = item_name(variable, code) if variable.type == "Enumeration" else code
+        return {name: found[name] for name in self.model.parameters}
 
     def read(self, names):
         """Present values of the named outputs."""

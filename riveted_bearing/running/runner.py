@@ -32,7 +32,7 @@ def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
     """
     if scene.accuracy is not None:
         raise UserError(
-            f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose tolerance and seeds by it; here both are given"
+            f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose steps and seeds by it; here both are given"
         )
     with held_interrupts() as interrupts, Instance(model) as instance:
         instance.initialize(scene)
@@ -211,6 +211,7 @@ def origin_of(model: Model, scene: Scene) -> dict[str, Any]:
         "ruled": sorted(ruled_names(model)),
         "example": is_example(model),
         "screening": known(model) or {},
+        "ranges": {name: ends for name, ends in model.ranges.items() if name not in {*scene.parameters, *scene.inputs}},
         "temperatures": {name: float(values(model, [scene], name).mean()) for name in TEMPERATURES},
         "rivet": model.rivet,
         "not_given": not_given(

@@ -39,7 +39,7 @@ class Scene:
     step: float = 1e-4
     output_interval: float | None = None
     tolerance: float | None = None
-    accuracy: float | None = None  # what tolerance and seeds are chosen for
+    accuracy: float | None = None  # what steps and seeds are chosen for
     outputs: tuple = ()
     parameters: dict = field(default_factory=dict)
     inputs: dict = field(default_factory=dict)

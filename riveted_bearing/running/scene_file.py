@@ -27,7 +27,7 @@ class Simulation(Section):
         None, description="a multiple of step; *_peak channels keep the largest value in between; default: step"
     )
     accuracy: Annotated[float | None, Number({"1": (1.0, 0.0), "%": (100.0, 0.0)}, above=0.0, below=0.5)] = Field(
-        None, description="of mean and 99.9 % stress and RMS pocket force: `run` and `life` choose tolerance and seeds"
+        None, description="of mean and 99.9 % stress and RMS pocket force: `run` and `life` choose steps and seeds"
     )
     tolerance: Annotated[float | None, Number(above=0.0)] = Field(None, description="default: solver.tol")
     outputs: Annotated[list[str], BeforeValidator(patterns)] = Field([], description="names or patterns; default: all")

@@ -1,6 +1,7 @@
 """What decides the stress of the bearing at hand: each assumed value at both ends of its range, the others as they are.
 
-One at a time, with common seeds, at the FMU's own loads and speed; temperatures are among the values, and ranges that a study gives.
+One at a time, with common seeds, at the FMU's own loads and speed; temperatures are among the values, and given ones with ranges of
+the bearing's file (what the drawing allows) or of a study.  What shapes the FMU's stress table is named as not covered.
 Effects are relative changes of the stress, and decades of the damage.
 """
 
@@ -23,14 +24,16 @@ from ..bearing.assumed import (
     given_names,
     is_example,
     is_of_build,
+    own_ranges,
     ranges_of,
 )
-from ..bearing.oil import PARTS_TEMPERATURES
+from ..bearing.oil import ALL_TEMPERATURES
 from .accuracy import CHANNELS, DECADES, sample
 from .basis import values
 from .inputs import History
 from .scene import load_scene
 from .screening import VERSION, keep, known
+from .seeds import seeded
 
 if TYPE_CHECKING:
     from .fmu import Model
@@ -43,15 +46,14 @@ OF_BUILD = "part of the FMU's stress table, so that another value needs an FMU o
 
 
 def screened(model: Model, say: Any = lambda done, total: None, further: Any = None) -> dict[str, Any]:
-    """The record of an FMU's screening, measured and kept if there is none; further: ranges of the user's own, {name:
-    (low, high)}, which are measured if the record has others.
+    """The record of an FMU's screening, measured and kept if there is none; further: ranges of a study, {name: (low, high)}, which are
+    measured if the record has others.
     """
-    record = known(model) or {"entries": {}}
-    further = {name: [float(end) for end in ends] for name, ends in (further or {}).items()}
-    kept = {n: [e["low"], e["high"]] for n, e in record["entries"].items() if e["source"] == YOURS}
-    if record["entries"] and all(kept.get(name) == ends for name, ends in further.items()):
+    record = known(model) or {}
+    further, own = further or {}, own_ranges(model.ranges, record)
+    if record and all(own.get(name) == ends for name, ends in further.items()):
         return record
-    return keep(model, measured(model, say, kept | further))
+    return keep(model, measured(model, say, own | further))
 
 
 # The runs -------------------------------------------------------------------------------------------------------------
@@ -67,48 +69,41 @@ def base_scene(model):
 def changed_scenes(model, scene, further):
     """{name: (low, high, source, scene at the low end, scene at the high end)} of all that a run can set."""
     everything = {name: model.default(variable) for name, variable in model.parameters.items()}
-    sources = ranges_of(given_names(model), is_example(model), everything)
-    found = {name: (*ends, sources[name].source) for name, ends in assumed_ranges(model).items()}
-    found |= {name: (*ends, YOURS) for name, ends in further.items()}
-    scenes = {}
-    for name, (low, high, source) in found.items():
-        at = (replace(scene, parameters=scene.parameters | {name: end}) for end in (low, high))
-        scenes[name] = (low, high, source, *at)
     given = given_names(model)
-    oil = {name: float(values(model, [scene], name).mean()) for name in ("oil.T", *PARTS_TEMPERATURES)}
+    sources = ranges_of(given, is_example(model), everything)
+    found = {name: (*ends, sources[name].source) for name, ends in assumed_ranges(model).items()}
+    T = {name: float(values(model, [scene], name).mean()) for name in ALL_TEMPERATURES}
     for name, (below, above, source) in TEMPERATURES.items():
-        if name in given:
-            continue
-        low, high = min(oil[name], oil["oil.T"] + below), max(oil[name], oil["oil.T"] + above)
-        moved = [n for n in oil if n == name or (name == "oil.T" and n not in given)]
-        at = (
-            replace(
-                scene,
-                inputs=scene.inputs | {n: History(np.zeros(1), np.array([oil[n] + end - oil[name]])) for n in moved},
-            )
-            for end in (low, high)
-        )
-        scenes[name] = (low, high, source, *at)
-    return scenes
+        if name not in given:
+            found[name] = min(T[name], T["oil.T"] + below), max(T[name], T["oil.T"] + above), source
+    found |= {name: (*ends, YOURS) for name, ends in further.items() if not is_of_build(name)}
+
+    def at(name, end):
+        if name not in T:
+            return replace(scene, parameters=scene.parameters | {name: end})
+        moved = {n: T[n] + end - T[name] for n in T if n == name or (name == "oil.T" and n not in given)}
+        return replace(scene, inputs=scene.inputs | {n: History(np.zeros(1), np.array([x])) for n, x in moved.items()})
+
+    return {name: (low, high, source, at(name, low), at(name, high)) for name, (low, high, source) in found.items()}
 
 
 def measured(model, say, further):
     """The record of a screening."""
     begun, scene = time.perf_counter(), base_scene(model)
     scenes = changed_scenes(model, scene, further)
-    base = [sample(model, scene, seed) for seed in range(1, SEEDS + 1)]
+    base = [sample(model, seeded(scene, model, 1, s)) for s in range(SEEDS)]
     entries, not_covered = {}, {}
     for done, (name, (low, high, source, *at)) in enumerate(scenes.items()):
         say(done, len(scenes))
         try:
-            ends = [[sample(model, one, seed) for seed in range(1, SEEDS + 1)] for one in at]
+            ends = [[sample(model, seeded(one, model, 1, s)) for s in range(SEEDS)] for one in at]
         except UserError as problem:
             not_covered[name] = f"no run at an end of its range: {problem}"
             continue
         effect = {f: [change(f, base, end) for end in ends] for f in SCREENED if all(has(f, e) for e in (base, *ends))}
         entries[name] = {"low": low, "high": high, "source": source, "effect": effect}
     everything = {name: model.default(variable) for name, variable in model.parameters.items()}
-    needed = ranges_of(given_names(model), is_example(model), everything)
+    needed = [*ranges_of(given_names(model), is_example(model), everything), *further]
     return {
         "version": VERSION,
         "fmu_sha256": model.digest,

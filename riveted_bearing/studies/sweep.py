@@ -50,16 +50,22 @@ from ..running.basis import basis
 from ..running.fmu import Model
 from ..running.runner import closing_names, simulate
 from ..running.summary import has_statistics, settled
-from .rows import Store, columns_of
+from .rows import Store, of_keys
 from .sweep_file import ROW_VERSION, Sweep
 
-KINDS = {
-    "mean": np.mean,
-    "rms": lambda x: np.sqrt(np.mean(x**2)),
-    "min": np.min,
-    "max": np.max,
-    "p001": lambda x: np.quantile(x, 0.001),
-    "p999": lambda x: np.quantile(x, 0.999),
+KINDS = {  # of each row
+    "mean": lambda x: np.mean(x, axis=1),
+    "rms": lambda x: np.sqrt(np.mean(x**2, axis=1)),
+    "min": lambda x: np.min(x, axis=1),
+    "max": lambda x: np.max(x, axis=1),
+    "p001": lambda x: np.quantile(x, 0.001, axis=1),
+    "p999": lambda x: np.quantile(x, 0.999, axis=1),
+}
+CONFIG = {  # of Dask
+    "distributed.admin.large-graph-warning-threshold": "64MB",  # the FMU travels inside the graph
+    "distributed.worker.profile.enabled": False,  # nobody looks at it, and samples take time from the runs
+    "distributed.admin.tick.interval": "1s",
+    "distributed.admin.system-monitor.interval": "10s",
 }
 
 
@@ -76,8 +82,12 @@ def perform(scene, fmu, measure=None):
     except UserError as problem:
         return {"status": "failed", "message": str(problem), "date": started}
     late = settled(result)
-    late_values = {name: result.data[name][late] for name in scene.outputs}
-    sampled = {f"{kind}({name})": float(of(x)) for name, x in late_values.items() for kind, of in KINDS.items()}
+    samples = np.array([result.data[name][late] for name in scene.outputs])
+    sampled = {
+        f"{kind}({name})": value
+        for kind, of in KINDS.items()
+        for name, value in zip(scene.outputs, of(samples).tolist(), strict=True)
+    }
     about = {"status": "stopped" if result.stopped else "done", "message": result.stopped, "date": started}
     about["whole_cpu_time"] = time.thread_time() - cpu
     summary = result.summary
@@ -90,15 +100,16 @@ def unpacked(fmu: bytes) -> Model:
     """The Model of an FMU given as bytes, kept as a file in the worker's own folder; one Model a process."""
     from distributed import get_worker
 
-    path = Path(get_worker().local_directory) / f"{hashlib.sha256(fmu).hexdigest()}.fmu"
-    if path not in MODELS:
+    place = get_worker().local_directory, fmu
+    if place not in MODELS:
+        path = Path(place[0]) / f"{hashlib.sha256(fmu).hexdigest()}.fmu"
         if not path.is_file():
             write_atomically(path, lambda temporary: temporary.write_bytes(fmu))
-        MODELS[path] = Model(path)
-    return MODELS[path]
+        MODELS[place] = Model(path)
+    return MODELS[place]
 
 
-MODELS = {}  # by path
+MODELS = {}  # by folder and bytes
 
 
 # What the driver does -------------------------------------------------------------------------------------------------
@@ -118,7 +129,7 @@ class cluster:
         import dask
         from distributed import Client, LocalCluster
 
-        dask.config.set({"distributed.admin.large-graph-warning-threshold": "64MB"})  # the FMU travels inside the graph
+        dask.config.set(CONFIG)
         # run_sweep says in one line what a lost scheduler means
         logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
         if self.address:
@@ -160,13 +171,8 @@ def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, key
             run_missing(sweep, store, client, progress or (lambda *_: None), list(dict.fromkeys(keys or sweep.scenes)))
         finally:
             with held_interrupts():
-                store.export(schema_of(sweep), sweep.scenes, sweep.grows)
-    rows = columns_of(folder)
-    if keys is None:
-        return rows
-    places = {key: i for i, key in enumerate(rows["key"])}
-    chosen = [places[key] for key in keys]
-    return {name: column[chosen] for name, column in rows.items()}
+                rows = store.export(schema_of(sweep), sweep.scenes, sweep.grows)
+    return rows if keys is None else of_keys(rows, keys)
 
 
 def run_missing(sweep, store, client, progress, keys):
