@@ -6,6 +6,7 @@ import base64
 import contextlib
 import json
 import sqlite3
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -141,7 +142,7 @@ def numbers(table):
     return {name: table[name].to_numpy() for name in table.column_names}
 
 
-def of_keys(rows, keys):
+def of_keys(rows: dict[str, np.ndarray], keys: Iterable[str]) -> dict[str, np.ndarray]:
     """The rows of the keys, in their order."""
     places = {key: i for i, key in enumerate(rows["key"])}
     chosen = [places[key] for key in keys]
