@@ -5,7 +5,7 @@ from typing import Any
 
 from .errors import UserError, unknown
 
-OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet")
+OF_BEARINGS = ("designation", "Z", "catalogue", "cage", "rings", "balls", "rivet", "between")
 KINDS = {  # keys that only such a file has, and the command that reads it
     "bearing file": (OF_BEARINGS, "riveted-bearing build --bearing {}"),
     "mission": (

@@ -48,7 +48,7 @@ from bearing_model.numbers.vec import vec, vec_across, vec_cross, vec_dot, vec_l
 from bearing_model.physics.hertz import hertz_damped
 from bearing_model.physics.traction import Q_FLOOR
 
-TIP = 1e-7  # least distance from an axis, which has no direction [m]
+TIP = 1e-7  # least distance from an axis; way over which both edges change places under a wide patch [m]
 SEAT = 5e-6  # way from the middle up to which a ball sits on the corners of both sides [m]
 BEND = 0.05  # angle on both sides of the fillet's seam over which a place begins to turn with the ball
 LEAST = 1e-12  # load of a pocket that counts as touched [N]
@@ -59,11 +59,11 @@ SETTLED = 1e-12
 CORNER = 4.0  # largest ratio of a contact's approach to that of the sphere under its load, and the least one's inverse
 
 
-def sphere_side(at):
-    """A coordinate of q on either side of the middle, its size, a parabola up to SEAT, and the size's slope."""
-    far, slope = absolute(at), maximum(minimum(at / SEAT, 1.0), -1.0)
-    near = minimum(far, SEAT)
-    return at, far - near + 0.5 * (near * near / SEAT + SEAT), slope
+def sphere_side(at, seat):
+    """A coordinate of q on either side of the middle, its size, a parabola up to `seat`, and the size's slope."""
+    far, slope = absolute(at), maximum(minimum(at / seat, 1.0), -1.0)
+    near = minimum(far, seat)
+    return at, far - near + 0.5 * (near * near / seat + seat), slope
 
 
 def arc_reach(rim, u, v):
@@ -119,7 +119,7 @@ def rim_pair(f, edge):
 
 def spheres_nearest(d, x, r, t):
     """Approach of the nearest place of sphere and rims [m], by which no contact is missed; of a ball within the sphere, the sphere's."""
-    sides, R_r = sphere_side(t), sphere_side(r)
+    sides, R_r = sphere_side(t, SEAT), sphere_side(r, TIP)
     sphere = np.sqrt(x * x + r * r + t * t) - d.slack
     above = x * d.fillet.cos - np.sqrt(t * t + r * r) * d.fillet.sin
     below = np.sqrt(x * x + t * t) * d.edge.sin - R_r[1] * d.edge.cos
@@ -134,7 +134,7 @@ def spheres_contact(d, x, r, t):
     """Elastic contact of a ball whose centre is at q = (x, r, t) from the sphere's: energy V [J], load Q [N], direction n (x, r, t) into the
     wall, approach [m]; of a ball within the sphere, the sphere's.
     """
-    sides, (_, R_r, r_slope) = sphere_side(t), sphere_side(r)
+    sides, (_, R_r, r_slope) = sphere_side(t, SEAT), sphere_side(r, TIP)
 
     # sphere
     s = np.sqrt(x * x + r * r + t * t + 1e-30)
@@ -148,7 +148,7 @@ def spheres_contact(d, x, r, t):
     round_pole, round_r = np.sqrt(t * t + r * r + TIP**2), np.sqrt(x * x + t * t + TIP**2)
     in_f = (x * d.fillet.cos - round_pole * d.fillet.sin) / s
     in_e = (round_r * d.edge.sin - R_r * d.edge.cos) / s
-    g, g_t, g_r = arc_reach(d.fillet, sides, sphere_side(r))
+    g, g_t, g_r = arc_reach(d.fillet, sides, sphere_side(r, TIP))
     k, k_x, k_t = arc_reach(d.edge, (x, x, 1.0), sides)
     f, edge = rim_contact(d, d.fillet, g, x, in_f), rim_contact(d, d.edge, k, R_r, in_e)
     rims, fillet, by_f, by_e = rim_pair(f, edge)

@@ -20,7 +20,8 @@ void spheres_rigid(const Model *model, Work *w);
 #define spheres_elastic FOR_ISA(spheres_elastic)
 void spheres_elastic(const Model *model, Work *w);
 
-static const double TIP = 1e-7;  // least distance from an axis, which has no direction [m]
+static const double TIP =
+    1e-7;  // least distance from an axis; way over which both edges change places under a wide patch [m]
 static const double SEAT =
     5e-6;  // way from the middle up to which a ball sits on the corners of both sides [m]
 static const double BEND =
@@ -45,11 +46,11 @@ typedef struct {
     wide at, size, slope;
 } SphereSide;
 
-INLINE SphereSide sphere_side(wide at)
+INLINE SphereSide sphere_side(wide at, double seat)
 {
-    const wide far = wide_abs(at), near = wide_min(far, wide_set(SEAT));
-    const wide slope = wide_max(wide_min(at / SEAT, wide_set(1.0)), wide_set(-1.0));
-    return (SphereSide){at, (far - near) + 0.5 * (near * near / SEAT + SEAT), slope};
+    const wide far = wide_abs(at), near = wide_min(far, wide_set(seat));
+    const wide slope = wide_max(wide_min(at / seat, wide_set(1.0)), wide_set(-1.0));
+    return (SphereSide){at, (far - near) + 0.5 * (near * near / seat + seat), slope};
 }
 
 // Reach of (u, v) along a rim's arc, and its slopes along the coordinates u and v.
@@ -125,7 +126,7 @@ typedef struct {
 INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, wide *delta)
 {
     const wide x = gap->x, r = gap->r, t = gap->t, r_2 = r * r, t_2 = t * t;
-    const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r), T = sphere_side(t);
+    const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r, TIP), T = sphere_side(t, SEAT);
     const wide sphere = wide_sqrt(x * x + r_2 + t_2) - slack;
     const wide above = x * s->fillet.cosine - wide_sqrt(t_2 + r_2) * s->fillet.sine;
     const wide below = wide_sqrt(x * x + t_2) * s->edge.sine - R.size * s->edge.cosine;
@@ -141,7 +142,7 @@ INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, w
 
 INLINE SphereContact sphere_contact(const Spheres *s, wide slack, wide x, wide r, wide t)
 {
-    const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r), T = sphere_side(t);
+    const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r, TIP), T = sphere_side(t, SEAT);
     const wide r_2 = r * r, t_2 = t * t;
 
     // sphere
