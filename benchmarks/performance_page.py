@@ -19,7 +19,7 @@ from performance_pictures import (
     families_of,
     row_of,
 )
-from records import RESULTS, newest_if_any, newest_record
+from records import RESULTS, newest_if_any, newest_record, read_record
 
 PAGE = ROOT / "docs" / "performance.md"
 SHORT = {"demo": "working point", "slow": "4,000 r/min", "tilt": "tilt 0.5°", "impact": "impacts", "jam": "jam"}
@@ -125,6 +125,18 @@ def headline(data):
     ]
 
 
+def by_processor():
+    """Real-time factors of the record of each processor, the newest one first."""
+    records = sorted(map(read_record, RESULTS.glob("*/rtf.csv")), key=lambda record: record["date"], reverse=True)
+    return [
+        [re.sub(r"\(.*?\)| Processor", "", record["machine"]["processor"]), record["date"][:10]]
+        + [number(record["cages"]["elastic"][name]["rtf"]) for name in SHORT]
+        + [number(record["cages"]["two_half"]["demo"]["rtf"])]
+        for record in records
+        if "cages" in record
+    ]
+
+
 def costs(data):
     """Cost of every family at the default's error, over the default's."""
     scenes = data["scenes"]
@@ -151,6 +163,7 @@ def work_precision(data):
     default = data["default"]
     return {
         "headline": headline(data),
+        "by_processor": by_processor(),
         "method": default["family"].partition(", ")[2],
         "tolerance": default["tolerance"],
         "doubt": max(scene["states"]["reference_doubt"] for scene in data["scenes"].values()),
