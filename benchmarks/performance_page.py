@@ -133,7 +133,7 @@ def by_processor():
         + [number(record["cages"]["elastic"][name]["rtf"]) for name in SHORT]
         + [number(record["cages"]["two_half"]["demo"]["rtf"])]
         for record in records
-        if "cages" in record
+        if "family" in record["machine"]["processor"]
     ]
 
 
@@ -150,14 +150,6 @@ def costs(data):
     ]
 
 
-def python_costs(data):
-    """RTFs of SciPy's solvers on the Python twin, and the default's over the same horizon."""
-    scene = next(scene for scene in data["scenes"].values() if scene["states"]["python"])
-    rtf = {r["family"].removeprefix("Python "): r["rtf"] for r in scene["states"]["python"]}
-    ours = row_of(scene["states"]["python_ours"], **data["default"])
-    return {"names": list(rtf), "least": min(rtf.values()), "most": max(rtf.values()), "ours": number(ours["rtf"])}
-
-
 def work_precision(data):
     draw_work_precision(data)
     default = data["default"]
@@ -169,7 +161,6 @@ def work_precision(data):
         "doubt": max(scene["states"]["reference_doubt"] for scene in data["scenes"].values()),
         "names": [SHORT[name] for name in data["scenes"]],
         "costs": costs(data),
-        "python": python_costs(data),
     }
 
 
@@ -257,7 +248,6 @@ def scaling(data):
         "steps": steps,
         "horizons": list(data["horizon"]),
         "rtf": [q["rtf"] for q in quarters],
-        "memory": max(q["peak_memory_MB"] for q in quarters),
     }
 
 
