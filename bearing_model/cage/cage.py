@@ -237,7 +237,7 @@ def cage_part(memory):
 
 def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
-    their fastest vibration, of elastic halves five substeps, or the time 1/A that a film of the rate A allows which does
+    their fastest vibration, of elastic halves five substeps, of a ribbon four, or the time 1/A that a film of the rate A allows which does
     not follow in the substeps, or one in a pocket, or that of a stiff gap, but two substeps at least, one for pockets where lands guide
     the cage.  Slow halves have a part of it.
     """

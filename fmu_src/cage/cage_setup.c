@@ -70,11 +70,11 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
                       across * fmax(1.0 / p->cage.m, r * r / d->J_p));
 }
 
-// Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so
-// that it has five substeps at most, of a ribbon four.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
-// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step from those
-// substeps to one.  Films leave two substeps, which are always stable, or more: of the rate A that the substeps leave out 1/A; in pockets
-// too, or one substep where lands guide the cage, whose loss would err by 5 to 11 %; on bent rims STIFF_GAP.
+// Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so that it has five
+// substeps at most, of a ribbon four.  A slow cage has many steps in a turn, and the vibrations that remain shake it; and its own speed is
+// of the order of the tolerance's scale.  So below SLOW the tolerance falls in proportion to its speed, and the longest step falls to one
+// substep.  Films leave two substeps, which are always stable, or more: films of the rate A that the substeps leave out 1/A; films in
+// pockets 1/A too, or one substep where lands guide the cage, whose loss would err by 5 to 11 %; films on bent rims STIFF_GAP.
 //
 // A gap of the stiffness k, 3e8 N/m at 0.3 degrees of tilt and 1e6 at most without, is a slow force: the substeps follow the rim's velocity
 // alone.  It feeds a mode of the mobility Y and the frequency omega by k Y/omega^2 (wall_loads.c), less than its damping as long as

@@ -340,8 +340,8 @@ void report_without_effect(Bearing *b)
 // Logs that the parts stay at their start temperatures where the oil alone has been given another one.
 static void report_parts_left(Bearing *b)
 {
-    static const char *const PARTS[] = {"ring.T_i", "ring.T_e", "ball.T", "cage.T", NULL}, *const OIL[] = {
-                                                                                               "oil.T", NULL};
+    static const char *const PARTS[] = {"ring.T_i", "ring.T_e", "ball.T", "cage.T", NULL};
+    static const char *const OIL[] = {"oil.T", NULL};
 
     const Inputs *u = &b->s.u[0];
     const double T = u->oil.T, zero = 273.15;  // [K] of 0 degC

@@ -41,7 +41,7 @@ INLINE SphereGap sphere_gap(const Derived *d, const Work *w, int h, int j)
 }
 
 // A coordinate of q on either side of the middle, its size and the size's slope.  A ball that sits on the corners of both sides presses
-// both, within some micrometres of its approach: up to SEAT the size is a parabola.
+// both, within some micrometres of its approach: up to `seat` from the middle the size is a parabola.
 typedef struct {
     wide at, size, slope;
 } SphereSide;
