@@ -22,7 +22,7 @@ from bearing_model.cage.common.halves import halves_acceleration, halves_kinemat
 from bearing_model.cage.common.halves_step import HalvesStep
 from bearing_model.cage.common.pocket import pocket_elastic, pocket_gap, pocket_rigid, pocket_share
 from bearing_model.cage.common.pocket_films import PocketFilms, pocket_films_split
-from bearing_model.cage.common.pocket_spheres import spheres_elastic, spheres_energy, spheres_rigid
+from bearing_model.cage.common.pocket_spheres import SEAT, spheres_elastic, spheres_energy, spheres_rigid
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.elastic.cage_elastic import (
     cage_elastic_acceleration,
@@ -44,6 +44,7 @@ from bearing_model.cage.elastic.elastic_step import (
     elastic_split,
 )
 from bearing_model.cage.elastic.rim_films import RimFilms
+from bearing_model.cage.elastic.wall_loads import TOUCH
 from bearing_model.cage.two_half.two_half import (
     two_half_begin,
     two_half_end,
@@ -238,8 +239,8 @@ def cage_part(memory):
 def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves five substeps, of a ribbon four, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, or one in a pocket, or that of a stiff gap, but two substeps at least, one for pockets where lands guide
-    the cage.  Slow halves have a part of it.
+    not follow in the substeps, or one in a pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at least,
+    one for pockets where lands guide the cage.  Slow halves have a part of it.
     """
     part = cage_part(memory)
     if not model.modes:
@@ -247,7 +248,11 @@ def cage_longest_step(model, memory):
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
     most = d + (model.modes.longest_step - d) * (part - LEAST_PART) / (1.0 - LEAST_PART)
-    by_gap = np.sqrt(memory.films.stiffness * model.modes.mobility[0] / STIFF_GAP)
+    stiff = memory.films.stiffness * model.modes.mobility[0]
+    if model.d.spheres:  # near the corners of their pockets
+        Q = max(np.max(touch[TOUCH.index("Q")]) for touch in memory.fast.touch)
+        stiff = max(stiff, Q / SEAT * model.modes.wall_mobility)
+    by_gap = np.sqrt(stiff / STIFF_GAP)
     films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate), (2.0, by_gap)
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 

@@ -1,9 +1,11 @@
 """Loads of balls on the walls of elastic halves within a step: the readable twin of wall_loads.c, which has the equations.
 
-    x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q = x,  Q = K delta^1.5
+    x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q_0 = x,  Q_0 = K delta^1.5
+    Q = Q_0 (1 + lambda (x_dot - Y d/2 (Q - Q_before)))
 
 r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: motion of the wall by
-the modes and by the motions d of the halves and of the ball, which joints and the changes of these loads cause.
+the modes and by the motions d of the halves and of the ball, which joints and the changes of these loads cause; x_dot: half a
+substep d ahead by the accelerations before; Y: mobility of the contact.
 """
 
 from dataclasses import dataclass
@@ -18,17 +20,17 @@ from bearing_model.generated.variables import BALL_OMEGA_M, BALL_R, BALL_THETA, 
 # Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
 # r, Hertz's constant, approach, load; of a ribbon place chi, radius and front (ribbon_wall_shapes)
 TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius", "front"
-MOST_DAMPED = 1e3  # largest load over that without damping
 
 
 @dataclass
 class WallLoad:
-    """A ball on a wall, or before it: law, approach and load at the step's start, rigid approach, motion of the wall."""
+    """A ball on a wall, or before it: law, approach and load at the step's start, rigid approach, motion of the wall; the load without damping
+    and its change since the start.
+    """
 
     half: int
     ball: int
     K: float
-    damped: float  # times K delta^1.5 is the load
     x: float
     Q: float
     rate: float
@@ -37,6 +39,9 @@ class WallLoad:
     start: float  # motion of the wall at the step's start
     along: np.ndarray  # motion along the normal by those of the half: x, y, z, beta, gamma, spin [6]
     normal: np.ndarray  # along x, r, t of the ball [3]
+    mobility: float  # of wall, half and ball along the normal, tilts left out [1/kg]
+    elastic: float = 0.0
+    more: float = 0.0
 
 
 class WallLoads:
@@ -46,7 +51,7 @@ class WallLoads:
 
     def __init__(self, model, h, fast, f, state, y, q, w):
         self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
-        self.m_ball = model.d.m
+        self.m_ball, self.damping = model.d.m, model.p.cage.lambda_
         self.push, self.speed, self.way = np.zeros((3, 3, Z))
         self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
         for i, rows in enumerate(fast.touch):
@@ -66,16 +71,15 @@ class WallLoads:
                 )
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
                 Q_0 = K * max(delta, 0.0) ** 1.5
-                if Q_0 > 0.0:
-                    x, damped = delta + self.c * Q_0, min(Q / Q_0, MOST_DAMPED)
-                elif delta + h * rate > 0.0:
-                    x, damped = delta, max(1.0 + model.p.cage.lambda_ * (rate - self.middle * acceleration), 0.0)
-                else:
+                if not Q_0 > 0.0 and not delta + h * rate > 0.0:
                     continue
+                x = delta + self.c * Q_0
                 shift = sum(row[k] for row in along) / ROOT
                 both = np.array([shift, (2 * i - 1) * shift])
+                mobility = 1.0 / self.m_ball + 1.0 / self.m + 2.0 / self.m * np.sum(shift**2)
+                start = np.sum(both * q)
                 self.loads.append(
-                    WallLoad(i, k, K, damped, x, Q, rate, acceleration, both, np.sum(both * q), along_half, normal)
+                    WallLoad(i, k, K, x, Q, rate, acceleration, both, start, along_half, normal, mobility)
                 )
 
     def at(self, load, x):
@@ -104,17 +108,30 @@ class WallLoads:
                 y[block] += more
         return (part * self.push).ravel()
 
-    def accelerations(self, t, q, moved):
-        """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads at the time t of the step, at the coordinates q and
-        motions of the halves [6, 2] by the fast accelerations and by these; sets those of the balls.
+    def place(self, t, q, moved):
+        """Sets the loads without damping at the time t of the step, at the coordinates q [2, n] and motions of the halves [6, 2] by the fast
+        accelerations and by changes of these loads.
         """
-        change, force, self.push = np.zeros_like(q), np.zeros_like(moved), np.zeros((3, Z))
         for load in self.loads:
             x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
             x = x - (np.sum(load.shape * q) - load.start)
             x = x + load.normal @ self.way[:, load.ball] - load.along @ moved[:, load.half]
-            more = load.damped * self.at(load, x) - load.Q
+            load.elastic = self.at(load, x)
+
+    def accelerations(self, t, ahead, q_dot, moving):
+        """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads, damped at the rates q_dot and `moving` of place's q and
+        `moved`; sets those of the balls.  ahead: time by which the rates are ahead of the velocities.
+        """
+        change, force, push = np.zeros_like(q_dot), np.zeros_like(moving), np.zeros((3, Z))
+        balls = self.speed + ahead * self.push
+        for load in self.loads:
+            x_dot = load.rate + load.acceleration * (t - self.middle) - np.sum(load.shape * q_dot)
+            x_dot = x_dot + load.normal @ balls[:, load.ball] - load.along @ moving[:, load.half]
+            own, c = ahead * load.mobility, self.damping * load.elastic
+            Q = (load.elastic + c * (x_dot + own * (load.Q + load.more))) / (1.0 + c * own)
+            load.more = more = max(Q, 0.0) - load.Q
             change = change + more / self.m * load.shape
             force[:, load.half] += more * load.along
-            self.push[:, load.ball] -= more / self.m_ball * load.normal
+            push[:, load.ball] -= more / self.m_ball * load.normal
+        self.push = push
         return change, force / self.inertia[:, None]

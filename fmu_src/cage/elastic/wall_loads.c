@@ -9,17 +9,21 @@
 //                                                        the motions d of the halves, which joints and these loads cause
 //     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
 //
-// and the modes feel (1 + lambda delta_dot) Q, with the delta_dot of the step's start.  The bodies of halves and balls feel the change of
-// the loads since the start too, the balls as if free.  So after the step x is where the evaluation finds it.  Where a
-// body does not feel it, its answer comes a step late and feeds vibrations: a ball of the mass m_b on a contact of the stiffness k
-// adds k^2/(m_b omega^2) of stiffness to a vibration of the frequency omega, which is constant over a step, and a stiffness
-// epsilon omega^2 held over h and corrected at the end feeds the amplitude, turning by theta = omega h, in each step by
+// and wall, ball and halves feel (1 + lambda x_dot) Q.  The bodies of halves and balls feel the change of the loads since the start too, the
+// balls as if free.  So after the step x is where the evaluation finds it.  Where a body does not feel it, its answer comes a step
+// late and feeds vibrations: a ball of the mass m_b on a contact of the stiffness k adds k^2/(m_b omega^2) of stiffness to a
+// vibration of the frequency omega, which is constant over a step, and a stiffness epsilon omega^2 held over h and corrected at the end
+// feeds the amplitude, turning by theta = omega h, in each step by
 //
 //     epsilon/2 (1 - cos theta - theta/2 sin theta)       largest near 3/2 pi: 1.7 epsilon
 //
 // Balls that answered late made the 99.9 % pocket force of a quiet bearing 25 % too large in steps of eight substeps.
-// delta_dot must not change with the bodies alone: slow forces accelerate a half by 3000 m/s2 that its modes take back, and a lambda of
-// 1 s/m made the loads 1 to 2 % too small between the ends of a step.  x_0 < 0 before a contact.  Direction and place stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
+// Damping lambda Q, 250 N s/m at 250 N, is as strong as the contact is stiff: held over the step it drives vibrations that turn by more
+// than pi/2 in it; by the bodies' velocities alone, of which the modes take 3000 m/s2 back, it made the loads 1 to 2 % too small between the
+// ends of a step.  So x_dot is that of walls and bodies, half a substep ahead by the accelerations before; what a load changes of
+// it by itself follows, with the mobility Y of the contact: Q = Q_0 (1 + lambda (x_dot - Y d/2 (Q - Q_before))).
+// At the end the loads are those at the predicted velocities, as the evaluation has them.  x_0 < 0 before a contact.  Direction and place
+// stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
 #include "cage/elastic/elastic_half.h"
@@ -82,26 +86,19 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
     }
 }
 
-// Largest load over that without damping; a ball meets its pocket with some m/s, and lambda is 20 s/m at most.
-static const double MOST_DAMPED = 1e3;
-
 // Adds the contact of a ball with a half, if there is one in the step; its shape is not known yet.
-static bool add_load(const Model *model, double h, const FastState *fast, int half, int j, int lane,
+static bool add_load(double h, const FastState *fast, int half, int j, int lane,
                      const RigidApproach *approach, WallLoads *loads)
 {
     const int k = j + lane;
     const double rate = approach->rate[lane];
-    const double delta = fast->touch.delta[half][k], K = fast->touch.K[half][k], Q = fast->touch.Q[half][k];
+    const double delta = fast->touch.delta[half][k], K = fast->touch.K[half][k];
     const double Q_0 = delta > 0.0 ? K * delta * sqrt(delta) : 0.0;
-    const bool pressed = Q_0 > 0.0;
-    if (!pressed && !(delta + h * rate > 0.0)) return false;
+    if (!(Q_0 > 0.0) && !(delta + h * rate > 0.0)) return false;
     const int i = loads->count++;
-    const double acceleration = approach->acceleration[lane];
-    loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
-    loads->damped[i] = pressed
-                           ? fmin(Q / Q_0, MOST_DAMPED)
-                           : fmax(1.0 + model->p->cage.lambda * (rate - loads->middle * acceleration), 0.0);
-    loads->rate[i] = rate, loads->acceleration[i] = acceleration, loads->ball[i] = k;
+    loads->K[i] = K, loads->Q[i] = fast->touch.Q[half][k], loads->x[i] = delta + loads->c * Q_0;
+    loads->more[i] = 0.0;
+    loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane], loads->ball[i] = k;
     for (int m = 0; m < 3; m++) loads->normal[m][i] = approach->direction[m][lane];
     for (int m = 0; m < RELATIVE_MOTIONS; m++) {
         loads->along[2 * m + half][i] = approach->along[m][lane];
@@ -113,7 +110,7 @@ static bool add_load(const Model *model, double h, const FastState *fast, int ha
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads)
 {
-    const double inv_root = 1.0 / 1.4142135623730951;
+    const double inv_root = 1.0 / 1.4142135623730951, bodies = 1.0 / model->d->m + 1.0 / model->p->cage.m;
     loads->count = 0;
     memset(&loads->balls, 0, sizeof loads->balls);
     loads->middle = 0.5 * h, loads->c = model->modes->compliance;
@@ -126,16 +123,18 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
             const double *const n[3] = {fast->touch.x[half], fast->touch.r[half], fast->touch.t[half]};
             rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
-                if (!(mask >> i & 1) || !add_load(model, h, fast, half, j, i, &approach, loads)) continue;
-                double *shape = loads->shape[loads->count - 1];
+                if (!(mask >> i & 1) || !add_load(h, fast, half, j, i, &approach, loads)) continue;
+                const int last = loads->count - 1;
+                double *shape = loads->shape[last];
                 find_shape(model, fast, w, half, j + i, shape);
                 for (int m = 0; m < N_MODES; m++) shape[m] *= inv_root;
+                loads->mobility[last] = bodies + 2.0 / model->p->cage.m * elastic_sum(shape, shape);
             }
         }
     }
     wall_motions(loads, &y[Y_MODE_S], loads->from);
     for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
-        loads->K[i] = loads->damped[i] = loads->x[i] = loads->Q[i] = 0.0;
+        loads->K[i] = loads->x[i] = loads->Q[i] = loads->more[i] = loads->mobility[i] = 0.0;
         loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
         for (int m = 0; m < CAGE_MOTIONS; m++) loads->along[m][i] = 0.0;
     }
@@ -174,23 +173,44 @@ INLINE wide less_halves(const WallLoads *loads, int i, const double motion[CAGE_
     return of_ball;
 }
 
-void wall_loads_follow(const Model *model, double t, const double *q, const double moved[CAGE_MOTIONS],
-                       WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
+void wall_loads_place(double t, const double *q, const double moved[CAGE_MOTIONS], WallLoads *loads)
 {
     const double bend = t * (0.5 * t - loads->middle);
-    wall_load_array force, by_modes, ball_way;
-    bool changed = false;
+    wall_load_array by_modes, by_ball;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q, by_modes);
-    along_normals(loads, loads->balls.way, ball_way);
+    along_normals(loads, loads->balls.way, by_ball);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
         const wide way =
             wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
-        const wide bodies = less_halves(loads, i, moved, wide_load(&ball_way[i]));
+        const wide bodies = less_halves(loads, i, moved, wide_load(&by_ball[i]));
         const wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
-        const wide Q =
-            wide_load(&loads->damped[i]) * loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u);
-        const wide more = Q - wide_load(&loads->Q[i]);
+        wide_store(&loads->elastic[i], loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u));
+    }
+}
+
+void wall_loads_push(const Model *model, double t, double ahead, const double *q_dot,
+                     const double moving[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
+                     double push[CAGE_MOTIONS])
+{
+    const wide lambda = wide_set(model->p->cage.lambda), zero = wide_set(0.0);
+    wall_load_array force, by_modes, by_ball, ball_gains;
+    bool changed = false;
+    memset(by_modes, 0, sizeof by_modes);
+    wall_motions(loads, q_dot, by_modes);
+    along_normals(loads, loads->balls.speed, by_ball);
+    along_normals(loads, loads->balls.push, ball_gains);
+    for (int i = 0; i < loads->count; i += LANE_WIDTH) {
+        const wide ball = wide_fma(wide_set(ahead), wide_load(&ball_gains[i]), wide_load(&by_ball[i]));
+        const wide bodies = less_halves(loads, i, moving, ball) + wide_fma(wide_set(t - loads->middle),
+                                                                           wide_load(&loads->acceleration[i]),
+                                                                           wide_load(&loads->rate[i]));
+        const wide Q_0 = wide_load(&loads->elastic[i]), start = wide_load(&loads->Q[i]);
+        const wide own = ahead * wide_load(&loads->mobility[i]), c = lambda * Q_0;
+        const wide before = start + wide_load(&loads->more[i]);
+        const wide damping = c * (bodies - wide_load(&by_modes[i]) + own * before);
+        const wide more = wide_max((Q_0 + damping) / (1.0 + c * own), zero) - start;
+        wide_store(&loads->more[i], more);
         wide_store(&force[i], more);
         changed |= wide_any(wide_above(wide_abs(more), 0.0));
     }
