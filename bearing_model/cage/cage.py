@@ -221,6 +221,9 @@ def cage_slide(model, before, y, w):
 
 SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of step and tolerance that it has at least
 STIFF_GAP = 0.6  # most k Y h^2 of a step h, k: stiffness of a gap on a bent rim, Y: mobility of the rim
+STIFF_CORNER = (
+    0.06  # most k h^2/m, k = Q/SEAT: stiffness across a load Q near the corners of a ribbon's pocket, m: mass of a half
+)
 LONGEST_TURN = 2.449  # of the fastest vibration between rigid halves in a step (cage_setup.c)
 
 
@@ -248,12 +251,11 @@ def cage_longest_step(model, memory):
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
     most = d + (model.modes.longest_step - d) * (part - LEAST_PART) / (1.0 - LEAST_PART)
-    stiff = memory.films.stiffness * model.modes.mobility[0]
-    if model.d.spheres:  # near the corners of their pockets
-        Q = max(np.max(touch[TOUCH.index("Q")]) for touch in memory.fast.touch)
-        stiff = max(stiff, Q / SEAT * model.modes.wall_mobility)
-    by_gap = np.sqrt(stiff / STIFF_GAP)
+    by_gap = np.sqrt(memory.films.stiffness * model.modes.mobility[0] / STIFF_GAP)
     films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate), (2.0, by_gap)
+    if model.d.spheres:
+        Q = max(np.max(touch[TOUCH.index("Q")]) for touch in memory.fast.touch)
+        films += ((1.0, np.sqrt(Q / (STIFF_CORNER * model.p.cage.m * SEAT))),)
     return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 
 

@@ -79,24 +79,25 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 //
 // A gap of the stiffness k, 3e8 N/m at 0.3 degrees of tilt and 1e6 at most without, is a slow force: the substeps follow the rim's velocity
 // alone.  It feeds a mode of the mobility Y and the frequency omega by k Y/omega^2 (wall_loads.c), less than its damping as long as
-// k Y h^2 < STIFF_GAP.  So do balls that press a ribbon near the corners of their pockets, where a contact's direction and place change
-// with its load over SEAT: k = Q/SEAT at most, 6e7 N/m across the contact at 140 N, as much as along it.
+// k Y h^2 < STIFF_GAP.
+//
+// Near the corners of a ribbon's pockets the place and the direction of a contact change over SEAT: k = Q/SEAT across a contact of the load Q,
+// at 140 N as much as along it, which does not follow either.  Equal steps were stable up to k h^2/m = 0.06 to 0.12, m the mass of a half.
 static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the longest step
-static const double STIFF_GAP = 0.6;
+static const double STIFF_GAP = 0.6, STIFF_CORNER = 0.06;
 
 double cage_part(const CageMemory *memory)
 {
     return fmin(fmax(sqrt(memory->elastic.fast.omega_2) / SLOW, LEAST_PART), 1.0);
 }
 
-// Largest k Y of balls near the corners of a ribbon's pockets [1/s2].
-static double by_corners(const Model *model, const WallTouch *touch)
+// Step that balls near the corners of a ribbon's pockets bear [s].
+static double corners_bear(const Model *model, const WallTouch *touch)
 {
     double Q = 0.0;
-    if (!model->d->spheres.on) return 0.0;
     for (int h = 0; h < 2; h++)
         for (int k = 0; k < Z; k++) Q = fmax(Q, touch->Q[h][k]);
-    return Q / SEAT * model->modes->wall_mobility;
+    return sqrt(STIFF_CORNER * model->p->cage.m * SEAT / Q);
 }
 
 double cage_longest_step(const Model *model, const CageMemory *memory)
@@ -113,9 +114,9 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
     const double by_gap = memory->elastic.films.stiffness * model->modes->mobility[0];
-    const double rims =
-        fmax(2.0 * d, sqrt(STIFF_GAP / fmax(by_gap, by_corners(model, &memory->elastic.fast.touch))));
-    return fmin(fmin(most, rims), fmin(lands, pockets));
+    const double rims = fmax(2.0 * d, sqrt(STIFF_GAP / by_gap));
+    const double loads = model->d->spheres.on ? corners_bear(model, &memory->elastic.fast.touch) : most;
+    return fmin(fmin(fmin(most, fmax(d, loads)), rims), fmin(lands, pockets));
 }
 
 // Elastic halves have two substeps: in 102 scenes drawn blind, whose trials shorten most steps, equal steps of three saved a sixth of the
