@@ -29,9 +29,9 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
     scene, model, rng, seen = core.model(changes), Model.of(changes), np.random.default_rng(3), {}
 
     class Watched(WallLoads):
-        def place(self, t, q, moved):
+        def follow(self, t, sub, q, moved):
             seen["loads"], seen["q"], seen["t"], seen["moved"] = self, q, t, moved
-            super().place(t, q, moved)
+            return super().follow(t, sub, q, moved)
 
     monkeypatch.setattr(cage_substeps, "WallLoads", Watched)
     errors, arrivals = [], 0

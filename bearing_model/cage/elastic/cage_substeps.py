@@ -213,7 +213,6 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         v_m = (v + 0.5 * sub * (modes + held)) / (1.0 + 0.5 * sub * half.damping)
         q = q + sub * v_m
         v = v_m * (1.0 - 0.5 * sub * half.damping)
-        v_end = v + 0.5 * sub * (modes + held)
         speed = speed + 0.5 * sub * rigid
         halfway, moved, time = moved + 0.5 * sub * speed, moved + sub * speed, (step - 0.5) * sub - 0.5 * h
         pushed = pushed + 0.5 * sub * push
@@ -228,9 +227,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         u = u + sub * across
         slip.before = cage_joint_follow(sub, across, y)
         y[WORK] -= sub * model.p.cage.m * np.sum(half.damping * v_m**2)
-        loads.place(step * sub, q, to_halves(model, h0, moved) + way)
-        ahead = to_halves(model, h0, speed + 0.5 * sub * rigid) + pushed + 0.5 * sub * push
-        more, push = loads.accelerations(step * sub, 0.5 * sub, v_end, ahead)
+        more, push = loads.follow(step * sub, sub, q, to_halves(model, h0, moved) + way)
         held = slow_modes + more
 
         # accelerations there, of which the second half
@@ -247,7 +244,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         by_films = pockets.follow(step * sub, sub, v, to_halves(model, h0, speed) + pushed)
         v, pushed = v + by_films[0], pushed + by_films[1]
     if loads.loads:  # as the evaluation has them, at the predicted velocities
-        more, push = loads.accelerations(h, 0.0, v, to_halves(model, h0, speed) + pushed)
+        more, push = loads.end(v, to_halves(model, h0, speed) + pushed)
         held = slow_modes + more
     more, by_films = pockets.accelerations(half.n)
     held, push = held + more, push + by_films

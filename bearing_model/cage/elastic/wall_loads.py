@@ -4,8 +4,8 @@
     Q = Q_0 (1 + lambda (x_dot - Y d/2 (Q - Q_before)))
 
 r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: motion of the wall by
-the modes and by the motions d of the halves and of the ball, which joints and the changes of these loads cause; x_dot: half a
-substep d ahead by the accelerations before; Y: mobility of the contact.
+the modes and by the motions d of the halves and of the ball, which joints and the changes of these loads cause; x_dot: from
+the ways in this substep and in the one before, half a substep d ahead of the mean speed; Y: mobility of the contact.
 """
 
 from dataclasses import dataclass
@@ -20,12 +20,13 @@ from bearing_model.generated.variables import BALL_OMEGA_M, BALL_R, BALL_THETA, 
 # Contacts of each half with its walls as an evaluation leaves them, in the rows of FastState.touch: direction (x, t), of a ribbon also
 # r, Hertz's constant, approach, load; of a ribbon place chi, radius and front (ribbon_wall_shapes)
 TOUCH = "x", "r", "t", "K", "delta", "Q", "chi", "radius", "front"
+LEAST_DAMPING = 1e-6  # from which a speed follows [s/m]
 
 
 @dataclass
 class WallLoad:
     """A ball on a wall, or before it: law, approach and load at the step's start, rigid approach, motion of the wall; the load without damping
-    and its change since the start.
+    and its change since the start; way of the approach since then and its mean speed in the substep, at first the start's.
     """
 
     half: int
@@ -40,8 +41,10 @@ class WallLoad:
     along: np.ndarray  # motion along the normal by those of the half: x, y, z, beta, gamma, spin [6]
     normal: np.ndarray  # along x, r, t of the ball [3]
     mobility: float  # of wall, half and ball along the normal, tilts left out [1/kg]
+    speed: float
     elastic: float = 0.0
     more: float = 0.0
+    moved: float = 0.0
 
 
 class WallLoads:
@@ -51,8 +54,8 @@ class WallLoads:
 
     def __init__(self, model, h, fast, f, state, y, q, w):
         self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
-        self.m_ball, self.damping = model.d.m, model.p.cage.lambda_
-        self.push, self.speed, self.way = np.zeros((3, 3, Z))
+        self.m_ball, self.damping, self.first = model.d.m, model.p.cage.lambda_, True
+        self.push, self.speed, self.way, self.still = *np.zeros((3, 3, Z)), np.zeros_like(q)
         self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
         for i, rows in enumerate(fast.touch):
             touch = dict(zip(TOUCH, rows, strict=True))
@@ -74,12 +77,14 @@ class WallLoads:
                 if not Q_0 > 0.0 and not delta + h * rate > 0.0:
                     continue
                 x = delta + self.c * Q_0
+                pressed, damping = Q_0 > 0.0, max(self.damping, LEAST_DAMPING)
+                speed = (Q / Q_0 - 1.0) / damping if pressed else rate - self.middle * acceleration
                 shift = sum(row[k] for row in along) / ROOT
                 both = np.array([shift, (2 * i - 1) * shift])
                 mobility = 1.0 / self.m_ball + 1.0 / self.m + 2.0 / self.m * np.sum(shift**2)
                 start = np.sum(both * q)
                 self.loads.append(
-                    WallLoad(i, k, K, x, Q, rate, acceleration, both, start, along_half, normal, mobility)
+                    WallLoad(i, k, K, x, Q, rate, acceleration, both, start, along_half, normal, mobility, speed)
                 )
 
     def at(self, load, x):
@@ -108,30 +113,36 @@ class WallLoads:
                 y[block] += more
         return (part * self.push).ravel()
 
-    def place(self, t, q, moved):
-        """Sets the loads without damping at the time t of the step, at the coordinates q [2, n] and motions of the halves [6, 2] by the fast
-        accelerations and by changes of these loads.
-        """
+    def push_bodies(self):
+        """Accelerations of the modes [2, n] and of the halves [6, 2] by the changes of the loads; sets those of the balls."""
+        change, force, self.push = self.still, np.zeros((6, 2)), np.zeros((3, Z))
         for load in self.loads:
-            x = load.x + load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
-            x = x - (np.sum(load.shape * q) - load.start)
-            x = x + load.normal @ self.way[:, load.ball] - load.along @ moved[:, load.half]
-            load.elastic = self.at(load, x)
-
-    def accelerations(self, t, ahead, q_dot, moving):
-        """Of the modes [2, n] and of the halves [6, 2] by the changes of the loads, damped at the rates q_dot and `moving` of place's q and
-        `moved`; sets those of the balls.  ahead: time by which the rates are ahead of the velocities.
-        """
-        change, force, push = np.zeros_like(q_dot), np.zeros_like(moving), np.zeros((3, Z))
-        balls = self.speed + ahead * self.push
-        for load in self.loads:
-            x_dot = load.rate + load.acceleration * (t - self.middle) - np.sum(load.shape * q_dot)
-            x_dot = x_dot + load.normal @ balls[:, load.ball] - load.along @ moving[:, load.half]
-            own, c = ahead * load.mobility, self.damping * load.elastic
-            Q = (load.elastic + c * (x_dot + own * (load.Q + load.more))) / (1.0 + c * own)
-            load.more = more = max(Q, 0.0) - load.Q
-            change = change + more / self.m * load.shape
-            force[:, load.half] += more * load.along
-            push[:, load.ball] -= more / self.m_ball * load.normal
-        self.push = push
+            change = change + load.more / self.m * load.shape
+            force[:, load.half] += load.more * load.along
+            self.push[:, load.ball] -= load.more / self.m_ball * load.normal
         return change, force / self.inertia[:, None]
+
+    def follow(self, t, sub, q, moved):
+        """Accelerations of the modes [2, n] and of the halves [6, 2] at the time t of the step, the end of a substep of the length sub, at the
+        coordinates q and motions of the halves [6, 2] by the fast accelerations and by these; sets those of the balls.
+        """
+        for load in self.loads:
+            moves = load.rate * t + load.acceleration * t * (0.5 * t - self.middle)
+            moves = moves - (np.sum(load.shape * q) - load.start)
+            moves = moves + load.normal @ self.way[:, load.ball] - load.along @ moved[:, load.half]
+            load.elastic = self.at(load, load.x + moves)
+            mean = (moves - load.moved) / sub
+            speed = mean + (1.0 if self.first else 0.5) * (mean - load.speed)
+            own, c = 0.5 * sub * load.mobility, self.damping * load.elastic
+            Q = (load.elastic + c * (speed + own * (load.Q + load.more))) / (1.0 + c * own)
+            load.moved, load.speed, load.more = moves, mean, max(Q, 0.0) - load.Q
+        self.first = False
+        return self.push_bodies()
+
+    def end(self, q_dot, moving):
+        """As follow, at the velocities at the end of the step: of the modes, and those of the halves beside the slow motion."""
+        for load in self.loads:
+            speed = load.rate + load.acceleration * self.middle - np.sum(load.shape * q_dot)
+            speed = speed + load.normal @ self.speed[:, load.ball] - load.along @ moving[:, load.half]
+            load.more = load.elastic * max(1.0 + self.damping * speed, 0.0) - load.Q
+        return self.push_bodies()

@@ -247,10 +247,9 @@ static void half_damping(const ElasticHalf *half, double h, HalfDamping *damping
     }
 }
 
-// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, after the damping, to v.  v_end: as if the
-// accelerations stayed.
+// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, after the damping, to v.
 static void move_modes(const HalfDamping *damping, double h, const double *fast, const double *slow,
-                       double *q, double *v, double *v_m, double *v_end)
+                       double *q, double *v, double *v_m)
 {
     for (int first = 0; first < 2 * N_MODES; first += N_MODES)
         for (int i = 0; i < N_MODES; i++) {
@@ -258,7 +257,6 @@ static void move_modes(const HalfDamping *damping, double h, const double *fast,
             v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) * damping->before[i];
             q[k] += h * v_m[k];
             v[k] = v_m[k] * damping->after[i];
-            v_end[k] = v[k] + 0.5 * h * (fast[k] + slow[k]);
         }
 }
 
@@ -302,8 +300,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     const int steps = (int)fmin(ceil(h / half->substep * (1.0 - ROUNDING)), MOST_SUBSTEPS);
     const double sub = h / steps;
     double *q = &y[Y_MODE_S], *v = &y[Y_MODE_S_DOT];
-    double modes[2 * N_MODES], v_m[2 * N_MODES], v_end[2 * N_MODES], rigid[RELATIVE_MOTIONS],
-        slow[RELATIVE_MOTIONS];
+    double modes[2 * N_MODES], v_m[2 * N_MODES], rigid[RELATIVE_MOTIONS], slow[RELATIVE_MOTIONS];
     double speed[RELATIVE_MOTIONS] = {0.0}, moved[RELATIVE_MOTIONS] = {0.0};  // by the fast accelerations
     double push[CAGE_MOTIONS] = {0.0}, pushed[CAGE_MOTIONS] = {0.0},
            way[CAGE_MOTIONS] = {0.0};  // by changes of the loads on walls
@@ -338,7 +335,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     for (int step = 1; step <= steps; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
-        move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m, v_end);
+        move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         if (loads.count + pockets->count > 0) {
             for (int i = 0; i < CAGE_MOTIONS; i++) {
@@ -366,14 +363,10 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         y[Y_WORK] -= sub * modes_lose(model, v_m);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
         if (loads.count > 0) {
-            double halves[CAGE_MOTIONS], moving[CAGE_MOTIONS], ahead[RELATIVE_MOTIONS];
+            double halves[CAGE_MOTIONS];
             memcpy(halves, way, sizeof way);
             to_halves(model, &w->half[0], 1.0, moved, 0, halves);
-            wall_loads_place(step * sub, q, halves, &loads);
-            for (int i = 0; i < CAGE_MOTIONS; i++) moving[i] = pushed[i] + 0.5 * sub * push[i];
-            for (int i = 0; i < RELATIVE_MOTIONS; i++) ahead[i] = speed[i] + 0.5 * sub * rigid[i];
-            to_halves(model, &w->half[0], 1.0, ahead, 0, moving);
-            wall_loads_push(model, step * sub, 0.5 * sub, v_end, moving, &loads, foreseen->modes, push);
+            wall_loads_follow(model, step * sub, sub, q, halves, &loads, foreseen->modes, push);
         }
 
         // accelerations there, of which the second half
@@ -402,7 +395,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         memcpy(moving, pushed, sizeof pushed);
         to_halves(model, &w->half[0], 1.0, speed, 0, moving);
         memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
-        wall_loads_push(model, h, 0.0, v, moving, &loads, foreseen->modes, push);
+        wall_loads_end(model, v, moving, &loads, foreseen->modes, push);
     }
     pocket_films_foreseen(model, pockets, foreseen->modes, push);
     memcpy(slip->before, &y[Y_JOINT_PLATE_Y], sizeof slip->before);

@@ -20,14 +20,15 @@
 // Balls that answered late made the 99.9 % pocket force of a quiet bearing 25 % too large in steps of eight substeps.
 // Damping lambda Q, 250 N s/m at 250 N, is as strong as the contact is stiff: held over the step it drives vibrations that turn by more
 // than pi/2 in it; by the bodies' velocities alone, of which the modes take 3000 m/s2 back, it made the loads 1 to 2 % too small between the
-// ends of a step.  So x_dot is that of walls and bodies, half a substep ahead by the accelerations before; what a load changes of
-// it by itself follows, with the mobility Y of the contact: Q = Q_0 (1 + lambda (x_dot - Y d/2 (Q - Q_before))).
+// ends of a step.  So x_dot follows, from the ways in this substep and in the one before, half a substep ahead of the mean speed; what
+// a load changes of it by itself follows too, with the mobility Y of the contact: Q = Q_0 (1 + lambda (x_dot - Y d/2 (Q - Q_before))).
 // At the end the loads are those at the predicted velocities, as the evaluation has them.  x_0 < 0 before a contact.  Direction and place
 // stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
 #include "cage/elastic/elastic_half.h"
 #include "numbers/vec.h"
+#include "physics/hertz.h"
 
 // Motions of the walls at the coordinates q of S and D.
 static void wall_motions(const WallLoads *loads, const double *q, wall_load_array motion)
@@ -86,8 +87,10 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
     }
 }
 
+static const double LEAST_DAMPING = 1e-6;  // from which a speed follows [s/m]
+
 // Adds the contact of a ball with a half, if there is one in the step; its shape is not known yet.
-static bool add_load(double h, const FastState *fast, int half, int j, int lane,
+static bool add_load(double lambda, double h, const FastState *fast, int half, int j, int lane,
                      const RigidApproach *approach, WallLoads *loads)
 {
     const int k = j + lane;
@@ -96,9 +99,12 @@ static bool add_load(double h, const FastState *fast, int half, int j, int lane,
     const double Q_0 = delta > 0.0 ? K * delta * sqrt(delta) : 0.0;
     if (!(Q_0 > 0.0) && !(delta + h * rate > 0.0)) return false;
     const int i = loads->count++;
-    loads->K[i] = K, loads->Q[i] = fast->touch.Q[half][k], loads->x[i] = delta + loads->c * Q_0;
-    loads->more[i] = 0.0;
-    loads->rate[i] = rate, loads->acceleration[i] = approach->acceleration[lane], loads->ball[i] = k;
+    const double Q = fast->touch.Q[half][k], acceleration = approach->acceleration[lane];
+    loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
+    loads->more[i] = loads->moved[i] = 0.0;
+    loads->rate[i] = rate, loads->acceleration[i] = acceleration, loads->ball[i] = k;
+    loads->speed[i] =
+        Q_0 > 0.0 ? (Q / Q_0 - 1.0) / fmax(lambda, LEAST_DAMPING) : rate - loads->middle * acceleration;
     for (int m = 0; m < 3; m++) loads->normal[m][i] = approach->direction[m][lane];
     for (int m = 0; m < RELATIVE_MOTIONS; m++) {
         loads->along[2 * m + half][i] = approach->along[m][lane];
@@ -111,7 +117,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
                      const double *state, const double *y, const Work *w, WallLoads *loads)
 {
     const double inv_root = 1.0 / 1.4142135623730951, bodies = 1.0 / model->d->m + 1.0 / model->p->cage.m;
-    loads->count = 0;
+    loads->count = 0, loads->first = true;
     memset(&loads->balls, 0, sizeof loads->balls);
     loads->middle = 0.5 * h, loads->c = model->modes->compliance;
     for (int half = 0; half < 2; half++) {
@@ -123,7 +129,9 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
             const double *const n[3] = {fast->touch.x[half], fast->touch.r[half], fast->touch.t[half]};
             rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
-                if (!(mask >> i & 1) || !add_load(h, fast, half, j, i, &approach, loads)) continue;
+                if (!(mask >> i & 1) ||
+                    !add_load(model->p->cage.lambda, h, fast, half, j, i, &approach, loads))
+                    continue;
                 const int last = loads->count - 1;
                 double *shape = loads->shape[last];
                 find_shape(model, fast, w, half, j + i, shape);
@@ -135,6 +143,7 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     wall_motions(loads, &y[Y_MODE_S], loads->from);
     for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
         loads->K[i] = loads->x[i] = loads->Q[i] = loads->more[i] = loads->mobility[i] = 0.0;
+        loads->moved[i] = loads->speed[i] = 0.0;
         loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
         for (int m = 0; m < CAGE_MOTIONS; m++) loads->along[m][i] = 0.0;
     }
@@ -173,9 +182,34 @@ INLINE wide less_halves(const WallLoads *loads, int i, const double motion[CAGE_
     return of_ball;
 }
 
-void wall_loads_place(double t, const double *q, const double moved[CAGE_MOTIONS], WallLoads *loads)
+// Adds the accelerations by the changes of the loads to those of the modes, and writes those of halves and balls.
+static void push_bodies(const Model *model, WallLoads *loads, double slow[2 * N_MODES],
+                        double push[CAGE_MOTIONS])
 {
-    const double bend = t * (0.5 * t - loads->middle);
+    wall_load_array force;
+    memset(loads->balls.push, 0, sizeof loads->balls.push);
+    memset(push, 0, CAGE_MOTIONS * sizeof *push);
+    bool changed = false;
+    for (int i = 0; i < loads->count; i++) changed |= loads->more[i] != 0.0;
+    if (!changed) return;
+    for (int m = 0; m < CAGE_MOTIONS; m++) {
+        double sum = 0.0;
+        for (int i = 0; i < loads->count; i++) sum += loads->more[i] * loads->along[m][i];
+        push[m] = sum / model->d->inertia[Y_CAGE_V_X + m];
+    }
+    for (int i = 0; i < loads->count; i++)
+        for (int m = 0; m < 3; m++)
+            loads->balls.push[m][loads->ball[i]] -= loads->more[i] * loads->normal[m][i] / model->d->m;
+    for (int i = 0; i < loads->count; i++) force[i] = loads->more[i] / model->p->cage.m;
+    add_forces(loads, force, slow, &slow[N_MODES]);
+}
+
+void wall_loads_follow(const Model *model, double t, double sub, const double *q,
+                       const double moved[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
+                       double push[CAGE_MOTIONS])
+{
+    const double bend = t * (0.5 * t - loads->middle), part = loads->first ? 1.0 : 0.5, inv_sub = 1.0 / sub;
+    const wide lambda = wide_set(model->p->cage.lambda), zero = wide_set(0.0);
     wall_load_array by_modes, by_ball;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q, by_modes);
@@ -184,51 +218,39 @@ void wall_loads_place(double t, const double *q, const double moved[CAGE_MOTIONS
         const wide way =
             wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
         const wide bodies = less_halves(loads, i, moved, wide_load(&by_ball[i]));
-        const wide u = wide_load(&by_modes[i]) - wide_load(&loads->from[i]);
-        wide_store(&loads->elastic[i], loads_at(loads, i, wide_load(&loads->x[i]) + way + bodies - u));
+        const wide moves = way + bodies - (wide_load(&by_modes[i]) - wide_load(&loads->from[i]));
+        const wide Q_0 = loads_at(loads, i, wide_load(&loads->x[i]) + moves);
+
+        const wide mean = (moves - wide_load(&loads->moved[i])) * inv_sub;
+        const wide speed = mean + part * (mean - wide_load(&loads->speed[i]));
+        const wide own = (0.5 * sub) * wide_load(&loads->mobility[i]), c = lambda * Q_0;
+        const wide start = wide_load(&loads->Q[i]), before = start + wide_load(&loads->more[i]);
+        const wide Q = wide_max((Q_0 + c * (speed + own * before)) / (1.0 + c * own), zero);
+        wide_store(&loads->elastic[i], Q_0);
+        wide_store(&loads->moved[i], moves);
+        wide_store(&loads->speed[i], mean);
+        wide_store(&loads->more[i], Q - start);
     }
+    loads->first = false;
+    push_bodies(model, loads, slow, push);
 }
 
-void wall_loads_push(const Model *model, double t, double ahead, const double *q_dot,
-                     const double moving[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
-                     double push[CAGE_MOTIONS])
+void wall_loads_end(const Model *model, const double *q_dot, const double moving[CAGE_MOTIONS],
+                    WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS])
 {
-    const wide lambda = wide_set(model->p->cage.lambda), zero = wide_set(0.0);
-    wall_load_array force, by_modes, by_ball, ball_gains;
-    bool changed = false;
+    const wide lambda = wide_set(model->p->cage.lambda);
+    wall_load_array by_modes, by_ball;
     memset(by_modes, 0, sizeof by_modes);
     wall_motions(loads, q_dot, by_modes);
     along_normals(loads, loads->balls.speed, by_ball);
-    along_normals(loads, loads->balls.push, ball_gains);
     for (int i = 0; i < loads->count; i += LANE_WIDTH) {
-        const wide ball = wide_fma(wide_set(ahead), wide_load(&ball_gains[i]), wide_load(&by_ball[i]));
-        const wide bodies = less_halves(loads, i, moving, ball) + wide_fma(wide_set(t - loads->middle),
-                                                                           wide_load(&loads->acceleration[i]),
-                                                                           wide_load(&loads->rate[i]));
-        const wide Q_0 = wide_load(&loads->elastic[i]), start = wide_load(&loads->Q[i]);
-        const wide own = ahead * wide_load(&loads->mobility[i]), c = lambda * Q_0;
-        const wide before = start + wide_load(&loads->more[i]);
-        const wide damping = c * (bodies - wide_load(&by_modes[i]) + own * before);
-        const wide more = wide_max((Q_0 + damping) / (1.0 + c * own), zero) - start;
-        wide_store(&loads->more[i], more);
-        wide_store(&force[i], more);
-        changed |= wide_any(wide_above(wide_abs(more), 0.0));
+        const wide bodies =
+            less_halves(loads, i, moving, wide_load(&by_ball[i])) +
+            wide_fma(wide_set(loads->middle), wide_load(&loads->acceleration[i]), wide_load(&loads->rate[i]));
+        const wide Q = hertz_damped(wide_load(&loads->elastic[i]), lambda, bodies - wide_load(&by_modes[i]));
+        wide_store(&loads->more[i], Q - wide_load(&loads->Q[i]));
     }
-    memset(loads->balls.push, 0, sizeof loads->balls.push);
-    if (!changed) {
-        memset(push, 0, CAGE_MOTIONS * sizeof *push);
-        return;
-    }
-    for (int m = 0; m < CAGE_MOTIONS; m++) {
-        double sum = 0.0;
-        for (int i = 0; i < loads->count; i++) sum += force[i] * loads->along[m][i];
-        push[m] = sum / model->d->inertia[Y_CAGE_V_X + m];
-    }
-    for (int i = 0; i < loads->count; i++)
-        for (int m = 0; m < 3; m++)
-            loads->balls.push[m][loads->ball[i]] -= force[i] * loads->normal[m][i] / model->d->m;
-    for (int i = 0; i < loads->count; i++) force[i] /= model->p->cage.m;
-    add_forces(loads, force, slow, &slow[N_MODES]);
+    push_bodies(model, loads, slow, push);
 }
 
 void ball_motions_arrive(const BallMotions *balls, double h, double *y, double foreseen[BALL_MOTIONS])

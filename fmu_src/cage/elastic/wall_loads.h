@@ -19,10 +19,13 @@ typedef struct {
 
 // Balls on the walls of half 0 (side -1) and 1 (side 1), or before them.
 typedef struct {
-    int count, of_0;                      // all, those of half 0, which come first
-    double middle, c;                     // of the step [s]; compliance of the walls beside their modes
-    wall_load_array K, Q;                 // law K delta^1.5, load at the step's start
-    wall_load_array elastic, more;        // K delta^1.5, and change of the load since the start
+    int count, of_0;                // all, those of half 0, which come first
+    bool first;                     // the next substep is the first
+    double middle, c;               // of the step [s]; compliance of the walls beside their modes
+    wall_load_array K, Q;           // law K delta^1.5, load at the step's start
+    wall_load_array elastic, more;  // K delta^1.5, and change of the load since the start
+    wall_load_array moved,
+        speed;  // way of the approach since the start; its mean speed in the substep, at first the start's
     wall_load_array mobility;             // of wall, half and ball along the normal, tilts left out [1/kg]
     wall_load_array x, from;              // approach and motion of the wall at the step's start
     wall_load_array rate, acceleration;   // of the rigid approach, in the middle of the step and at its start
@@ -39,18 +42,18 @@ typedef struct {
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
-// Sets the loads without damping at the time t of the step.  q: coordinates of the modes; moved: rigid motions of the halves, both by the
-// fast accelerations and by changes of these loads.
-#define wall_loads_place FOR_ISA(wall_loads_place)
-void wall_loads_place(double t, const double *q, const double moved[CAGE_MOTIONS], WallLoads *loads);
+// Adds to the modes' accelerations (S, then D) the part by the change of the loads up to the time t of the step, the end of a substep of the
+// length sub, and writes the parts of the halves and of the balls.  q: coordinates at t; moved: rigid motions of the halves by the fast
+// accelerations and by this part.
+#define wall_loads_follow FOR_ISA(wall_loads_follow)
+void wall_loads_follow(const Model *model, double t, double sub, const double *q,
+                       const double moved[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
+                       double push[CAGE_MOTIONS]);
 
-// Adds to the modes' accelerations (S, then D) the part by the change of the loads, damped at the rates q_dot and `moving` of q and
-// `moved`, and writes the parts of the halves and of the balls.  ahead: time by which the rates are ahead of the velocities, those of the
-// balls and those that the loads change by themselves too.
-#define wall_loads_push FOR_ISA(wall_loads_push)
-void wall_loads_push(const Model *model, double t, double ahead, const double *q_dot,
-                     const double moving[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
-                     double push[CAGE_MOTIONS]);
+// The same at the end of the step, at the velocities there: q_dot of the modes, `moving` of the halves beside the slow motion.
+#define wall_loads_end FOR_ISA(wall_loads_end)
+void wall_loads_end(const Model *model, const double *q_dot, const double moving[CAGE_MOTIONS],
+                    WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
 
 // Velocities of the balls by the changes of the loads, after another time t.
 INLINE void ball_motions_push(double t, BallMotions *balls)
