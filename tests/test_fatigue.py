@@ -182,7 +182,7 @@ def test_fretting_divides_the_strength(core, rule):
 
 
 @pytest.mark.parametrize(("fit", "factor"), [("-20 um", 1.0), ("20 um", 2.0**15)])
-def test_fretting_weakens_the_middle_of_pressed_rivets(fit, factor):
+def test_fretting_weakens_the_middle_of_pressed_rivets(fmu, fit, factor):
     """The same motion with and without: damage of the middle is 2^k_2 times larger where the hole presses, the head's
     the same; far below the knee.
     """
@@ -193,6 +193,7 @@ def test_fretting_weakens_the_middle_of_pressed_rivets(fit, factor):
             t_end=4e-3,
             parameters=few | {"fatigue.fretting": factor},
             outputs=["rivet[*].damage_head", "rivet[*].damage_mid"],
+            fmu=fmu,
         )
         for factor in (1.0, 2.0)
     )

@@ -51,10 +51,10 @@ def test_pockets_have_the_forces_that_moved_balls_and_halves(core, shape, halves
     unlock(core)
     scene = FLOODED | halves | shape
     c, rng, changed = core.model(scene), np.random.default_rng(3), 0.0
-    weight = core.array(1.0 / Model.of(scene).d.scale)
+    weight = 1.0 / Model.of(scene).d.scale
     for pockets in 3 * (True, False):
         before, end = c.verlet_evaluate(0.0, running_state(c, rng, pockets=pockets)), core.new("VerletState")
-        c.kernel("verlet_step")(c.pointer, 0.0, 6e-6, weight, before, end, c.work)
+        c.kernel("verlet_step")(c.pointer, 0.0, 6e-6, core.array(weight), before, end, c.work)
         loads, at_end = pocket_loads(c), end.cage.halves.pockets
         gaps, films, D, u = (
             np.array([list(row)[: loads.shape[1]] for row in rows])
