@@ -282,7 +282,7 @@ void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZ
     for (int i = 0; i < SQUEEZE; i++) memcpy(to->rates[i], law.rate[i], sizeof to->rates[i]);
 }
 
-double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
+double bent_arrive(const Derived *d, double gamma, const BentSolution solved[2], Work *w)
 {
     double power = 0.0;
     for (int h = 0; h < 2; h++) {
@@ -301,6 +301,7 @@ double bent_arrive(double gamma, const BentSolution solved[2], Work *w)
             pressure->V[i] += change[i];
         }
         for (int i = 0; i < RIM; i++) pressure->rim_V[i] += change[2 + i];
+        pressure->felt = land_share(d, pressure);
         const double (*rates)[SQUEEZE] = solved[h].rates;
         double rate[3];
         turn_rates(T, (double[3]){rates[0][0], rates[1][0], rates[1][1]}, rate);

@@ -46,9 +46,11 @@ INLINE scalar smooth_part(scalar x)
     return x * x * (3.0 - 2.0 * x);
 }
 
-// Part of a film that is not faint: none up to FAINT_LOAD times the sum of the preloads, all from twice that on.
-INLINE scalar film_share(const Derived *d, scalar load)
+// Part of a land's load that is not faint: none up to FAINT_LOAD times the sum of the preloads, all from twice that on.
+INLINE scalar land_share(const Derived *d, const LandPressure *pressure)
 {
+    const scalar *film = pressure->film;
+    const scalar load = scalar_sqrt(film[0] * film[0] + film[1] * film[1] + 1e-30) + pressure->dry;
     double preload = 0.0;
     for (int k = 0; k < Z; k++) preload += d->P[k];
     return smooth_part(load / (FAINT_LOAD * preload + 1e-30) - 1.0);
@@ -268,5 +270,5 @@ void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZ
 // Velocities, films and rates of bent rims become those of a step's end; returns the increase of the films' power, less
 // the part of it on the halves' bodies that is of the second order in the changes by the solve.
 #define bent_arrive FOR_ISA(bent_arrive)
-double bent_arrive(double gamma, const BentSolution solved[2], Work *w);
+double bent_arrive(const Derived *d, double gamma, const BentSolution solved[2], Work *w);
 #endif

@@ -397,9 +397,7 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     }
     for (int i = 0; i < RIM; i++) pressure->rim_force[i] = pressure->film[2 + i] - sum[BENT_DRY + 2 + i];
     pressure->dry = sum[BENT_N], pressure->stiffness = sum[BENT_STIFFNESS];
-    pressure->felt = film_share(d, scalar_sqrt(pressure->film[0] * pressure->film[0] +
-                                               pressure->film[1] * pressure->film[1] + 1e-30) +
-                                       pressure->dry);
+    pressure->felt = land_share(d, pressure);
     memcpy(pressure->waves, &sum[BENT_RATES], sizeof pressure->waves);
     const scalar *waves = pressure->waves, D[3] = {waves[0] + waves[3], waves[4], waves[0] - waves[3]};
     scalar rate[3];

@@ -176,7 +176,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     for (int i = 0; i < CAGE_MOTIONS; i++) to->residual[Y_CAGE_V_X + i] -= gamma * step->foreseen.halves[i];
     memcpy(&to->delta[Y_CAGE_V_X], &to->residual[Y_CAGE_V_X], CAGE_MOTIONS * sizeof *y);
     solve_halves(model, w, gamma, lack, memory->squeeze, bent, to->delta);
-    if (lands_bend(model)) power = bent_arrive(gamma, bent, w);
+    if (lands_bend(model)) power = bent_arrive(model->d, gamma, bent, w);
     for (int h = 0; h < 2; h++) memcpy(memory->force[h], bent[h].film, sizeof memory->force[h]);
 
     // Velocities of halves and modes; friction.
