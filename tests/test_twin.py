@@ -439,8 +439,7 @@ def test_outputs(core, scene, record_property):
     energy_start, t = energy_total(model, first.y, w), 3e-4
     model = after_a_step(parameters, inputs, t)
     for y in random_states(model, y_start, np.random.default_rng(4), 5):
-        instance = Instance(core, parameters, inputs).step(t)
-        np.frombuffer(core.ffi.buffer(core.lib.part_state(instance.bearing), y.nbytes))[:] = y
+        instance = Instance(core, parameters, inputs).step(t).put(y)
         for name, value in observe(model, t, y, energy_start).items():
             if name in MEANS:
                 continue
@@ -461,8 +460,7 @@ def test_films_that_the_rivets_feel(core, percent, felt):
     rhs(Model.of(scene | {"joint.preload": 1000.0}, inputs), 0.0, y, w)
     load = np.hypot(*w.pressure.film[:2])[..., 0].item() + w.pressure.dry[..., 0].item()  # of half 0
     parameters = scene | {"joint.preload": float(load / (1e-2 * percent * Z))}
-    found = Instance(core, parameters, inputs).step(t)
-    np.frombuffer(core.ffi.buffer(core.lib.part_state(found.bearing), y.nbytes))[:] = y
+    found = Instance(core, parameters, inputs).step(t).put(y)
     model = after_a_step(parameters, inputs, t)
     expected = observe(model, t, y, 0.0)["rivet[k].sigma_head"]
     np.testing.assert_allclose(found.output("rivet.sigma_head"), expected, rtol=1e-9)

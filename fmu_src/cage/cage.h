@@ -120,6 +120,9 @@ typedef void CageLoads(const Model *model, const Work *w, JointLoads *load);
 #define cage_loads FOR_ISA(cage_loads)
 CageLoads cage_loads;
 
+// Loads and losses of the pockets at a state that a step has reached, of which w is another evaluation: those of the films that the step solved for.
+void cage_keep_films(const CageMemory *memory, Work *w);
+
 // Slip of half 1 against half 0 at each joint, in the plane [m].
 void cage_slip(const Model *model, const Work *w, scalar slip[Z]);
 

@@ -1,5 +1,5 @@
 // Functions of cage.h outside an evaluation: whether the kind of cage is possible, its constants, its rest state, the
-// longest step, the check of a saved state.
+// longest step, films behind an evaluation, the check of a saved state.
 #include "cage/cage.h"
 
 #include "cage/common/pocket_spheres.h"
@@ -126,6 +126,19 @@ double cage_fixed_step(const Model *model)
     const double bears =
         model->modes ? 2.0 * model->modes->substep : RIGID_TURN / sqrt(rigid_fastest(model->p, model->d));
     return fmin(bears, TENTH_OF_A_PULSE);
+}
+
+void cage_keep_films(const CageMemory *memory, Work *w)
+{
+    const PocketFilms *films = &memory->halves.pockets;
+    for (int h = 0; h < 2; h++)
+        for (int k = 0; k < Z; k++) {
+            const double D = films->D[h][k], F = films->F[h][k], at = w->cage.films.D[h][k];
+            const double F_now = at * fmax(w->cage.films.u[h][k], 0.0);
+            if (!(D > 0.0 && at > 0.0)) continue;
+            pocket_films_add(films, h, k, F - F_now, w);
+            w->pocket_dissipated[k] += F * F / D - F_now * F_now / at;
+        }
 }
 
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)

@@ -119,6 +119,7 @@ static void evaluate(Bearing *b)
     if (b->evaluated) return;
     const IntegratorState *i = &b->s.integrator;
     b->kernels.rhs(&b->model, i->t, i->now.y, b->y_dot, &b->w);
+    cage_keep_films(&i->now.cage, &b->w);
     b->evaluated = true;
 }
 

@@ -210,16 +210,6 @@ static void film_of_lane(const PocketFilms *films, const RigidApproach *approach
     memcpy(film->shape, films->shape[film->h][film->k], sizeof films->shape[film->h][film->k]);
 }
 
-// Adds `more`, the film's force at the end less that at the predicted velocities, to load and force of a pocket.
-static void correct_pocket(const PocketFilms *films, int h, int k, double more, Work *w)
-{
-    Pockets *pocket = &w->pocket[h];
-    pocket->Q[k] += more;
-    pocket->F_x[k] += more * films->m_x[h][k];
-    pocket->F_r[k] += more * films->m_r[h][k];
-    pocket->F_t[k] += more * films->m_t[h][k];
-}
-
 // Solves for the force of one film, which both changes get; returns the power that it saves [W].
 static double solve_film(const Model *model, double gamma, const EndFilm *film, double F_0, double F_f,
                          FilmChange *solved, FilmChange *rates, PocketFilms *films, Work *w)
@@ -234,7 +224,7 @@ static double solve_film(const Model *model, double gamma, const EndFilm *film, 
     const double F_new = implicit_force(D, u + push, gamma * (of_wall + of_ball));
     push_both(model, film, gamma * (F_new - F_f), gamma * (F_new - F_0), solved);
     push_both(model, film, F_new - F, F_new - F, rates);
-    correct_pocket(films, h, k, F_new - F, w);
+    pocket_films_add(films, h, k, F_new - F, w);
     u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
     films->F[h][k] = F_new;
     if (model->modes)

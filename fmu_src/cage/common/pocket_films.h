@@ -28,6 +28,16 @@ typedef struct {
     mode_array shape[2 * Z];
 } PocketFilmsStep;
 
+// Adds `more`, the film's force at the end of a step less that of an evaluation, to load and force of a pocket.
+INLINE void pocket_films_add(const PocketFilms *films, int h, int k, double more, Work *w)
+{
+    Pockets *pocket = &w->pocket[h];
+    pocket->Q[k] += more;
+    pocket->F_x[k] += more * films->m_x[h][k];
+    pocket->F_r[k] += more * films->m_r[h][k];
+    pocket->F_t[k] += more * films->m_t[h][k];
+}
+
 // Takes the films of an evaluation.
 #define pocket_films_split FOR_ISA(pocket_films_split)
 void pocket_films_split(const Model *model, const Work *w, PocketFilms *films);
