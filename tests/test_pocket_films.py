@@ -6,7 +6,7 @@ from mechanics import Instance, pocket_loads, running_state
 from ribbon import RIBBON, unlock
 from test_wall_loads import put
 
-from bearing_model.generated.variables import CageModel, Method, Z
+from bearing_model.generated.variables import CageModel, Method, Switch, Z
 from bearing_model.physics.model import Model
 from bearing_model.solver.verlet import verlet_evaluate, verlet_step
 
@@ -95,7 +95,7 @@ def test_loads_at_communication_points_are_those_of_the_steps(core, record_prope
     """Pockets of a tilted ribbon full of oil: loads at communication points against the statistics of the steps between them.  An
     evaluation at the state that a step has reached gives stiff films other forces than the step solved for: means were 4.7 % too large.
     """
-    scene = FLOODED | BENDING | RIBBON | {"start.settle": 0.0}
+    scene = FLOODED | BENDING | RIBBON | {"scene.statistics": Switch.ON, "start.settle": 0.0}
     tilted = {"shaft.omega": 868.0, "shaft.F_x": 3000.0, "shaft.F_y": -2000.0, "shaft.tilt_y": 6e-3}
     bearing, loads = Instance(core, scene, tilted).step(0.01), []
     before = bearing.output("stat.Q_c_mean") * 0.01
