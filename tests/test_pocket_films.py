@@ -93,10 +93,10 @@ def test_thick_oil_in_steps_of_8_us(core, halves, record_property):
 @pytest.mark.c_only
 def test_loads_at_communication_points_are_those_of_the_steps(core, record_property):
     """Pockets of a tilted ribbon full of oil: loads at communication points against the statistics of the steps between them.  An
-    evaluation at the state that a step has reached gives stiff films other forces than the step solved for: means were 4.7 % too large.
+    evaluation at the state that a step has reached gives stiff films other forces than the step solved for: this mean was 2.0 % too large.
     """
-    scene = FLOODED | BENDING | RIBBON | {"scene.statistics": Switch.ON, "start.settle": 0.0}
-    tilted = {"shaft.omega": 868.0, "shaft.F_x": 3000.0, "shaft.F_y": -2000.0, "shaft.tilt_y": 6e-3}
+    scene = FLOODED | BENDING | RIBBON | {"oil.eta": 0.1, "scene.statistics": Switch.ON, "start.settle": 0.0}
+    tilted = {"shaft.omega": 1500.0, "shaft.F_x": 3000.0, "shaft.F_y": -2000.0, "shaft.tilt_y": 3e-3}
     bearing, loads = Instance(core, scene, tilted).step(0.01), []
     before = bearing.output("stat.Q_c_mean") * 0.01
     for i in range(1, 401):
@@ -104,4 +104,4 @@ def test_loads_at_communication_points_are_those_of_the_steps(core, record_prope
         loads.append(np.mean(list(bearing.output("ball.Q_c"))[:Z]))
     mean = (bearing.output("stat.Q_c_mean") * 0.03 - before) / 0.02
     record_property("observed", f"{mean:.2f} N, {100.0 * (np.mean(loads) / mean - 1.0):+.2f} %")
-    assert np.mean(loads) == pytest.approx(mean, rel=0.01)
+    assert np.mean(loads) == pytest.approx(mean, rel=3e-3)
