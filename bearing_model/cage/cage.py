@@ -219,7 +219,7 @@ def cage_slide(model, before, y, w):
     return lost, joints.rubbed
 
 
-SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of step and tolerance that it has at least
+SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of the tolerance that it has at least
 STIFF_GAP = 0.6  # most k Y h^2 of a step h, k: stiffness of a gap on a bent rim, Y: mobility of the rim
 STIFF_CORNER = (
     0.06  # most k h^2/m, k = Q/SEAT: stiffness across a load Q near the corners of a ribbon's pocket, m: mass of a half
@@ -235,7 +235,7 @@ def rigid_fastest(p, d):
 
 
 def cage_part(memory):
-    """Part of the longest step and of the tolerance that the cage is given: 1, less of a slow cage."""
+    """Part of the tolerance that the cage is given: 1, less of a slow cage."""
     return min(max(np.sqrt(memory.omega_2) / SLOW, LEAST_PART), 1.0)
 
 
@@ -243,20 +243,18 @@ def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves five substeps, of a ribbon four, or the time 1/A that a film of the rate A allows which does
     not follow in the substeps, or one in a pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at least,
-    one for pockets where lands guide the cage.  Slow halves have a part of it.
+    one for pockets where lands guide the cage.
     """
-    part = cage_part(memory)
     if not model.modes:
-        return part * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
+        return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
-    most = d + (model.modes.longest_step - d) * (part - LEAST_PART) / (1.0 - LEAST_PART)
     by_gap = np.sqrt(memory.films.stiffness * model.modes.mobility[0] / STIFF_GAP)
     films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate), (2.0, by_gap)
     if model.d.spheres:
         Q = max(np.max(touch[TOUCH.index("Q")]) for touch in memory.fast.touch)
         films += ((1.0, np.sqrt(Q / (STIFF_CORNER * model.p.cage.m * SEAT))),)
-    return min(most, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
+    return min(model.modes.longest_step, *(max(n * d, 1.0 / A if A > 0.0 else np.inf) for n, A in films))
 
 
 # ------------------------------------------------------------------------------------------------- read from an evaluation
