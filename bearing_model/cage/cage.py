@@ -219,7 +219,10 @@ def cage_slide(model, before, y, w):
     return lost, joints.rubbed
 
 
-SLOW, LEAST_PART = 60.0, 1.0 / 3.0  # speed of a slow cage [rad/s], part of the tolerance that it has at least
+SLOW, LEAST_PART = (
+    60.0,
+    1.0 / 3.0,
+)  # speed of a slow cage [rad/s], part of the tolerance that it has at least, rigid halves of the step too
 STIFF_GAP = 0.6  # most k Y h^2 of a step h, k: stiffness of a gap on a bent rim, Y: mobility of the rim
 STIFF_CORNER = (
     0.06  # most k h^2/m, k = Q/SEAT: stiffness across a load Q near the corners of a ribbon's pocket, m: mass of a half
@@ -235,18 +238,18 @@ def rigid_fastest(p, d):
 
 
 def cage_part(memory):
-    """Part of the tolerance that the cage is given: 1, less of a slow cage."""
+    """Part of the tolerance that the cage is given, rigid halves of the step too: 1, less of a slow cage."""
     return min(max(np.sqrt(memory.omega_2) / SLOW, LEAST_PART), 1.0)
 
 
 def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
-    their fastest vibration, of elastic halves five substeps, of a ribbon four, or the time 1/A that a film of the rate A allows which does
+    their fastest vibration, of elastic halves five substeps, of a ribbon 3.5, or the time 1/A that a film of the rate A allows which does
     not follow in the substeps, or one in a pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at least,
-    one for pockets where lands guide the cage.
+    one for pockets where lands guide the cage.  Slow rigid halves have a part of it.
     """
     if not model.modes:
-        return LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
+        return cage_part(memory) * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
     by_gap = np.sqrt(memory.films.stiffness * model.modes.mobility[0] / STIFF_GAP)

@@ -56,7 +56,8 @@ static const double TENTH_OF_A_PULSE = 1e-5;
 
 // Angles by which the fastest vibration between rigid halves turns at most: in equal steps velocity Verlet is stable up to 2, whatever
 // the matrix of the step has of joints that open or slip in it; in others Fox and Goodwin's method is up to the root of 6.
-// In longer ones balls that press lightly or jam the cage feed it: below 2,300 r/min stress was up to five times too large.
+// In longer ones balls that press lightly or jam the cage feed it: below 2,300 r/min stress was up to five times too large.  Slow halves
+// have a part of it: without, stress at 50 to 600 r/min was up to 45 times too large.
 static const double RIGID_TURN = 2.0, LONGEST_TURN = 2.449;
 
 // Square of that vibration's frequency [1/s2], all joints closed and sticking: along the axis and of the tilts, in the plane
@@ -72,7 +73,7 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 }
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so that it has five
-// substeps at most, of a ribbon four.  Below SLOW a cage's own speed is of the order of the tolerance's scale, so that the tolerance falls in
+// substeps at most, of a ribbon 3.5.  Below SLOW a cage's own speed is of the order of the tolerance's scale, so that the tolerance falls in
 // proportion to the speed: 99.9 % force of a ribbon at 394 r/min +5.2 without, +1.4 % with it.  Films leave two substeps, which are always
 // stable, or more: films of the rate A that the substeps leave out 1/A; films in pockets 1/A too, or one substep where lands guide the
 // cage, whose RMS force would err by 3 %; films on bent rims STIFF_GAP.
@@ -83,7 +84,9 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 //
 // Near the corners of a ribbon's pockets the place and the direction of a contact change over SEAT: k = Q/SEAT across a contact of the load Q,
 // at 140 N as much as along it, which does not follow either.  Equal steps were stable up to k h^2/m = 0.06 to 0.12, m the mass of a half.
-static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], part of the tolerance
+static const double SLOW = 60.0,
+                    LEAST_PART =
+                        1.0 / 3.0;  // [rad/s], part of the tolerance, of rigid halves of the step too
 static const double STIFF_GAP = 0.6, STIFF_CORNER = 0.06;
 
 double cage_part(const CageMemory *memory)
@@ -102,7 +105,7 @@ static double corners_bear(const Model *model, const WallTouch *touch)
 
 double cage_longest_step(const Model *model, const CageMemory *memory)
 {
-    if (!model->modes) return LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
+    if (!model->modes) return cage_part(memory) * LONGEST_TURN / sqrt(rigid_fastest(model->p, model->d));
     const double d = model->modes->substep, most = model->modes->longest_step;
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {

@@ -56,6 +56,7 @@ APPROACH_FLOOR = 1e-12  # least approach in the stiffness 3 Q/(2 delta) [m]
 NEWTON = 5  # steps for the wall's compliance, at most
 # last step, whose error is its square over the approach [m]; derivatives, one step behind, have all steps
 SETTLED = 1e-12
+TOUCHES = 1e-7  # approach at which a ball that has not arrived yet has its direction and law [m]
 CORNER = 4.0  # largest ratio of a contact's approach to that of the sphere under its load, and the least one's inverse
 
 
@@ -118,7 +119,7 @@ def rim_pair(f, edge):
 
 
 def spheres_nearest(d, x, r, t):
-    """Approach of the nearest place of sphere and rims [m], by which no contact is missed; of a ball within the sphere, the sphere's."""
+    """Approach of the nearest place of sphere and rims [m], and that by which no contact is missed: of a ball within the sphere, the sphere's."""
     sides, R_r = sphere_side(t, SEAT), sphere_side(r, TIP)
     sphere = np.sqrt(x * x + r * r + t * t) - d.slack
     above = x * d.fillet.cos - np.sqrt(t * t + r * r) * d.fillet.sin
@@ -127,7 +128,7 @@ def spheres_nearest(d, x, r, t):
     f = d.fillet.reach - d.slack - np.sqrt((d.fillet.A - g) ** 2 + (d.fillet.H - x) ** 2)
     e = d.edge.reach - d.slack - np.sqrt((d.edge.A - k) ** 2 + (d.edge.H - R_r[1]) ** 2)
     nearest = np.where(np.real(minimum(above, below)) > 0.0, sphere, maximum(f, e))
-    return np.where(np.real(sphere) > 0.0, nearest, sphere)
+    return nearest, np.where(np.real(sphere) > 0.0, nearest, sphere)
 
 
 def spheres_contact(d, x, r, t):
@@ -256,11 +257,11 @@ def spheres_wall(model, w, h, gap):
     poleward = np.array([gap.side, 1.0, 1.0]).reshape(-1, *[1] * (shape.ndim - 2))
 
     # walls that cannot be reached: by how far they can move, and by that without the modes that move all pockets alike
-    near = np.real(spheres_nearest(model.d.spheres, *gap.q)) + e.reach[h] > 0.0
+    near = np.real(spheres_nearest(model.d.spheres, *gap.q)[1]) + (gap.ahead + e.reach[h]) > 0.0
     near = near | sphere_wet(model.d, gap.q, e.reach[h])
     alike = near * np.sum(np.where(half.uniform, shape * q, 0.0), axis=-1)
     there = tuple(x - u_i for x, u_i in zip(gap.q, poleward * alike, strict=True))
-    touched = np.real(spheres_nearest(model.d.spheres, *there)) + e.reach_others[h] > 0.0
+    touched = np.real(spheres_nearest(model.d.spheres, *there)[1]) + (gap.ahead + e.reach_others[h]) > 0.0
     near = near & (touched | sphere_wet(model.d, there, e.reach_others[h]))
 
     u = np.where(near, np.sum(shape * q, axis=-1), alike)
@@ -350,6 +351,31 @@ def spheres_rigid(model, w):
         spheres_forces(model, w, h, spheres_gap(model, w, h))
 
 
+def spheres_ahead(model, w, h, gap):
+    """How far the balls come nearer to the spheres of half h in the longest step, both as rigid bodies [m]."""
+    half, (x, r, t) = w.half[h], gap.q
+    v_h, Omega = (vec_local(v, w.cos_theta, w.sin_theta) for v in (half.v, half.Omega))
+    v = vec(w.v_x, w.v_r, w.v_t) - v_h - vec_cross(Omega, gap.p)
+    along = gap.side * x * vec_dot(v, gap.a) + r * vec_dot(v, gap.b) + t * vec_dot(v, gap.e_t)
+    rate = along / np.sqrt(x * x + r * r + t * t + TIP**2)
+    return np.real(maximum(rate, 0.0) * model.modes.longest_step)
+
+
+def leave_arrivals(model, e, h, gap, wall):
+    """Leaves balls that may come to a wall of half h in the longest step to its substeps, with the contact that each would have on a wall
+    moved up to it.
+    """
+    d = model.d.spheres
+    delta = spheres_nearest(d, *gap.q)[0]
+    comes = wall.near & (np.real(delta) + gap.ahead > 0.0) & (np.real(delta) < 0.0)
+    _, Q, n, _ = spheres_contact(d._replace(slack=d.slack + (delta - TOUCHES)), *gap.q)
+    rows = dict(zip(("x", "r", "t"), (gap.side * n[0], n[1], n[2]), strict=True))
+    rows |= {"K": Q / TOUCHES**1.5, "delta": delta, "chi": wall.chi, "radius": wall.radius, "front": wall.front}
+    for name, value in rows.items():
+        row = getattr(e, f"touch_{name}")
+        row[h] = np.where(comes, value, row[h])
+
+
 def spheres_elastic(model, w):
     """Contacts of all pockets of two elastic ribbon halves, as pocket_elastic of machined ones."""
     pocket_clear(w)
@@ -358,6 +384,7 @@ def spheres_elastic(model, w):
     e.wall_energy = [None, None]
     for h in range(2):
         gap = spheres_gap(model, w, h)
+        gap.ahead = spheres_ahead(model, w, h, gap)
         wall = spheres_wall(model, w, h, gap)
         at = spheres_forces(model, w, h, gap, wall)
         e.wall_force[h] = sum(
@@ -370,6 +397,7 @@ def spheres_elastic(model, w):
         e.touch_K[h], e.touch_delta[h] = np.where(pressed, at.Q_0 / own**1.5, 0.0), np.where(pressed, own, 0.0)
         e.touch_Q[h], e.touch_chi[h], e.touch_radius[h], e.touch_front[h] = at.Q, wall.chi, wall.radius, wall.front
         e.wall_energy[h] = at.V
+        leave_arrivals(model, e, h, gap, wall)
 
 
 def spheres_energy(model, w):

@@ -23,7 +23,7 @@ from bearing_model.generated.variables import CageShape, Z
 
 IN = [1, 2]  # of the motions (x, r, t, phi_x, phi_r, phi_t) of a pad: in the plane; OUT: out of it
 ROOT = np.sqrt(2.0)
-LONGEST, LONGEST_RIBBON = 5.0, 4.0  # substeps in the longest step
+LONGEST, LONGEST_RIBBON = 5.0, 3.5  # substeps in the longest step
 WEAK_FILM = 0.05  # part of a wall's velocity that a film takes in the longest step, below which it need not follow
 SUBSTEP_TURN = 1.55  # angle by which the fastest vibration of closed joints turns in a substep (cage_substeps.py)
 WALL_NODE = 1  # of the walls' angle: impacts meet the wall at 7 degrees in the median

@@ -268,8 +268,9 @@ static void take(ball_array q[3], int k, int side, const scalar u[3])
 // Takes the motions of the walls of a packet, of which the bits in `near` may be reached, from the gap.  The modes that move all
 // pockets alike cost little and move the walls most: the others are left out where they cannot close the gap.  Returns
 // the bits of the others; the approach where there are none.
-static int move_walls(const Model *model, const Work *w, int h, int j, int near, const RibbonAlike *by_alike,
-                      SphereGap *gap, SpherePlaces *at, WallShape shape[LANE_WIDTH], wide *delta)
+static int move_walls(const Model *model, const Work *w, int h, int j, int near, wide ahead,
+                      const RibbonAlike *by_alike, SphereGap *gap, SpherePlaces *at,
+                      WallShape shape[LANE_WIDTH], wide *delta)
 {
     const int side = 2 * h - 1;
     const Spheres *s = &model->d->spheres;
@@ -287,7 +288,7 @@ static int move_walls(const Model *model, const Work *w, int h, int j, int near,
     gap->x = wide_load(&alike[0][j]), gap->r = wide_load(&alike[1][j]), gap->t = wide_load(&alike[2][j]);
     sphere_reached(s, slack, gap, delta);
     const double others = w->cage.elastic.reach_others[h];
-    near &= wide_mask(wide_above(*delta + others, 0.0)) | sphere_wet(model->d, j, gap, others);
+    near &= wide_mask(wide_above(*delta + (ahead + others), 0.0)) | sphere_wet(model->d, j, gap, others);
     if (near == 0) return 0;
     for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
         const int k = j + lane;
@@ -382,6 +383,48 @@ static void press_spheres(const Model *model, Work *w, int h, int j, const Spher
     }
 }
 
+// How far the balls of a packet come nearer to the sphere in the longest step, both as rigid bodies.
+INLINE wide sphere_ahead(const Model *model, const Work *w, int h, int j, const SphereGap *gap)
+{
+    const wide x = gap->x, r = gap->r, t = gap->t, side = wide_set(h == 0 ? -1.0 : 1.0);
+    const vec v = pocket_motion(w, &w->half[h], j, &gap->axes, NULL).v;
+    const wide along =
+        side * x * vec_dot(v, gap->axes.a) + r * vec_dot(v, gap->axes.b) + t * vec_dot(v, gap->axes.e_t);
+    const wide rate = along / wide_sqrt(x * x + r * r + t * t + TIP * TIP);
+    return wide_max(rate, wide_set(0.0)) * model->modes->longest_step;
+}
+
+static const double TOUCHES =
+    1e-7;  // approach at which a ball that has not arrived yet has its direction and law [m]
+
+// Leaves balls of a packet that may come to the wall in the longest step to its substeps (wall_loads.c), with the contact that each would have
+// on a wall moved up to it.
+static void leave_arrivals(const Model *model, Work *w, int h, int j, const SphereGap *gap, wide ahead,
+                           const SpherePlaces *at)
+{
+    const Spheres *s = &model->d->spheres;
+    WallTouch *touch = &w->cage.elastic.touch;
+    const wide slack = wide_load(&s->slack[j]), side = wide_set(h == 0 ? -1.0 : 1.0);
+    wide sphere;
+    const wide delta = sphere_nearest(s, slack, gap, &sphere);
+    const bits comes = wide_above(delta + ahead, 0.0) & wide_above(-delta, 0.0);
+    if (!wide_any(comes)) return;
+    const SphereContact would = sphere_contact(s, slack + (delta - TOUCHES), gap->x, gap->r, gap->t);
+    const double inv_law = 1.0 / (TOUCHES * sqrt(TOUCHES));
+    scalar *const to[] = {touch->x[h],     touch->r[h],   touch->t[h],      touch->K[h],
+                          touch->delta[h], touch->chi[h], touch->radius[h], touch->front[h]};
+    const wide value[] = {side * would.n_x,
+                          would.n_r,
+                          would.n_t,
+                          inv_law * would.Q,
+                          delta,
+                          wide_load(at->chi),
+                          wide_load(at->radius),
+                          wide_load(at->nodes.front)};
+    for (size_t i = 0; i < sizeof to / sizeof *to; i++)
+        wide_store(&to[i][j], wide_select(comes, value[i], wide_load(&to[i][j])));
+}
+
 void spheres_elastic(const Model *model, Work *w)
 {
     const Spheres *s = &model->d->spheres;
@@ -399,9 +442,11 @@ void spheres_elastic(const Model *model, Work *w)
             SphereContact contact = {0};
             bits pressed = {0};
             sphere_reached(s, slack, &gap, &contact.delta);
-            int near = wide_mask(wide_above(contact.delta + w->cage.elastic.reach[h], 0.0)) |
+            const wide ahead = sphere_ahead(model, w, h, j, &gap);
+            int near = wide_mask(wide_above(contact.delta + (ahead + w->cage.elastic.reach[h]), 0.0)) |
                        sphere_wet(model->d, j, &gap, w->cage.elastic.reach[h]);
-            if (near != 0) near = move_walls(model, w, h, j, near, &alike, &gap, &at, shape, &contact.delta);
+            if (near != 0)
+                near = move_walls(model, w, h, j, near, ahead, &alike, &gap, &at, shape, &contact.delta);
             const int wet = near & sphere_wet(model->d, j, &gap, 0.0);
             if (near != 0 && sphere_reached(s, slack, &gap, &contact.delta)) {
                 contact = sphere_approach(s, slack, c, &gap);
@@ -415,6 +460,7 @@ void spheres_elastic(const Model *model, Work *w)
                 walls_clear(w, h, j);
                 wide_store(&w->cage.elastic.wall_energy[h][j], wide_set(0.0));
             }
+            if (near != 0) leave_arrivals(model, w, h, j, &gap, ahead, &at);
         }
         if (touched) add_pockets(&w->pocket[h], &w->half[h]);
     }

@@ -121,13 +121,12 @@ typedef struct {
     wide V, Q, n_x, n_r, n_t, delta;
 } SphereContact;
 
-// The approach of the nearest place of sphere and rims, by which no contact is missed; returns whether a ball of the packet
-// may touch.
-INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, wide *delta)
+// The approach of the nearest place of sphere and rims, and that of the sphere.
+INLINE wide sphere_nearest(const Spheres *s, wide slack, const SphereGap *gap, wide *sphere)
 {
     const wide x = gap->x, r = gap->r, t = gap->t, r_2 = r * r, t_2 = t * t;
     const SphereSide X = {x, x, wide_set(1.0)}, R = sphere_side(r, TIP), T = sphere_side(t, SEAT);
-    const wide sphere = wide_sqrt(x * x + r_2 + t_2) - slack;
+    *sphere = wide_sqrt(x * x + r_2 + t_2) - slack;
     const wide above = x * s->fillet.cosine - wide_sqrt(t_2 + r_2) * s->fillet.sine;
     const wide below = wide_sqrt(x * x + t_2) * s->edge.sine - R.size * s->edge.cosine;
     const wide g = arc_reach(&s->fillet, T, R).g, k = arc_reach(&s->edge, X, T).g;
@@ -135,8 +134,15 @@ INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, w
     const wide off_r = s->edge.H - R.size;
     const wide f = s->fillet.reach - slack - wide_sqrt(off_g * off_g + off_x * off_x);
     const wide e = s->edge.reach - slack - wide_sqrt(off_k * off_k + off_r * off_r);
-    const wide rims = wide_select(wide_above(wide_min(above, below), 0.0), sphere, wide_max(f, e));
-    *delta = wide_select(wide_above(sphere, 0.0), rims, sphere);
+    return wide_select(wide_above(wide_min(above, below), 0.0), *sphere, wide_max(f, e));
+}
+
+// The approach by which no contact is missed: of a ball within the sphere, the sphere's; returns whether a ball of the packet may touch.
+INLINE bool sphere_reached(const Spheres *s, wide slack, const SphereGap *gap, wide *delta)
+{
+    wide sphere;
+    const wide nearest = sphere_nearest(s, slack, gap, &sphere);
+    *delta = wide_select(wide_above(sphere, 0.0), nearest, sphere);
     return wide_any(wide_above(*delta, -1e-9));
 }
 
