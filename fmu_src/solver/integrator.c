@@ -17,7 +17,6 @@
 
 #include "numbers/aligned.h"
 #include "numbers/elementary.h"
-#include "numbers/error_norm.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
 #include "physics/powers.h"
@@ -91,9 +90,7 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->s->rhs_evals += 1.0;
     in->latest = f;
     const int states = cage_states(in->model);
-    memset(&f[states], 0,
-           (size_t)(N_ALL_STATES - states) * sizeof *f);  // of modes that the scene does not have
-    if (!all_finite(states, f)) stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
+    if (!in->kernels->all_finite(states, f)) stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
@@ -120,9 +117,12 @@ static int weights(N_Vector y, N_Vector ewt, void *user)
     return 0;
 }
 
-static double norm(N_Vector x, N_Vector weight)
+// ARKODE's vectors have rows for the modes of the cage, and the length of the scene's states.
+static int same_length(N_Vector v, N_Vector like, void *user)
 {
-    return error_norm(true, N_VGetArrayPointer(x), N_VGetArrayPointer(weight));
+    (void)user;
+    NV_LENGTH_S(v) = NV_LENGTH_S(like);
+    return 0;
 }
 
 // ---- control of the default method's steps ----------------------------------------------------------------
@@ -348,15 +348,16 @@ static bool warm_up(Integrator *in, void *arkode, N_Vector y)
 static N_Vector vector_new(const Integrator *in, int n, double (*norm_of)(N_Vector, N_Vector))
 {
     N_Vector v = N_VNew_Serial(n, in->sun);
-    if (v == NULL || N_VEnableLinearCombination_Serial(v, SUNTRUE) != SUN_SUCCESS) return NULL;
+    if (v == NULL) return NULL;
     v->ops->nvwrmsnorm = norm_of;
+    v->ops->nvlinearcombination = in->kernels->combine;
     N_VConst(0.0, v);
     return v;
 }
 
 static bool create_explicit(Integrator *in)
 {
-    in->y = vector_new(in, N_ALL_STATES, norm);
+    in->y = vector_new(in, VECTOR_ROWS, in->kernels->norm);
     if (in->y == NULL) return false;
     in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
     return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
@@ -578,6 +579,8 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     // ARKODE forgets the history of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
     memcpy(N_VGetArrayPointer(in->y), s->now.y, sizeof s->now.y);
+    NV_LENGTH_S(in->y) = cage_states(in->model);
+    if (ARKodeResize(in->arkode, in->y, 1.0, s->t, same_length, NULL) != ARK_SUCCESS) return -1;
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
     if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
@@ -620,7 +623,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     s->h = fmax(h_next, KEPT_STEP * s->h);
     if (status < 0 || in->escaped) return status;
     s->t = t_stop;
-    memcpy(s->now.f, in->latest, sizeof s->now.f);
+    memcpy(s->now.f, in->latest, (size_t)cage_states(in->model) * sizeof *s->now.f);
     s->f_is_current = 1;
     return 0;
 }
@@ -629,7 +632,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     // Without a derivative at the start there is no step.
     integrator_evaluate(in);
-    if (!all_finite(cage_states(in->model), in->s->now.f)) {
+    if (!in->kernels->all_finite(cage_states(in->model), in->s->now.f)) {
         memset(in->s->now.f, 0, sizeof in->s->now.f);
         in->s->f_is_current = 0;
         return ARK_RHSFUNC_FAIL;
