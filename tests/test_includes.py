@@ -11,7 +11,7 @@ import pytest
 
 SOURCES = Path(__file__).resolve().parents[1] / "fmu_src"
 GROUPS = {  # from the bottom up
-    "numbers": "aligned build_info cpu_clock dual elementary elimination error_norm fatigue float_environment isa lanes limits octet part "
+    "numbers": "aligned build_info cpu_clock dual elementary elimination error_norm fatigue float_environment kernel_names lanes limits octet part "
     "reserved_memory saved_numbers scalar statistics trapezoid variable_table variables vec viscosity",
     "data of the cage": "cage_work half_modes half_path joint_law land_path",
     "laws and tables": "ball_spall ball_turn elastic_half elastic_wall frame hertz land_bent model outer_ring ring_fit rivet_joint rivet_rom "

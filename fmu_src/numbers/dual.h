@@ -19,7 +19,7 @@ enum { HALVES = 1 };  // cage halves side by side
 typedef scalar wide;
 typedef bool bits;
 
-// Functions beside those of the kernel files (isa.h) that are compiled for values and, under these names, for
+// Functions beside those of the kernel files that are compiled for values and, under these names, for
 // derivatives.
 #define cage_energy FOR_ISA(cage_energy)
 #define cage_flex FOR_ISA(cage_flex)
