@@ -42,8 +42,7 @@ enum { WALL_NODES = 16, WALL_RADII = 3 };  // of a wall, at most
 
 // Parameters and constants from which the constants of a half are derived that no temperature changes.
 typedef struct {
-    int shape;
-    double m, land_x, d_m, J_p, J_t, friction;
+    double shape, m, land_x, d_m, J_p, J_t, friction;
 } ElasticBody;
 
 struct ElasticHalf {
