@@ -26,7 +26,7 @@ from bearing_model.generated.variables import RingMotion, TiltMode, Traction, Z
 from bearing_model.numbers.trapezoid import trapezoid_end, trapezoid_error
 from bearing_model.physics.model import Work
 from bearing_model.physics.powers import friction_torque, shaft_power
-from bearing_model.physics.rhs import jacobian, rhs
+from bearing_model.physics.rhs import rhs
 
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
 BUSY, QUIET = 0.25, 0.2  # mean error of a busy bearing, least part of the tolerance
@@ -201,20 +201,6 @@ def jacobian_blocks(model, t, y, w, gamma):
         for force, support in zip(ball_blocks(model, w, gamma), ring_support(model), strict=True)
     )
     return Blocks(A, K, A_stiff)
-
-
-def masked_jacobian(model, t, y, w, gamma):
-    """The exact derivatives of the right-hand side by complex steps, masked to the entries that jacobian_blocks keeps:
-    another choice of A and K.
-    """
-    kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
-    by_position = np.zeros((N_V, N_V))
-    by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(
-        np.where(kept.A != 0.0, -J[V, V], 0.0),
-        np.where(kept.K != 0.0, -by_position, 0.0),
-        kept.A_stiff,
-    )
 
 
 def ring_wrench(model, w, gamma, delta):
