@@ -72,34 +72,22 @@ class Bearing:
             raise ValueError(
                 f"bearing.alpha_0 = {self.alpha_0} and bearing.P_d = {self.P_d}: only one of them can be given"
             )
-        for name in ("D", "d_m", "E", "rho"):
-            admit("bearing", self, name, lambda v: v > 0.0, "must be positive")
-        for name in ("f_i", "f_e"):
-            admit("bearing", self, name, lambda v: 0.5 < v <= 1.0, "must be more than 0.5 and at most 1")
-        for name in ("C", "C_0"):
-            if getattr(self, name) is not None:
-                admit("bearing", self, name, lambda v: v > 0.0, "must be positive")
-        admit("bearing", self, "nu", lambda v: 0.0 <= v < 0.5, "must be at least 0 and less than 0.5")
-        admit("bearing", self, "Z", lambda v: v >= 3 and v == int(v), "must be a whole number of at least 3")
-        admit(
-            "bearing",
-            self,
-            "d_m",
-            lambda v: v * math.sin(math.pi / self.Z) >= self.D,
-            f"{self.Z} balls of D = {self.D} m do not fit",
+        checks = (
+            (("D", "d_m", "E", "rho"), lambda v: v > 0.0, "must be positive"),
+            (("f_i", "f_e"), lambda v: 0.5 < v <= 1.0, "must be more than 0.5 and at most 1"),
+            (("C", "C_0"), lambda v: v > 0.0, "must be positive"),
+            (("nu",), lambda v: 0.0 <= v < 0.5, "must be at least 0 and less than 0.5"),
+            (("Z",), lambda v: v >= 3 and v == int(v), "must be a whole number of at least 3"),
         )
-        if self.alpha_0 is not None:
-            admit(
-                "bearing", self, "alpha_0", lambda v: 0.0 <= v < 0.5 * math.pi, "must be at least 0 and less than pi/2"
-            )
-        if self.P_d is not None:
-            admit(
-                "bearing",
-                self,
-                "P_d",
-                lambda v: abs(v) < 2.0 * self.A,
-                f"must be within +-2 (f_i + f_e - 1) D = {2.0 * self.A:.4g} m",
-            )
+        for names, test, allowed in checks:
+            for name in names:
+                admit("bearing", self, name, test, allowed)
+        room, most = f"{self.Z} balls of D = {self.D} m do not fit", 2.0 * self.A
+        admit("bearing", self, "d_m", lambda v: v * math.sin(math.pi / self.Z) >= self.D, room)
+        angle = "must be at least 0 and less than pi/2"
+        admit("bearing", self, "alpha_0", lambda v: 0.0 <= v < 0.5 * math.pi, angle)
+        clearance = f"must be within +-2 (f_i + f_e - 1) D = {most:.4g} m"
+        admit("bearing", self, "P_d", lambda v: abs(v) < most, clearance)
 
     @property
     def A(self):
@@ -301,9 +289,11 @@ class QuasiStatic:
 
 def admit(owner, obj, name, test, allowed):
     """Raise ValueError that names owner.name, its value and the allowed range, unless it is a finite number that passes
-    the test.
+    the test, or None where that is its default.
     """
     value = getattr(obj, name)
+    if value is None and getattr(type(obj), name) is None:
+        return
     try:
         good = math.isfinite(value) and test(value)
     except TypeError:

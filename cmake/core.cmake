@@ -93,6 +93,7 @@ file(GLOB elementary_test CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_ele
 # An object library of these files, compiled for one instruction set.
 function(compile_for target isa lane_width files)
     add_library(${target} OBJECT EXCLUDE_FROM_ALL ${files})
+    target_include_directories(${target} SYSTEM PRIVATE ${sundials_folders})
     target_include_directories(${target} PRIVATE ${core_includes})
     target_compile_definitions(${target} PRIVATE ISA=${isa} LANE_WIDTH=${lane_width})
     target_compile_options(${target} PRIVATE ${kernel_flags} ${ARGN})

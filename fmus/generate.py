@@ -28,6 +28,7 @@ OUTPUTS = (
     "fmu_src/generated/variables.h",
     "fmu_src/generated/variables.c",
     "fmu_src/generated/limits.c",
+    "fmu_src/generated/kernel_names.h",
     "fmus/modelDescription.xml",
     "bearing_model/generated/variables.py",
     "bearing_model/generated/limits.py",
@@ -380,6 +381,13 @@ def feeds(v):
     return ("rivet table, run" if v.built or v.table else "run") + (f", there with {needs}" if needs else "")
 
 
+def kernel_functions():
+    """Functions of the kernel files that other files call: those that are not static."""
+    files = re.search(r"set\(kernel_files(.*?)\)", (ROOT / "cmake" / "core.cmake").read_text(), re.DOTALL)[1].split()
+    function = re.compile(r"^(?!static |INLINE |ONCE |typedef |extern )[a-z][\w ]*[ *](\w+)\(", re.MULTILINE)
+    return sorted({name for file in files for name in function.findall((ROOT / "fmu_src" / file).read_text())})
+
+
 def render(template, table, source):
     """A template of fmus/templates filled in."""
     environment = jinja2.Environment(
@@ -389,7 +397,7 @@ def render(template, table, source):
         f.__name__: f for f in (given_member, screaming, struct_members, c_number, quoted, label, named_in)
     }
     scales = list(dict.fromkeys(s.scale for s in (*table.states, *table.elastic_states)))
-    words = {"shown": shown, "allowed": allowed, "feeds": feeds}
+    words = {"shown": shown, "allowed": allowed, "feeds": feeds, "kernel_functions": kernel_functions()}
     return environment.from_string((TEMPLATES / template).read_text()).render(
         table=table, source=source, scales=scales, **words
     )

@@ -75,17 +75,10 @@ def joint_data(geometry):
     """
     g = geometry
     return {
-        "A": g.shank_area,
-        "d_m": g.d_m,
-        "d": g.shank_diameter,
-        "grip": 2 * g.flange_thickness,
-        "seat": g.seat_diameter,
+        **g.joint,
         "k_t_plate": 1e8,
         "k_t_head": 6.5e6,
         "k_stack": stack_stiffness(g),
-        "alpha_rivet": g.alpha_rivet,
-        "alpha_flange": g.alpha_flange,
-        "T_0": g.T_0,
         "hole_fit": [g.size * fit for fit in (-20e-6, -10e-6, 0.0, 5e-6)],
         "k_hole": [1.5e7, 2.0e7, 2.8e7, 4.65e7],
     }

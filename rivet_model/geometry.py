@@ -141,6 +141,17 @@ class Geometry:
         return math.pi / 4 * self.shank_diameter**2
 
     @property
+    def joint(self):
+        """Sizes and expansion of the joint by their names in a rivet table."""
+        return {
+            "A": self.shank_area,
+            "d_m": self.d_m,
+            "d": self.shank_diameter,
+            "grip": 2 * self.flange_thickness,
+            "seat": self.seat_diameter,
+        } | {name: getattr(self, name) for name in ("alpha_rivet", "alpha_flange", "T_0")}
+
+    @property
     def seat_width(self):
         """Radial width of the ring on which the head sits [m]: outside the relieved hole."""
         return 0.5 * (self.head_diameter - self.shank_diameter) - self.relief_radius

@@ -94,17 +94,10 @@ def joint_data(joint):
     g = joint.geometry
     k_head, *_ = head_friction(joint)
     return {
-        "A": g.shank_area,
-        "d_m": g.d_m,
-        "d": g.shank_diameter,
-        "grip": 2 * g.flange_thickness,
-        "seat": g.seat_diameter,
+        **g.joint,
         "k_t_plate": K_T_PLATE * g.size,
         "k_t_head": float(k_head),
         "k_stack": float(stack_stiffness(joint)),
-        "alpha_rivet": g.alpha_rivet,
-        "alpha_flange": g.alpha_flange,
-        "T_0": g.T_0,
         "hole_fit": g.size * HOLE_FITS,
         "k_hole": [float(hole_stiffness(joint, fit)) for fit in g.size * HOLE_FITS],
     }

@@ -53,17 +53,8 @@ from bearing_model.cage.two_half.two_half import (
     two_half_slide,
     two_half_stiffness,
 )
-from bearing_model.generated.variables import (
-    CAGE_BETA,
-    CAGE_GAMMA,
-    CAGE_X,
-    CAGE_Y,
-    CAGE_Z,
-    MODE_S,
-    RETIRED_ITEMS,
-    CageModel,
-    Z,
-)
+from bearing_model.generated import variables as Y
+from bearing_model.generated.variables import RETIRED_ITEMS, CageModel, Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum
 from bearing_model.numbers.vec import vec_cross, vec_dot
 from bearing_model.physics.hertz import hertz_energy, hertz_load
@@ -134,10 +125,10 @@ def cage_rest(model, omega, y):
     w = model.d.centrifugal[ROW_DP] * omega**2
     P = max(model.d.P_mean + w, 0.0) + float(spin_bending(model.d.table.half, model.d.P_mean, w))
     S, (apart, _) = elastic_half_rest(model.modes, model.p.cage.m, omega**2, P)
-    y[MODE_S][: len(S)] = S
-    beta, gamma = y[CAGE_BETA][0], y[CAGE_GAMMA][0]
+    y[Y.MODE_S][: len(S)] = S
+    beta, gamma = y[Y.CAGE_BETA][0], y[Y.CAGE_GAMMA][0]
     along = np.sqrt(1.0 - beta**2 - gamma**2), gamma, -beta
-    for place, a in zip((CAGE_X, CAGE_Y, CAGE_Z), along, strict=True):
+    for place, a in zip((Y.CAGE_X, Y.CAGE_Y, Y.CAGE_Z), along, strict=True):
         y[place] += 0.5 * apart * a * np.array([-1.0, 1.0])
 
 

@@ -31,91 +31,23 @@ class Variable:
     fixed: str | None  # why a parameter cannot change once a run has begun; None if it can
 
 
-class TiltMode(IntEnum):
-    PRESCRIBED = 1
-    SUPPORTED = 2
-    FREE = 3
-
-
-class RingMotion(IntEnum):
-    FREE = 1
-    PRESCRIBED = 2
-
-
-class HousingMotion(IntEnum):
-    GIVEN = 1
-    SUPPORTED = 2
-
-
-class CageMaterial(IntEnum):
-    BRONZE = 1
-    BRASS = 2
-    STEEL = 3
-    PA66_GF25 = 4
-    PEEK = 5
-    OWN = 6
-    DC04 = 7
-
-
-class CageShape(IntEnum):
-    MACHINED = 1
-    RIBBON = 2
-
-
-class CageGuidance(IntEnum):
-    OUTER = 1
-    BALLS = 2
-
-
-class CageModel(IntEnum):
-    TWO_HALF = 1
-    ELASTIC = 3
-
-
-class Traction(IntEnum):
-    POINT = 1
-    SLICED = 2
-
-
-class Lubrication(IntEnum):
-    FILM = 1
-    MIXED = 2
-
-
-class Stress(IntEnum):
-    OFF = 1
-    SAMPLED = 2
-    PEAK = 3
-    FATIGUE = 4
-
-
-class Switch(IntEnum):
-    OFF = 1
-    ON = 2
-
-
-class FitModel(IntEnum):
-    ELASTIC = 1
-    J2 = 2
-
-
-class MeanStress(IntEnum):
-    NONE = 1
-    GOODMAN = 2
-    SWT = 3
-    MORROW = 4
-
-
-class Drag(IntEnum):
-    ISOLATED = 1
-    ROW = 2
-
-
-class Method(IntEnum):
-    VERLET = 1
-    EXPLICIT = 2
-    FIXED = 3
-
+# Enumerations by name.
+TiltMode = IntEnum("TiltMode", {"PRESCRIBED": 1, "SUPPORTED": 2, "FREE": 3})
+RingMotion = IntEnum("RingMotion", {"FREE": 1, "PRESCRIBED": 2})
+HousingMotion = IntEnum("HousingMotion", {"GIVEN": 1, "SUPPORTED": 2})
+CageMaterial = IntEnum("CageMaterial", {"BRONZE": 1, "BRASS": 2, "STEEL": 3, "PA66_GF25": 4, "PEEK": 5, "OWN": 6, "DC04": 7})
+CageShape = IntEnum("CageShape", {"MACHINED": 1, "RIBBON": 2})
+CageGuidance = IntEnum("CageGuidance", {"OUTER": 1, "BALLS": 2})
+CageModel = IntEnum("CageModel", {"TWO_HALF": 1, "ELASTIC": 3})
+Traction = IntEnum("Traction", {"POINT": 1, "SLICED": 2})
+Lubrication = IntEnum("Lubrication", {"FILM": 1, "MIXED": 2})
+Stress = IntEnum("Stress", {"OFF": 1, "SAMPLED": 2, "PEAK": 3, "FATIGUE": 4})
+Switch = IntEnum("Switch", {"OFF": 1, "ON": 2})
+FitModel = IntEnum("FitModel", {"ELASTIC": 1, "J2": 2})
+MeanStress = IntEnum("MeanStress", {"NONE": 1, "GOODMAN": 2, "SWT": 3, "MORROW": 4})
+Drag = IntEnum("Drag", {"ISOLATED": 1, "ROW": 2})
+Method = IntEnum("Method", {"VERLET": 1, "EXPLICIT": 2, "FIXED": 3})
+ENUMERATIONS = (TiltMode, RingMotion, HousingMotion, CageMaterial, CageShape, CageGuidance, CageModel, Traction, Lubrication, Stress, Switch, FitModel, MeanStress, Drag, Method, )
 
 # Assumed parameters that move the rivets' stress: smallest and largest usual value over the value, and the source.
 ASSUMPTIONS = {

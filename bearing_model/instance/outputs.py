@@ -7,19 +7,8 @@ Each function returns {name: array}: [...] for one value, [..., Z] for the eleme
 import numpy as np
 
 from bearing_model.cage.cage import cage_flex, cage_loads, cage_slip, cage_widened, cage_widening
-from bearing_model.generated.variables import (
-    BALL_THETA,
-    CAGE_PSI,
-    RING_BETA_DOT,
-    RING_GAMMA_DOT,
-    RING_V_X,
-    RING_V_Y,
-    RING_V_Z,
-    WORK,
-    RingMotion,
-    Stress,
-    Z,
-)
+from bearing_model.generated import variables as Y
+from bearing_model.generated.variables import RingMotion, Stress, Z
 from bearing_model.instance.energy import energy_total
 from bearing_model.instance.events import event_outputs
 from bearing_model.numbers.lanes import ball_array_sum
@@ -51,7 +40,7 @@ def ring_outputs(model, w, y_dot):
     values |= {f"ring.v_{name}": w.ring.v[i] for i, name in enumerate("xyz")}
     names, blocks = (
         ("a_x", "a_y", "a_z", "beta_ddot", "gamma_ddot"),
-        (RING_V_X, RING_V_Y, RING_V_Z, RING_BETA_DOT, RING_GAMMA_DOT),
+        (Y.RING_V_X, Y.RING_V_Y, Y.RING_V_Z, Y.RING_BETA_DOT, Y.RING_GAMMA_DOT),
     )
     accelerations = (
         spread((*given.a, given.beta_ddot, given.gamma_ddot), w.x)
@@ -130,12 +119,12 @@ def ball_outputs(model, w):
 
 
 def pose_outputs(model, w, y):
-    values = {"ball[j].x": w.x, "ball[j].r": w.r, "ball[j].psi": y[..., BALL_THETA]}
+    values = {"ball[j].x": w.x, "ball[j].r": w.r, "ball[j].psi": y[..., Y.BALL_THETA]}
     for h, half in enumerate(w.half):
         tilt_y, tilt_z = ring_tilts(-half.a[2], half.a[1])
         pose = dict(zip(("x", "y", "z", "tilt_y", "tilt_z"), (*half.x, tilt_y, tilt_z), strict=True))
         values |= {f"half_{h}.{name}": value[..., 0] for name, value in pose.items()} | {
-            f"half_{h}.psi": y[..., CAGE_PSI][..., h]
+            f"half_{h}.psi": y[..., Y.CAGE_PSI][..., h]
         }
         values |= {
             f"rivet[k].flex_{h}_{name}": value for name, value in zip("xrt", cage_flex(model, w, h), strict=True)
@@ -204,7 +193,7 @@ def stress_outputs(model, w):
 
 
 def energy_outputs(model, y, w, energy_start, energy_change):
-    energy, work = energy_total(model, y, w), y[..., WORK][..., 0]
+    energy, work = energy_total(model, y, w), y[..., Y.WORK][..., 0]
     parts = {
         "races": w.race_dissipated,
         "inlet": w.inlet_dissipated,

@@ -13,24 +13,14 @@ they arise because the frame turns with the orbit; the sphere itself needs no or
 
 import numpy as np
 
-from bearing_model.generated.variables import (
-    BALL_OMEGA_M,
-    BALL_OMEGA_R,
-    BALL_OMEGA_T,
-    BALL_OMEGA_X,
-    BALL_R,
-    BALL_THETA,
-    BALL_V_R,
-    BALL_V_X,
-    BALL_X,
-)
+from bearing_model.generated import variables as Y
 
 
 def ball_kinematics(y, w):
     """Positions and velocities of the balls, from the state."""
-    w.x, w.r, w.theta = y[..., BALL_X], y[..., BALL_R], y[..., BALL_THETA]
-    w.v_x, w.v_r, w.omega_m = y[..., BALL_V_X], y[..., BALL_V_R], y[..., BALL_OMEGA_M]
-    w.omega_x, w.omega_r, w.omega_t = y[..., BALL_OMEGA_X], y[..., BALL_OMEGA_R], y[..., BALL_OMEGA_T]
+    w.x, w.r, w.theta = y[..., Y.BALL_X], y[..., Y.BALL_R], y[..., Y.BALL_THETA]
+    w.v_x, w.v_r, w.omega_m = y[..., Y.BALL_V_X], y[..., Y.BALL_V_R], y[..., Y.BALL_OMEGA_M]
+    w.omega_x, w.omega_r, w.omega_t = y[..., Y.BALL_OMEGA_X], y[..., Y.BALL_OMEGA_R], y[..., Y.BALL_OMEGA_T]
     w.cos_theta, w.sin_theta = np.cos(w.theta), np.sin(w.theta)
     w.v_t = w.r * w.omega_m
 
@@ -39,14 +29,14 @@ def ball_acceleration(model, w, y_dot):
     """Equations of motion under the total forces and moments."""
     m, J, frame = model.d.m, model.d.J, model.ring_load
     (g_x, g_y, g_z), omega_m = frame.field, w.omega_m + frame.frame_omega  # omega_m: in the fixed frame
-    y_dot[..., BALL_X] = w.v_x
-    y_dot[..., BALL_R] = w.v_r
-    y_dot[..., BALL_THETA] = w.omega_m
-    y_dot[..., BALL_V_X] = w.F[0] / m + g_x
-    y_dot[..., BALL_V_R] = w.F[1] / m + g_y * w.cos_theta + g_z * w.sin_theta + w.r * omega_m**2
-    y_dot[..., BALL_OMEGA_M] = (
+    y_dot[..., Y.BALL_X] = w.v_x
+    y_dot[..., Y.BALL_R] = w.v_r
+    y_dot[..., Y.BALL_THETA] = w.omega_m
+    y_dot[..., Y.BALL_V_X] = w.F[0] / m + g_x
+    y_dot[..., Y.BALL_V_R] = w.F[1] / m + g_y * w.cos_theta + g_z * w.sin_theta + w.r * omega_m**2
+    y_dot[..., Y.BALL_OMEGA_M] = (
         w.F[2] / m + g_z * w.cos_theta - g_y * w.sin_theta - 2.0 * w.v_r * omega_m
     ) / w.r - frame.frame_omega_dot
-    y_dot[..., BALL_OMEGA_X] = w.M[0] / J - frame.frame_omega_dot
-    y_dot[..., BALL_OMEGA_R] = w.M[1] / J + omega_m * w.omega_t
-    y_dot[..., BALL_OMEGA_T] = w.M[2] / J - omega_m * w.omega_r
+    y_dot[..., Y.BALL_OMEGA_X] = w.M[0] / J - frame.frame_omega_dot
+    y_dot[..., Y.BALL_OMEGA_R] = w.M[1] / J + omega_m * w.omega_t
+    y_dot[..., Y.BALL_OMEGA_T] = w.M[2] / J - omega_m * w.omega_r

@@ -19,24 +19,7 @@ from bearing_model.generated.limits import LIMITS
 from bearing_model.generated.variables import INPUTS, PARAMETERS, Z
 from bearing_model.physics.ring_fit import ring_fit_bore, ring_fit_effective_e, ring_fit_effective_i, ring_fit_outside
 
-ENUMERATIONS = (
-    variables.TiltMode,
-    variables.RingMotion,
-    variables.HousingMotion,
-    variables.CageMaterial,
-    variables.CageModel,
-    variables.CageShape,
-    variables.CageGuidance,
-    variables.Traction,
-    variables.Drag,
-    variables.Lubrication,
-    variables.Stress,
-    variables.Switch,
-    variables.FitModel,
-    variables.MeanStress,
-    variables.Method,
-)
-TYPES = {enumeration.__name__: enumeration for enumeration in ENUMERATIONS}
+TYPES = {enumeration.__name__: enumeration for enumeration in variables.ENUMERATIONS}
 
 
 def place(name):

@@ -18,38 +18,8 @@ import numpy as np
 from scipy.optimize import minimize
 
 from bearing_model.cage.cage import cage_rest
-from bearing_model.generated.variables import (
-    BALL_OMEGA_M,
-    BALL_OMEGA_R,
-    BALL_OMEGA_X,
-    BALL_R,
-    BALL_THETA,
-    BALL_V_R,
-    BALL_V_X,
-    BALL_X,
-    CAGE_BETA,
-    CAGE_GAMMA,
-    CAGE_S,
-    CAGE_V_X,
-    CAGE_V_Y,
-    CAGE_V_Z,
-    CAGE_X,
-    CAGE_Y,
-    CAGE_Z,
-    RING_BETA,
-    RING_BETA_DOT,
-    RING_GAMMA,
-    RING_GAMMA_DOT,
-    RING_V_X,
-    RING_V_Y,
-    RING_V_Z,
-    RING_X,
-    RING_Y,
-    RING_Z,
-    RingMotion,
-    TiltMode,
-    Z,
-)
+from bearing_model.generated import variables as Y
+from bearing_model.generated.variables import RingMotion, TiltMode, Z
 from bearing_model.instance.events import ellipse_reach
 from bearing_model.numbers.vec import vec_cross
 from bearing_model.physics.hertz import hertz_energy
@@ -215,14 +185,14 @@ def cage_pose(model, w, omega_m, y):
     rotor_axis(half, beta, gamma, 0.0, 0.0, omega_m)
     rotor_body_axes(half, 1.0, 0.0)
     c = np.multiply.outer(half.a, model.d.com_x) + model.d.com_e * half.b_y[:, None]
-    y[CAGE_X], y[CAGE_Y], y[CAGE_Z] = c
-    y[CAGE_X] += x_0
-    y[CAGE_Y] += model.ring_load.outer_x[1]
-    y[CAGE_Z] += model.ring_load.outer_x[2]
-    y[CAGE_V_X], y[CAGE_V_Y], y[CAGE_V_Z] = vec_cross(half.Omega, c)
-    y[CAGE_BETA] = beta
-    y[CAGE_GAMMA] = gamma
-    y[CAGE_S] = omega_m
+    y[Y.CAGE_X], y[Y.CAGE_Y], y[Y.CAGE_Z] = c
+    y[Y.CAGE_X] += x_0
+    y[Y.CAGE_Y] += model.ring_load.outer_x[1]
+    y[Y.CAGE_Z] += model.ring_load.outer_x[2]
+    y[Y.CAGE_V_X], y[Y.CAGE_V_Y], y[Y.CAGE_V_Z] = vec_cross(half.Omega, c)
+    y[Y.CAGE_BETA] = beta
+    y[Y.CAGE_GAMMA] = gamma
+    y[Y.CAGE_S] = omega_m
 
 
 def check_grooves(model, w):
@@ -245,16 +215,16 @@ def ring_follow(ring_load, y):
     """The state y with the motion of the ring that is given."""
     y = y.copy()
     blocks = (
-        RING_X,
-        RING_Y,
-        RING_Z,
-        RING_V_X,
-        RING_V_Y,
-        RING_V_Z,
-        RING_BETA,
-        RING_GAMMA,
-        RING_BETA_DOT,
-        RING_GAMMA_DOT,
+        Y.RING_X,
+        Y.RING_Y,
+        Y.RING_Z,
+        Y.RING_V_X,
+        Y.RING_V_Y,
+        Y.RING_V_Z,
+        Y.RING_BETA,
+        Y.RING_GAMMA,
+        Y.RING_BETA_DOT,
+        Y.RING_GAMMA_DOT,
     )
     given = (*ring_load.x, *ring_load.v, ring_load.beta, ring_load.gamma, ring_load.beta_dot, ring_load.gamma_dot)
     for block, value in zip(blocks, given, strict=True):
@@ -266,12 +236,12 @@ def join_motion(model, w, y):
     """Balls and cage start with the mean velocity of the rings, the ring with its own or with that of the outer ring."""
     given, prescribed = model.ring_load, model.p.ring.motion == RingMotion.PRESCRIBED
     v = 0.5 * (np.array(given.v) + given.outer_v) if prescribed else np.array(given.outer_v)
-    for i, (ring, cage) in enumerate(((RING_V_X, CAGE_V_X), (RING_V_Y, CAGE_V_Y), (RING_V_Z, CAGE_V_Z))):
+    for i, (ring, cage) in enumerate(((Y.RING_V_X, Y.CAGE_V_X), (Y.RING_V_Y, Y.CAGE_V_Y), (Y.RING_V_Z, Y.CAGE_V_Z))):
         y[ring] = given.outer_v[i]
         y[cage] += v[i]
-    y[BALL_V_X] = v[0]
-    y[BALL_V_R] = v[1] * w.cos_theta + v[2] * w.sin_theta
-    y[BALL_OMEGA_M] += (v[2] * w.cos_theta - v[1] * w.sin_theta) / w.r
+    y[Y.BALL_V_X] = v[0]
+    y[Y.BALL_V_R] = v[1] * w.cos_theta + v[2] * w.sin_theta
+    y[Y.BALL_OMEGA_M] += (v[2] * w.cos_theta - v[1] * w.sin_theta) / w.r
     return ring_follow(given, y) if prescribed else y
 
 
@@ -287,18 +257,18 @@ def start_state(model):
 
     y = np.zeros(len(model.d.scale))
     omega_m = orbital_speed(model, w)
-    y[BALL_X] = w.x
-    y[BALL_R] = w.r
-    y[BALL_THETA] = theta
-    y[BALL_OMEGA_M] = omega_m
+    y[Y.BALL_X] = w.x
+    y[Y.BALL_R] = w.r
+    y[Y.BALL_THETA] = theta
+    y[Y.BALL_OMEGA_M] = omega_m
     # against the outer ring, each ball rolls on its race about an axis across its contact normal: v_t + R (omega_x n_r
     # - omega_r n_x) = 0
     outer = model.ring_load.outer_omega
     rolling = -w.r * (omega_m - outer) / d.R
-    y[BALL_OMEGA_X] = rolling * w.n_e[1] + outer
-    y[BALL_OMEGA_R] = -rolling * w.n_e[0]
+    y[Y.BALL_OMEGA_X] = rolling * w.n_e[1] + outer
+    y[Y.BALL_OMEGA_R] = -rolling * w.n_e[0]
     cage_pose(model, w, omega_m, y)
     cage_rest(model, omega_m + model.ring_load.frame_omega, y)
-    y[RING_X], y[RING_Y], y[RING_Z] = z[:3]
-    y[RING_BETA], y[RING_GAMMA] = z[3:5] / eq.r
+    y[Y.RING_X], y[Y.RING_Y], y[Y.RING_Z] = z[:3]
+    y[Y.RING_BETA], y[Y.RING_GAMMA] = z[3:5] / eq.r
     return join_motion(model, w, y), residual

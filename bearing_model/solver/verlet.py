@@ -21,27 +21,12 @@ import numpy as np
 
 from bearing_model.cage.cage import CageMemory, cage_begin, cage_end, cage_longest_step, cage_part, cage_split
 from bearing_model.generated import variables
-from bearing_model.generated.variables import (
-    BALL_OMEGA_M,
-    BALL_R,
-    BALL_V_X,
-    BALL_X,
-    CAGE_V_X,
-    JOINT_PLATE_Y,
-    N_STATES,
-    RING_BETA,
-    RING_GAMMA,
-    RING_V_X,
-    WORK,
-    RingMotion,
-    TiltMode,
-    Traction,
-    Z,
-)
+from bearing_model.generated import variables as Y
+from bearing_model.generated.variables import RingMotion, TiltMode, Traction, Z
 from bearing_model.numbers.trapezoid import trapezoid_end, trapezoid_error
 from bearing_model.physics.model import Work
 from bearing_model.physics.powers import friction_torque, shaft_power
-from bearing_model.physics.rhs import jacobian, rhs
+from bearing_model.physics.rhs import rhs
 
 STIFF_LIMIT = 2.0  # gamma A of a ball from which its accelerations are smoothed
 BUSY, QUIET = 0.25, 0.2  # mean error of a busy bearing, least part of the tolerance
@@ -56,12 +41,12 @@ FULL_ORBIT, LEAST_ORBIT = 20.0, 0.1
 LAST_STEP = 1e-9  # part of a step by which the last one may be longer
 
 POSITIONS, FRICTION, V = (
-    slice(0, JOINT_PLATE_Y.start),
-    slice(JOINT_PLATE_Y.start, WORK.start),
-    slice(BALL_V_X.start, N_STATES),
+    slice(0, Y.JOINT_PLATE_Y.start),
+    slice(Y.JOINT_PLATE_Y.start, Y.WORK.start),
+    slice(Y.BALL_V_X.start, Y.N_STATES),
 )
-N_V = N_STATES - V.start
-CAGE = slice(CAGE_V_X.start - V.start, RING_V_X.start - V.start)  # velocities of the cage's halves
+N_V = Y.N_STATES - V.start
+CAGE = slice(Y.CAGE_V_X.start - V.start, Y.RING_V_X.start - V.start)  # velocities of the cage's halves
 OTHERS = np.delete(np.arange(N_V), CAGE)  # those of balls and ring
 
 
@@ -218,20 +203,6 @@ def jacobian_blocks(model, t, y, w, gamma):
     return Blocks(A, K, A_stiff)
 
 
-def masked_jacobian(model, t, y, w, gamma):
-    """The exact derivatives of the right-hand side by complex steps, masked to the entries that jacobian_blocks keeps:
-    another choice of A and K.
-    """
-    kept, J = jacobian_blocks(model, t, y, w, gamma), jacobian(model, t, y)
-    by_position = np.zeros((N_V, N_V))
-    by_position[:, POSITIONS] = J[V, POSITIONS]  # velocities are in the order of their positions
-    return Blocks(
-        np.where(kept.A != 0.0, -J[V, V], 0.0),
-        np.where(kept.K != 0.0, -by_position, 0.0),
-        kept.A_stiff,
-    )
-
-
 def ring_wrench(model, w, gamma, delta):
     """Adds to the wrench of the race contacts on the ring in w the part by the forces that the solve's result delta adds on
     the balls: it becomes the wrench that moved them.
@@ -292,10 +263,10 @@ def correct_positions(model, gamma, delta, balls, y):
     """Where a stiffness acts, positions follow the trapezoidal rule too: q_{n+1} += gamma (v_{n+1} - v_n - h a_n); the
     cage has weights of its own.  balls: changes of their accelerations whose ways y has [3 Z].
     """
-    y[BALL_X] += gamma * (delta[BALL[0]] - gamma * balls[:Z])
-    y[BALL_R] += gamma * (delta[BALL[1]] - gamma * balls[Z : 2 * Z])
+    y[Y.BALL_X] += gamma * (delta[BALL[0]] - gamma * balls[:Z])
+    y[Y.BALL_R] += gamma * (delta[BALL[1]] - gamma * balls[Z : 2 * Z])
     if model.p.ring.tilt_mode != TiltMode.FREE:
-        y[RING_BETA.start : RING_GAMMA.stop] += gamma * delta[RING[3:]]
+        y[Y.RING_BETA.start : Y.RING_GAMMA.stop] += gamma * delta[RING[3:]]
 
 
 def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
@@ -315,12 +286,12 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     b, residual = blocks(model, t + h, y, w, gamma), gamma * (end.f[V] - a)
     delta = np.linalg.solve(b.matrix(gamma), residual)
     residual[CAGE], delta[CAGE] = cage_residual, cage_delta
-    end.f[WORK] += dissipation_correction(model, w, gamma, residual, delta) + film_power
+    end.f[Y.WORK] += dissipation_correction(model, w, gamma, residual, delta) + film_power
     ring_wrench(model, w, gamma, delta)
     end.exchange = exchange_at(w)
     y[V][OTHERS] += delta[OTHERS]  # delta = v_{n+1} - v_n - h a_n
     correct_positions(model, gamma, delta, balls, y)
-    y[WORK] += gamma * (f[WORK] + end.f[WORK])
+    y[Y.WORK] += gamma * (f[Y.WORK] + end.f[Y.WORK])
 
     # Error and history of the velocities; stiff accelerations give up a part of their second difference.
     second, errors = trapezoid_error(h, start.h, delta, start.jerk[V])
@@ -328,7 +299,9 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     for rows, values in zip((end.f, end.jerk), trapezoid_end(h, a, delta, stiff), strict=True):
         rows[V][OTHERS] = values[OTHERS]
     error[V][OTHERS] = errors[OTHERS]
-    return end, np.sqrt(np.sum((error * weight) ** 2) / N_STATES)  # modes do not make the tolerance of the others wider
+    return end, np.sqrt(
+        np.sum((error * weight) ** 2) / Y.N_STATES
+    )  # modes do not make the tolerance of the others wider
 
 
 def verlet_evaluate(model, t, y):
@@ -343,9 +316,9 @@ def weigh_orbit(model, weight, y):
     """Weights with those of velocities along the orbit by its speed against the outer ring: the speed with which ball
     and pocket meet goes with it.
     """
-    speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[BALL_OMEGA_M] - model.ring_load.outer_omega))
+    speed = 0.5 * model.p.bearing.d_m * np.mean(np.abs(y[Y.BALL_OMEGA_M] - model.ring_load.outer_omega))
     weight = weight.copy()
-    weight[BALL_OMEGA_M] /= min(max(speed / FULL_ORBIT, LEAST_ORBIT), 1.0)
+    weight[Y.BALL_OMEGA_M] /= min(max(speed / FULL_ORBIT, LEAST_ORBIT), 1.0)
     return weight
 
 

@@ -13,7 +13,7 @@
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/elastic_step.h"
 #include "cage/two_half/two_half.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/land_bent.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
@@ -64,42 +64,34 @@ void cage_rest(const Model *model, double omega, double *y);
 
 // ---- one evaluation, in this order --------------------------------------------------------------------------
 // Poses and velocities of the halves; coordinates of the modes.
-#define cage_kinematics FOR_ISA(cage_kinematics)
 void cage_kinematics(const Model *model, const scalar *y, Work *w);
 
 // Contacts of balls and pockets: adds to balls and halves (race_contact_force before).
-#define cage_pockets FOR_ISA(cage_pockets)
 void cage_pockets(const Model *model, Work *w);
 
 // Forces of the joints on the halves, rates of their friction, tension of the rivets.
-#define cage_joints FOR_ISA(cage_joints)
 void cage_joints(const Model *model, const scalar *y, Work *w);
 
 // Rates of all states of the cage under the forces on the halves.
-#define cage_acceleration FOR_ISA(cage_acceleration)
 void cage_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot);
 
 // ---- one step of the default method (verlet.c) --------------------------------------------------------------
 // Separates the part that the cage advances by itself from the rates f at the state y, where w was evaluated.
-#define cage_split FOR_ISA(cage_split)
 void cage_split(const Model *model, const double *y, const Work *w, double *f, CageMemory *memory);
 
 // Before the evaluation at the end of a step of length h: sets the cage's rows of y, which has all other positions of the
 // end and friction states and work of the start, to positions of the end and predicted velocities.  middle: the state in the middle.
-#define cage_begin FOR_ISA(cage_begin)
 void cage_begin(const Model *model, double h, const StepFrom *from, const CageMemory *memory,
                 const double *middle, double *y, CageStep *step, Work *w);
 
 // After it: solves for the cage's velocities, sets the cage's rows of `to` and its memory, and takes from the other rates
 // of the evaluation the share of films that are implicit.  Returns the power of films beyond that of residual and delta [W].
-#define cage_end FOR_ISA(cage_end)
 double cage_end(const Model *model, CageStep *step, const StepFrom *from, const CageMemory *before,
                 const StepTo *to, CageMemory *memory, Work *w);
 
 // Maps the friction states back at the end of a step of another method, which ends at the state y and its evaluation w:
 // `before` is the state at its start.
 typedef void CageSlide(const Model *model, const double *before, double *y, Work *w);
-#define cage_slide FOR_ISA(cage_slide)
 CageSlide cage_slide;
 
 // Part of the longest step and of the tolerance that the cage is given: 1, less of a slow cage.
@@ -117,7 +109,6 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p);
 // ---- read from an evaluation --------------------------------------------------------------------------------
 // Loads of all joints, of which the stress table takes those of the rivets.
 typedef void CageLoads(const Model *model, const Work *w, JointLoads *load);
-#define cage_loads FOR_ISA(cage_loads)
 CageLoads cage_loads;
 
 // Loads and losses of the pockets at a state that a step has reached, of which w is another evaluation: those of the films that the step solved for.

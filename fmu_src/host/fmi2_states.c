@@ -72,17 +72,12 @@ static const char *blob_problem(const unsigned char *blob, size_t size, bool che
     return NULL;
 }
 
-// Where the messages about a state go that is tried: the last one is the reason.
-typedef struct {
-    char *text;
-    size_t size;
-} Reason;
+enum { REASON = 300 };
 
-static void keep_reason(void *environment, LogCategory category, const char *message)
+// The messages about a state that is tried go into a text of this size: the last one is the reason.
+static void keep_reason(void *reason, LogCategory category, const char *message)
 {
-    const Reason *reason = environment;
-    if (category == LOG_ERROR)
-        snprintf(reason->text, reason->size, "the saved state cannot be restored: %s", message);
+    if (category == LOG_ERROR) snprintf(reason, REASON, "the saved state cannot be restored: %s", message);
 }
 
 // Why this cannot be the session of a part at this time; NULL if it can.
@@ -111,18 +106,17 @@ static const char *session_problem(const Session *s, const Part *part)
 }
 
 // Whether a block of this model, from outside, holds a state from which an instance can go on: tried on a part of its own.
-static bool blob_can_be_restored(const unsigned char *blob, char *reason, size_t size)
+static bool blob_can_be_restored(const unsigned char *blob, char reason[REASON])
 {
-    Reason kept = {reason, size};
-    const PartHost listener = {&kept, keep_reason};
+    const PartHost listener = {reason, keep_reason};
     Session session;
     memcpy(&session, blob + sizeof(BlobHeader), sizeof session);
-    snprintf(reason, size, "out of memory");
+    snprintf(reason, REASON, "out of memory");
     Part *part = part_create(&listener);
     if (!part) return false;
     bool fine = part_restore_unknown(part, blob + sizeof(BlobHeader) + sizeof session);
     const char *problem = fine ? session_problem(&session, part) : NULL;
-    if (problem) keep_reason(&kept, LOG_ERROR, problem);
+    if (problem) keep_reason(reason, LOG_ERROR, problem);
     part_destroy(part);
     return fine && !problem;
 }
@@ -190,9 +184,8 @@ fmi2Status slave_DeSerializeFMUstate(fmi2Component c, const fmi2Byte bytes[], si
     if (!bytes || !state) return refuse(m, "a null pointer");
     const char *problem = blob_problem((const unsigned char *)bytes, size, true);
     if (problem) return refuse(m, "%s", problem);
-    char reason[300];
-    if (!blob_can_be_restored((const unsigned char *)bytes, reason, sizeof reason))
-        return refuse(m, "%s", reason);
+    char reason[REASON];
+    if (!blob_can_be_restored((const unsigned char *)bytes, reason)) return refuse(m, "%s", reason);
     if (!*state) *state = calloc(1, blob_size());
     if (!*state) return refuse(m, "out of memory");
     memcpy(*state, bytes, blob_size());

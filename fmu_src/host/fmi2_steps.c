@@ -81,47 +81,24 @@ fmi2Status slave_DoStep(fmi2Component c, fmi2Real point, fmi2Real step, fmi2Bool
     return status;
 }
 
-// Answers of the status functions: fmi2Discard where there is no such status (FMI 2.0.4, section 4.2.3).
-fmi2Status slave_GetStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Status *value)
-{
-    Instance *m = c;
-    if (!value) return refuse(m, "a null pointer");
-    if (kind != fmi2DoStepStatus) return fmi2Discard;
-    *value = (fmi2Status)m->session.step_status;
-    return fmi2OK;
-}
+// Each status function answers for one kind: fmi2Discard for the others (FMI 2.0.4, section 4.2.3).
+#define STATUS(name, Type, wanted, answer)                                           \
+    fmi2Status slave_##name(fmi2Component c, const fmi2StatusKind kind, Type *value) \
+    {                                                                                \
+        Instance *m = c;                                                             \
+        if (!value) return refuse(m, "a null pointer");                              \
+        if (kind != (wanted)) return fmi2Discard;                                    \
+        *value = (answer);                                                           \
+        return fmi2OK;                                                               \
+    }
 
-fmi2Status slave_GetRealStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Real *value)
-{
-    Instance *m = c;
-    if (!value) return refuse(m, "a null pointer");
-    if (kind != fmi2LastSuccessfulTime) return fmi2Discard;
-    *value = part_time(m->part);
-    return fmi2OK;
-}
+STATUS(GetStatus, fmi2Status, fmi2DoStepStatus, (fmi2Status)m->session.step_status)
+STATUS(GetRealStatus, fmi2Real, fmi2LastSuccessfulTime, part_time(m->part))
+STATUS(GetBooleanStatus, fmi2Boolean, fmi2Terminated, m->session.phase == FAILED)
+STATUS(GetStringStatus, fmi2String, fmi2PendingStatus, m->message)  // the last error or warning
 
 fmi2Status slave_GetIntegerStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Integer *value)
 {
     (void)kind;
-    Instance *m = c;
-    return value ? fmi2Discard : refuse(m, "a null pointer");
-}
-
-fmi2Status slave_GetBooleanStatus(fmi2Component c, const fmi2StatusKind kind, fmi2Boolean *value)
-{
-    Instance *m = c;
-    if (!value) return refuse(m, "a null pointer");
-    if (kind != fmi2Terminated) return fmi2Discard;
-    *value = m->session.phase == FAILED;
-    return fmi2OK;
-}
-
-// fmi2PendingStatus: the last error or warning.
-fmi2Status slave_GetStringStatus(fmi2Component c, const fmi2StatusKind kind, fmi2String *value)
-{
-    Instance *m = c;
-    if (!value) return refuse(m, "a null pointer");
-    if (kind != fmi2PendingStatus) return fmi2Discard;
-    *value = m->message;
-    return fmi2OK;
+    return value ? fmi2Discard : refuse(c, "a null pointer");
 }

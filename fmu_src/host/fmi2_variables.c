@@ -140,33 +140,14 @@ fmi2Status slave_SetInteger(fmi2Component c, const fmi2ValueReference vr[], size
 }
 
 // There are no Boolean and no String variables.
-static fmi2Status no_variables(fmi2Component c, size_t n, const char *type)
-{
-    Instance *m = c;
-    return n == 0 ? fmi2OK : refuse(m, "this FMU has no %s variables", type);
-}
+#define NO_VARIABLES(name, what, Type)                                                              \
+    fmi2Status slave_##name(fmi2Component c, const fmi2ValueReference vr[], size_t n, Type value[]) \
+    {                                                                                               \
+        (void)vr, (void)value;                                                                      \
+        return n == 0 ? fmi2OK : refuse(c, "this FMU has no %s variables", what);                   \
+    }
 
-fmi2Status slave_GetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2Boolean value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, n, "Boolean");
-}
-
-fmi2Status slave_SetBoolean(fmi2Component c, const fmi2ValueReference vr[], size_t n,
-                            const fmi2Boolean value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, n, "Boolean");
-}
-
-fmi2Status slave_GetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, fmi2String value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, n, "String");
-}
-
-fmi2Status slave_SetString(fmi2Component c, const fmi2ValueReference vr[], size_t n, const fmi2String value[])
-{
-    (void)vr, (void)value;
-    return no_variables(c, n, "String");
-}
+NO_VARIABLES(GetBoolean, "Boolean", fmi2Boolean)
+NO_VARIABLES(SetBoolean, "Boolean", const fmi2Boolean)
+NO_VARIABLES(GetString, "String", fmi2String)
+NO_VARIABLES(SetString, "String", const fmi2String)

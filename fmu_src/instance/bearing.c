@@ -3,7 +3,6 @@
 #include "instance/energy.h"
 #include "instance/instance.h"
 #include "instance/jacobian.h"
-#include "instance/log.h"
 #include "instance/outputs.h"
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
@@ -15,7 +14,19 @@
 #include "solver/escape.h"
 #include "solver/start.h"
 
+#include <stdarg.h>
 #include <stdio.h>
+
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+{
+    if (b->host.log == NULL) return;
+    char message[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    b->host.log(b->host.environment, category, message);
+}
 
 // ---- accepted steps ---------------------------------------------------------------------------------------
 static void add_force(InstanceState *s, const Work *w, bool counts, double h)

@@ -1,7 +1,7 @@
 // Refusals before a run or a step: values outside their limits, parameters that make no bearing, a rivet
 // table that belongs to another bearing.
 #include "cage/cage.h"
-#include "instance/log.h"
+#include "instance/instance.h"
 #include "numbers/saved_numbers.h"
 #include "physics/race_surface.h"
 #include "physics/ring_fit.h"

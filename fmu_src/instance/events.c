@@ -186,23 +186,24 @@ static void motion_text(const Event *now, char *text, size_t size)
              x->name, v->name, now->value, x->unit, now->limit, v->unit, CATCH_UP_TIME);
 }
 
+// Messages on events: of half, ball or rivet `element + 1`, of the ball `element/2 + 1` at a race; value and limit.
+static const char *const TEXTS[EVENT_COUNT] = {
+    [EVENT_LAND_CONTACT] =
+        "cage half %d touches the outer ring: its land is %.4g m off centre, cage.guide_clearance/2 = %.4g m",
+    [EVENT_POCKET_EXIT] = "ball[%d] leaves its pocket: %.4g m off the middle of the cage's section, "
+                          "(cage.D_o - cage.D_i)/4 = %.4g m",
+    [EVENT_JOINT_OPEN] = "rivet[%d]: the joint opens by %.4g m; its preload holds it closed to %.4g m",
+    [EVENT_RIVET_YIELD] =
+        "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an elastic rivet",
+    [EVENT_RIVET_OVERLOAD] = "rivet[%d] would tear: %.4g Pa in its middle against a tensile strength "
+                             "(fatigue.sigma_m) of %.4g Pa; the stress is that of an elastic rivet",
+};
+
 void event_text(EventKind kind, const Event *now, char *text, size_t size)
 {
-    const int j = now->element / 2 + 1, k = now->element + 1;
+    const int j = now->element / 2 + 1;
     const char race = now->element % 2 == 0 ? 'i' : 'e';
     switch (kind) {
-    case EVENT_LAND_CONTACT:
-        snprintf(text, size,
-                 "cage half %d touches the outer ring: its land is %.4g m off centre, cage.guide_clearance/2 "
-                 "= %.4g m",
-                 k, now->value, now->limit);
-        return;
-    case EVENT_POCKET_EXIT:
-        snprintf(text, size,
-                 "ball[%d] leaves its pocket: %.4g m off the middle of the cage's section, (cage.D_o - "
-                 "cage.D_i)/4 = %.4g m",
-                 k, now->value, now->limit);
-        return;
     case EVENT_ELLIPSE_CUT:
         snprintf(text, size,
                  "ball[%d]: the contact ellipse reaches to %.4g rad, over the shoulder of bearing.h_%c at "
@@ -214,23 +215,6 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "ball[%d].p_%c = %.4g Pa exceeds bearing.p_limit = %.4g Pa: permanent deformation is not "
                  "modelled",
                  j, race, now->value, now->limit);
-        return;
-    case EVENT_JOINT_OPEN:
-        snprintf(text, size, "rivet[%d]: the joint opens by %.4g m; its preload holds it closed to %.4g m", k,
-                 now->value, now->limit);
-        return;
-    case EVENT_RIVET_YIELD:
-        snprintf(text, size,
-                 "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an "
-                 "elastic rivet",
-                 k, now->value, now->limit);
-        return;
-    case EVENT_RIVET_OVERLOAD:
-        snprintf(
-            text, size,
-            "rivet[%d] would tear: %.4g Pa in its middle against a tensile strength (fatigue.sigma_m) of "
-            "%.4g Pa; the stress is that of an elastic rivet",
-            k, now->value, now->limit);
         return;
     case EVENT_NO_CLEARANCE:
         snprintf(text, size,
@@ -267,6 +251,6 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                 now->value, now->limit);
         return;
     case EVENT_MOTION_LAG: motion_text(now, text, size); return;
-    case EVENT_COUNT: break;
+    default: snprintf(text, size, TEXTS[kind], now->element + 1, now->value, now->limit);
     }
 }

@@ -78,6 +78,10 @@ struct Part {
     double cpu_time;             // processor time of all steps [s]
 };
 
+// Sends a message to the host, formatted as by printf.
+void bearing_log(Bearing *b, LogCategory category, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+
 // Fills one group of outputs from the last evaluation and the saved state.
 void outputs_fill(Bearing *b, OutputGroup group);
 

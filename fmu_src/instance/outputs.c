@@ -13,18 +13,19 @@
 // Speed [rad/s] up to which no slip ratio is formed: a bearing at standstill has none.
 static const double STANDSTILL = 1e-9;
 
+static void put(const scalar from[3], scalar *x, scalar *y, scalar *z)
+{
+    *x = from[0], *y = from[1], *z = from[2];
+}
+
 // States that are outputs themselves.
 static void fill_state(const Evaluation *at, Outputs *out)
 {
     const Rotor *ring = &at->w->ring;
-    out->ring.x = ring->x[0];
-    out->ring.y = ring->x[1];
-    out->ring.z = ring->x[2];
+    put(ring->x, &out->ring.x, &out->ring.y, &out->ring.z);
     out->ring.beta = -ring->a[2];
     out->ring.gamma = ring->a[1];
-    out->ring.v_x = ring->v[0];
-    out->ring.v_y = ring->v[1];
-    out->ring.v_z = ring->v[2];
+    put(ring->v, &out->ring.v_x, &out->ring.v_y, &out->ring.v_z);
     out->ring.beta_dot = -ring->a_dot[2];
     out->ring.gamma_dot = ring->a_dot[1];
 }
@@ -34,9 +35,7 @@ static void fill_acceleration(const Evaluation *at, Outputs *out)
     const RingLoad *given = at->model->ring_load;
     const bool prescribed = at->model->p->ring.motion == RING_MOTION_PRESCRIBED;
     const scalar *y_dot = at->y_dot;
-    out->ring.a_x = prescribed ? given->a[0] : y_dot[Y_RING_V_X];
-    out->ring.a_y = prescribed ? given->a[1] : y_dot[Y_RING_V_Y];
-    out->ring.a_z = prescribed ? given->a[2] : y_dot[Y_RING_V_Z];
+    put(prescribed ? given->a : &y_dot[Y_RING_V_X], &out->ring.a_x, &out->ring.a_y, &out->ring.a_z);
     out->ring.beta_ddot = prescribed ? given->beta_ddot : y_dot[Y_RING_BETA_DOT];
     out->ring.gamma_ddot = prescribed ? given->gamma_ddot : y_dot[Y_RING_GAMMA_DOT];
 }
@@ -47,22 +46,15 @@ static void fill_ring(const Evaluation *at, Outputs *out)
     scalar F[3], M[3];
     fill_acceleration(at, out);
     ring_tilts(-w->ring.a[2], w->ring.a[1], &out->ring.tilt_y, &out->ring.tilt_z);
-    out->shaft.R_x = w->ring.F[0];
-    out->shaft.R_y = w->ring.F[1];
-    out->shaft.R_z = w->ring.F[2];
+    put(w->ring.F, &out->shaft.R_x, &out->shaft.R_y, &out->shaft.R_z);
     out->shaft.R_My = w->ring.M[1];
     out->shaft.R_Mz = w->ring.M[2];
     housing_wrench(at->model, w, F, M);
-    out->housing.M_x = M[0];
-    out->housing.F_x = F[0];
-    out->housing.F_y = F[1];
-    out->housing.F_z = F[2];
-    out->housing.M_y = M[1];
-    out->housing.M_z = M[2];
+    put(F, &out->housing.F_x, &out->housing.F_y, &out->housing.F_z);
+    put(M, &out->housing.M_x, &out->housing.M_y, &out->housing.M_z);
     const RingLoad *outer = at->model->ring_load;
-    out->housing.u_x = outer->outer_x[0], out->housing.a_x = outer->outer_a[0];
-    out->housing.u_y = outer->outer_x[1], out->housing.a_y = outer->outer_a[1];
-    out->housing.u_z = outer->outer_x[2], out->housing.a_z = outer->outer_a[2];
+    put(outer->outer_x, &out->housing.u_x, &out->housing.u_y, &out->housing.u_z);
+    put(outer->outer_a, &out->housing.a_x, &out->housing.a_y, &out->housing.a_z);
     ring_tilts(outer->outer_beta, outer->outer_gamma, &out->housing.u_tilt_y, &out->housing.u_tilt_z);
     out->bearing.friction_torque = friction_torque(w);
 }
@@ -135,10 +127,9 @@ static void fill_pose(const Evaluation *at, Outputs *out)
         out->ball.psi[j] = at->y[Y_BALL_THETA + j];
     }
     const Rotor *h0 = &w->half[0], *h1 = &w->half[1];
-    out->half_0.x = h0->x[0], out->half_0.y = h0->x[1], out->half_0.z = h0->x[2],
-    out->half_0.psi = at->y[Y_CAGE_PSI];
-    out->half_1.x = h1->x[0], out->half_1.y = h1->x[1], out->half_1.z = h1->x[2],
-    out->half_1.psi = at->y[Y_CAGE_PSI + 1];
+    put(h0->x, &out->half_0.x, &out->half_0.y, &out->half_0.z);
+    put(h1->x, &out->half_1.x, &out->half_1.y, &out->half_1.z);
+    out->half_0.psi = at->y[Y_CAGE_PSI], out->half_1.psi = at->y[Y_CAGE_PSI + 1];
     ring_tilts(-h0->a[2], h0->a[1], &out->half_0.tilt_y, &out->half_0.tilt_z);
     ring_tilts(-h1->a[2], h1->a[1], &out->half_1.tilt_y, &out->half_1.tilt_z);
     cage_flex(at->model, at->w, 0, out->rivet.flex_0_x, out->rivet.flex_0_r, out->rivet.flex_0_t);

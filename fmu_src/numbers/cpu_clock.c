@@ -17,22 +17,19 @@ double cpu_clock(void)
     if (!GetThreadTimes(GetCurrentThread(), &created, &ended, &kernel, &user)) return 0.0;
     return seconds(kernel) + seconds(user);
 }
-#elif defined(__wasm__)  // a browser knows no processor time
-#include <time.h>
-
-double cpu_clock(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 #else
 #include <time.h>
 
+#if defined(__wasm__)  // a browser knows no processor time
+#define CLOCK CLOCK_MONOTONIC
+#else
+#define CLOCK CLOCK_THREAD_CPUTIME_ID
+#endif
+
 double cpu_clock(void)
 {
     struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    clock_gettime(CLOCK, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 #endif

@@ -19,7 +19,7 @@ enum { HALVES = 1 };  // cage halves side by side
 typedef scalar wide;
 typedef bool bits;
 
-// Functions beside those of the kernel files (isa.h) that are compiled for values and, under these names, for
+// Functions beside those of the kernel files that are compiled for values and, under these names, for
 // derivatives.
 #define cage_energy FOR_ISA(cage_energy)
 #define cage_flex FOR_ISA(cage_flex)
@@ -72,15 +72,8 @@ INLINE bits wide_above(wide x, double limit)
     return creal(x) > limit;
 }
 
-INLINE int wide_mask(bits condition)
-{
-    return condition != 0;
-}
-
-INLINE bool wide_any(bits condition)
-{
-    return condition;
-}
+#define wide_mask(condition) ((int)(condition))
+#define wide_any(condition) (condition)
 
 INLINE wide wide_select(bits condition, wide yes, wide no)
 {
@@ -88,27 +81,10 @@ INLINE wide wide_select(bits condition, wide yes, wide no)
 }
 
 // Packets of one ball have no halves and no four lanes.
-INLINE wide wide_join(wide x, wide y)
-{
-    (void)y;
-    return x;
-}
-
-INLINE wide wide_last_half(wide x)
-{
-    return x;
-}
-
-INLINE wide wide_fill(wide x, int lane)
-{
-    (void)lane;
-    return x;
-}
-
-INLINE wide wide_sum_fours(wide x)
-{
-    return x;
-}
+#define wide_join(x, y) ((void)(y), (x))
+#define wide_last_half(x) (x)
+#define wide_fill(x, lane) ((void)(lane), (x))
+#define wide_sum_fours(x) (x)
 
 INLINE wide wide_fma(wide x, wide y, wide z)
 {
@@ -143,11 +119,6 @@ INLINE wide wide_sqrt(wide x)
     return scalar_chain(x, root, root > 0.0 ? 0.5 / root : 0.0);
 }
 
-INLINE scalar scalar_sqrt(scalar x)
-{
-    return wide_sqrt(x);
-}
-
 INLINE scalar scalar_cbrt(scalar x)
 {
     const double root = cbrt(creal(x));
@@ -163,16 +134,6 @@ INLINE scalar scalar_atan2(scalar y, scalar x)
 {
     const double a = creal(x), b = creal(y), square = a * a + b * b;
     return __builtin_complex(atan2(b, a), (a * cimag(y) - b * cimag(x)) / square);
-}
-
-INLINE scalar scalar_max(scalar x, scalar y)
-{
-    return creal(x) > creal(y) ? x : y;
-}
-
-INLINE scalar scalar_min(scalar x, scalar y)
-{
-    return creal(x) < creal(y) ? x : y;
 }
 
 INLINE wide wide_exp(wide x)
@@ -199,15 +160,11 @@ INLINE wide wide_log(wide x)
     return scalar_chain(x, log(creal(x)), 1.0 / creal(x));
 }
 
-INLINE scalar scalar_exp(scalar x)
-{
-    return wide_exp(x);
-}
-
-INLINE scalar scalar_log(scalar x)
-{
-    return wide_log(x);
-}
+#define scalar_sqrt wide_sqrt
+#define scalar_max wide_max
+#define scalar_min wide_min
+#define scalar_exp wide_exp
+#define scalar_log wide_log
 
 INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 {

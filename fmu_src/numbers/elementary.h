@@ -80,29 +80,10 @@ static inline double approx_inv_cbrt(double x)
 }
 
 // The same functions of scalars, for which dual.h has versions with derivatives.
-static inline scalar scalar_exp(scalar x)
-{
-    return portable_exp(x);
-}
-
-static inline scalar scalar_log(scalar x)
-{
-    return portable_log(x);
-}
-
-static inline scalar scalar_asin(scalar x)
-{
-    return portable_asin(x);
-}
-
-static inline scalar scalar_cbrt(scalar x)
-{
-    return portable_cbrt(x);
-}
-
-static inline scalar scalar_atan2(scalar y, scalar x)
-{
-    return atan2(y, x);
-}
+#define scalar_exp portable_exp
+#define scalar_log portable_log
+#define scalar_asin portable_asin
+#define scalar_cbrt portable_cbrt
+#define scalar_atan2 atan2
 
 #endif

@@ -3,7 +3,7 @@
 //
 // A `wide` holds LANE_WIDTH doubles and has C's operators, so that the code for a packet reads like the code
 // for one ball.  The kernel files are compiled once for each instruction set, and every function that another
-// file calls gets the set's name as a suffix (FOR_ISA).
+// file calls, each that is not static, gets the set's name as a suffix (FOR_ISA, generated/kernel_names.h).
 //
 // Each lane does the same IEEE operations in the same order whatever the width, and sums run over the balls
 // in a fixed order (ball_array_sum).  Therefore all instruction sets with a fused multiply-add (FUSED: AVX2,
@@ -34,6 +34,7 @@
 #define FOR_ISA_2(name, isa) name##_##isa
 #define FOR_ISA_1(name, isa) FOR_ISA_2(name, isa)
 #define FOR_ISA(name) FOR_ISA_1(name, ISA)
+#include "generated/kernel_names.h"
 
 #if defined(__AVX__)
 #include <immintrin.h>  // 64,000 lines: half the time of compiling a small file

@@ -257,18 +257,15 @@ INLINE void row_add(double times, const double row[SQUEEZE_ROW], double to[SQUEE
 
 // Whether the film at the predicted velocities of half h, in part borne by asperities, `rough` [N], has to be foreseen; then `seen` has the
 // velocities at the step's end by it.
-#define bent_foresee FOR_ISA(bent_foresee)
 bool bent_foresee(const Work *w, int h, const scalar film[SQUEEZE], scalar rough, LandPressure *seen);
 
 // Solves the implicit step of half h for its land and bent rim: the velocities change by the residual, which has the film's force
 // at the evaluation, and by w->squeeze_by times the excess of the law's force at the end over that force.  V: squeeze velocities to
 // begin with, then those of the end.
-#define bent_solve FOR_ISA(bent_solve)
 void bent_solve(const Work *w, int h, double gamma, const double residual[SQUEEZE], double V[SQUEEZE],
                 BentSolution *to);
 
 // Velocities, films and rates of bent rims become those of a step's end; returns the increase of the films' power, less
 // the part of it on the halves' bodies that is of the second order in the changes by the solve.
-#define bent_arrive FOR_ISA(bent_arrive)
 double bent_arrive(const Derived *d, double gamma, const BentSolution solved[2], Work *w);
 #endif

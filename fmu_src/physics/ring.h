@@ -1,11 +1,10 @@
 // The inner ring: equations of motion.  Equations in ring.c.
 #pragma once
 
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Pose and velocity of the ring from y, or as its motion is prescribed.
-#define ring_kinematics FOR_ISA(ring_kinematics)
 void ring_kinematics(const Model *model, const scalar *y, Work *w);
 
 // Acceleration of the ring: y_dot of its states from the wrench of all contacts.

@@ -17,7 +17,6 @@
 
 #include "numbers/aligned.h"
 #include "numbers/elementary.h"
-#include "numbers/error_norm.h"
 #include "numbers/reserved_memory.h"
 #include "numbers/saved_numbers.h"
 #include "physics/powers.h"
@@ -91,9 +90,7 @@ static void evaluate(Integrator *in, double t, const double *y, double *f)
     in->s->rhs_evals += 1.0;
     in->latest = f;
     const int states = cage_states(in->model);
-    memset(&f[states], 0,
-           (size_t)(N_ALL_STATES - states) * sizeof *f);  // of modes that the scene does not have
-    if (!all_finite(states, f)) stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
+    if (!in->kernels->all_finite(states, f)) stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
 }
 
 static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
@@ -115,14 +112,16 @@ static int explicit_accepted(sunrealtype t, N_Vector y, void *user)
 
 static int weights(N_Vector y, N_Vector ewt, void *user)
 {
-    (void)y;
-    memcpy(N_VGetArrayPointer(ewt), ((const Integrator *)user)->weight, sizeof((Integrator *)user)->weight);
+    memcpy(NV_DATA_S(ewt), ((const Integrator *)user)->weight, (size_t)NV_LENGTH_S(y) * sizeof(double));
     return 0;
 }
 
-static double norm(N_Vector x, N_Vector weight)
+// ARKODE's vectors have rows for the modes of the cage, and the length of the scene's states.
+static int same_length(N_Vector v, N_Vector like, void *user)
 {
-    return error_norm(true, N_VGetArrayPointer(x), N_VGetArrayPointer(weight));
+    (void)user;
+    NV_LENGTH_S(v) = NV_LENGTH_S(like);
+    return 0;
 }
 
 // ---- control of the default method's steps ----------------------------------------------------------------
@@ -269,21 +268,8 @@ static int verlet_accepted(sunrealtype t, N_Vector y, void *user)
     exchange_add(in->now->h, &before->exchange, &in->now->exchange, &in->s->sum);
     in->s->t = t;
     in->s->steps += 1.0;
-    in->hook(in->context, in->now->h, in->w);
+    if (in->hook) in->hook(in->context, in->now->h, in->w);
     return 0;
-}
-
-// The step has weighed its error itself.
-static int no_weights(N_Vector y, N_Vector ewt, void *user)
-{
-    (void)y, (void)ewt, (void)user;
-    return 0;
-}
-
-static double no_norm(N_Vector x, N_Vector w)
-{
-    (void)x, (void)w;
-    return 0.0;
 }
 
 // ---- creation ---------------------------------------------------------------------------------------------
@@ -294,13 +280,13 @@ static void report(int line, const char *function, const char *file, const char 
 {
     (void)file, (void)sun;
     const Integrator *in = user;
-    if (in->escaped) return;
+    if (in->escaped || in->log == NULL) return;
     stepping_report(in->s->t, function, line, message, (int)code, in->log, in->context);
 }
 
 // Settings of both methods: no interpolation (steps end at t_stop), no warnings of small steps (they are legitimate in an
 // impact).
-static int set_up(void *arkode, ARKEwtFn weights, Integrator *in)
+static int set_up(void *arkode, Integrator *in)
 {
     if (ARKodeSetUserData(arkode, in) != ARK_SUCCESS) return -1;
     if (ARKodeWFtolerances(arkode, weights) != ARK_SUCCESS) return -1;
@@ -344,23 +330,15 @@ static bool warm_up(Integrator *in, void *arkode, N_Vector y)
     return fine;
 }
 
-// A vector of n zeros with a norm of errors of its own.
-static N_Vector vector_new(const Integrator *in, int n, double (*norm_of)(N_Vector, N_Vector))
-{
-    N_Vector v = N_VNew_Serial(n, in->sun);
-    if (v == NULL || N_VEnableLinearCombination_Serial(v, SUNTRUE) != SUN_SUCCESS) return NULL;
-    v->ops->nvwrmsnorm = norm_of;
-    N_VConst(0.0, v);
-    return v;
-}
-
 static bool create_explicit(Integrator *in)
 {
-    in->y = vector_new(in, N_ALL_STATES, norm);
+    in->y = N_VNew_Serial(VECTOR_ROWS, in->sun);
     if (in->y == NULL) return false;
+    N_VConst(0.0, in->y);
+    in->y->ops->nvwrmsnorm = in->kernels->norm;
+    in->y->ops->nvlinearcombination = in->kernels->combine;
     in->arkode = ERKStepCreate(explicit_rhs, 0.0, in->y, in->sun);
-    return in->arkode != NULL && set_up(in->arkode, weights, in) == 0 &&
-           explicit_table(in->arkode) == ARK_SUCCESS &&
+    return in->arkode != NULL && set_up(in->arkode, in) == 0 && explicit_table(in->arkode) == ARK_SUCCESS &&
            ARKodeSetPostprocessStepFn(in->arkode, explicit_accepted) == ARK_SUCCESS &&
            warm_up(in, in->arkode, in->y);
 }
@@ -369,10 +347,11 @@ static bool create_bearing(Integrator *in)
 {
     in->step = (BearingStep){verlet_length, verlet_take, in};
     in->control = control_new(in->sun, in);
-    in->none = vector_new(in, 1, no_norm);
+    in->none = N_VNew_Serial(1, in->sun);
     if (in->control == NULL || in->none == NULL) return false;
+    N_VConst(0.0, in->none);
     in->bearing = bearing_step_create(in->sun, in->none, &in->step);
-    return in->bearing != NULL && set_up(in->bearing, no_weights, in) == 0 &&
+    return in->bearing != NULL && set_up(in->bearing, in) == 0 &&
            ARKodeSetAdaptController(in->bearing, in->control) == ARK_SUCCESS &&
            ARKodeSetPostprocessStepFn(in->bearing, verlet_accepted) == ARK_SUCCESS &&
            warm_up(in, in->bearing, in->none);
@@ -447,7 +426,7 @@ static int step_underflow(const Integrator *in, const char *method, double h)
     char text[128];
     snprintf(text, sizeof text, "t = %.9g s: %s: a step of %g s is lost in the rounding of time", in->s->t,
              method, h);
-    in->log(in->context, text);
+    if (in->log) in->log(in->context, text);
     return ARK_ERR_FAILURE;
 }
 
@@ -513,16 +492,6 @@ double fixed_steps(double step, double length)
     return fmax(ceil(length / step * (1.0 - LAST_STEP)), 1.0);
 }
 
-static void no_hook(void *context, double h, const Work *w)
-{
-    (void)context, (void)h, (void)w;
-}
-
-static void no_log(void *context, const char *message)
-{
-    (void)context, (void)message;
-}
-
 // Largest mean error of equal steps of the present length in the time of a trial after its first MEAN_OVER, or infinity
 // where the run ends.  The state is moved.
 static double try_step(Integrator *in)
@@ -553,7 +522,7 @@ void integrator_fix_step(Integrator *in)
     double h = s->h;
     StepHook *hook = in->hook;
     IntegratorLog *log = in->log;
-    in->hook = no_hook, in->log = no_log;
+    in->hook = NULL, in->log = NULL;
     for (int trial = 0; trial < TRIALS; trial++) {
         s->h = h;
         const double error = try_step(in);
@@ -578,6 +547,8 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     // ARKODE forgets the history of the steps before and begins at the state with the remembered step size.
     in->nonfinite_stages = 0;
     memcpy(N_VGetArrayPointer(in->y), s->now.y, sizeof s->now.y);
+    NV_LENGTH_S(in->y) = cage_states(in->model);
+    if (ARKodeResize(in->arkode, in->y, 1.0, s->t, same_length, NULL) != ARK_SUCCESS) return -1;
     if (ARKodeReset(in->arkode, s->t, in->y) != ARK_SUCCESS) return -1;
     if (ARKodeSetInitStep(in->arkode, h_first) != ARK_SUCCESS) return -1;
     if (ARKodeSetStopTime(in->arkode, t_stop) != ARK_SUCCESS) return -1;
@@ -620,7 +591,7 @@ static int explicit_advance(Integrator *in, double t_stop, long max_steps)
     s->h = fmax(h_next, KEPT_STEP * s->h);
     if (status < 0 || in->escaped) return status;
     s->t = t_stop;
-    memcpy(s->now.f, in->latest, sizeof s->now.f);
+    memcpy(s->now.f, in->latest, (size_t)cage_states(in->model) * sizeof *s->now.f);
     s->f_is_current = 1;
     return 0;
 }
@@ -629,7 +600,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 {
     // Without a derivative at the start there is no step.
     integrator_evaluate(in);
-    if (!all_finite(cage_states(in->model), in->s->now.f)) {
+    if (!in->kernels->all_finite(cage_states(in->model), in->s->now.f)) {
         memset(in->s->now.f, 0, sizeof in->s->now.f);
         in->s->f_is_current = 0;
         return ARK_RHSFUNC_FAIL;
@@ -649,25 +620,11 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
 
 // Bound of a state of each class [SI]: far beyond all that a bearing does, and so small that the error of a step
 // can still be told from the rounding of the state.
-static double largest_of(StateScale scale)
-{
-    switch (scale) {
-    case SCALE_LENGTH:
-    case SCALE_NORMAL:
-    case SCALE_MODE:
-    case SCALE_VELOCITY: return 1e6;
-    case SCALE_ANGLE: return 1e15;
-    case SCALE_TILT:
-    case SCALE_PLATE:
-    case SCALE_HEAD: return 1.0;
-    case SCALE_RATE:
-    case SCALE_ORBIT:
-    case SCALE_SPIN: return 1e9;
-    case SCALE_ENERGY: return 1e30;
-    case SCALE_COUNT: break;
-    }
-    return 0.0;
-}
+static const double LARGEST[SCALE_COUNT] = {
+    [SCALE_LENGTH] = 1e6, [SCALE_NORMAL] = 1e6, [SCALE_MODE] = 1e6,  [SCALE_VELOCITY] = 1e6,
+    [SCALE_ANGLE] = 1e15, [SCALE_TILT] = 1.0,   [SCALE_PLATE] = 1.0, [SCALE_HEAD] = 1.0,
+    [SCALE_RATE] = 1e9,   [SCALE_ORBIT] = 1e9,  [SCALE_SPIN] = 1e9,  [SCALE_ENERGY] = 1e30,
+};
 
 bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
 {
@@ -683,13 +640,13 @@ bool integrator_state_is_valid(const IntegratorState *s, const Parameters *p)
     const bool supported = p->housing.motion == HOUSING_MOTION_SUPPORTED;
     fine &= values_are_within(s->now.housing.x, 4 * HOUSING_DOF, supported ? LARGEST_HOUSING : 0.0);
     const bool turn = ball_spalls_given(p);
-    fine &= values_are_within(s->now.turn.angle, Z, turn ? largest_of(SCALE_ANGLE) : 0.0) &&
-            values_are_within(s->now.turn.rate, Z, turn ? largest_of(SCALE_SPIN) : 0.0);
+    fine &= values_are_within(s->now.turn.angle, Z, turn ? LARGEST[SCALE_ANGLE] : 0.0) &&
+            values_are_within(s->now.turn.rate, Z, turn ? LARGEST[SCALE_SPIN] : 0.0);
 
     // States, their rates and the differences of their rates.
     for (const StateBlock *b = STATE_BLOCKS; b < STATE_BLOCKS + N_ALL_BLOCKS; b++) {
         const size_t n = (size_t)b->count;
-        const double largest = b->offset < N_STATES || cage_vibrates(p) ? largest_of(b->scale) : 0.0;
+        const double largest = b->offset < N_STATES || cage_vibrates(p) ? LARGEST[b->scale] : 0.0;
         fine &= values_are_within(s->now.y + b->offset, n, largest) &&
                 values_are_within(s->now.f + b->offset, n, RATE * largest);
         fine &= values_are_within(s->now.jerk + b->offset, n, RATE * RATE * RATE * largest);

@@ -1,5 +1,5 @@
 // Integration of the right-hand side in time with control of the error (docs/method.md).  Of the solvers
-// only integrator and bearing_step use SUNDIALS.
+// only integrator, bearing_step and kernels use SUNDIALS.
 #pragma once
 
 #include "solver/kernels.h"

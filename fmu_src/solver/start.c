@@ -52,6 +52,16 @@ static Stiffness contact_stiffness(double K, double delta, double L, double n_x,
                        across + (along - across) * n_r * n_r};
 }
 
+// Stiffnesses of the contacts of ball j at the inner and the outer race.
+static void ball_stiffness(const Equilibrium *eq, int j, Stiffness *inner, Stiffness *outer)
+{
+    const Derived *d = eq->model->d;
+    const Work *w = eq->w;
+    const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j], L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
+    *inner = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
+    *outer = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+}
+
 // phi of ball j.
 static double ball_potential(const Equilibrium *eq, int j)
 {
@@ -67,7 +77,6 @@ static double ball_potential(const Equilibrium *eq, int j)
 // Minimises the potential of every ball for the ring's present pose; returns the sum.
 static double balls_settle(const Equilibrium *eq)
 {
-    const Derived *d = eq->model->d;
     Work *w = eq->w;
     double x[Z], r[Z], dx[Z], dr[Z], phi[Z], part[Z];
     eq->kernels->race_contact_force(eq->model, w);
@@ -76,12 +85,8 @@ static double balls_settle(const Equilibrium *eq)
         // Newton step of every ball, at most STEP long
         double moved = 0.0;
         for (int j = 0; j < Z; j++) {
-            const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j];
-            const double L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
-            const Stiffness k_i =
-                contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
-            const Stiffness k_e =
-                contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+            Stiffness k_i, k_e;
+            ball_stiffness(eq, j, &k_i, &k_e);
             const double xx = k_i.xx + k_e.xx + K_0, xr = k_i.xr + k_e.xr, rr = k_i.rr + k_e.rr + K_0;
             const double det = xx * rr - xr * xr;
             const double F_x = w->F_x[j] + eq->F_x[j] - K_0 * (w->x[j] - eq->x_0[j]);
@@ -161,10 +166,8 @@ static void ring_balls(const Equilibrium *eq, double force[DOF], double H[DOF][D
         if (i < TILT || eq->tilts) force[i] += F[i];
 
     for (int j = 0; j < Z; j++) {
-        const double L_i = w->delta_i[j] + d->inner.r_g - d->R[j];
-        const double L_e = w->delta_e[j] + d->outer.r_g - d->R[j];
-        const Stiffness a = contact_stiffness(d->inner.hertz.K, w->delta_i[j], L_i, w->n_ix[j], w->n_ir[j]);
-        const Stiffness b = contact_stiffness(d->outer.hertz.K, w->delta_e[j], L_e, w->n_ex[j], w->n_er[j]);
+        Stiffness a, b;
+        ball_stiffness(eq, j, &a, &b);
         const double xx = a.xx + b.xx + K_0, xr = a.xr + b.xr, rr = a.rr + b.rr + K_0;
         const double det = xx * rr - xr * xr;
         // k = a - a (a + b)^-1 a, with i the inverse of a + b and m = a (a + b)^-1

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cage/cage.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // A state and the method's memory of the way there.

@@ -30,14 +30,12 @@ class Variable:
     derives: bool  # whether the start value stands for one that follows from others
     fixed: str | None  # why a parameter cannot change once a run has begun; None if it can
 
+
+# Enumerations by name.
 {% for name, items in table.enumerations.items() %}
-
-class {{ name }}(IntEnum):
-{% for item, entry in items.items() %}
-    {{ item | upper }} = {{ entry.number }}
+{{ name }} = IntEnum({{ name | quoted }}, { {%- for item, entry in items.items() %}"{{ item | upper }}": {{ entry.number }}{{ ", " if not loop.last }}{% endfor -%} })
 {% endfor %}
-
-{% endfor %}
+ENUMERATIONS = ({% for name in table.enumerations %}{{ name }}, {% endfor %})
 
 # Assumed parameters that move the rivets' stress: smallest and largest usual value over the value, and the source.
 ASSUMPTIONS = {

@@ -6,25 +6,12 @@ the geometric centre.
 
 import numpy as np
 
-from bearing_model.generated.variables import (
-    CAGE_BETA,
-    CAGE_BETA_DOT,
-    CAGE_GAMMA,
-    CAGE_GAMMA_DOT,
-    CAGE_PSI,
-    CAGE_S,
-    CAGE_V_X,
-    CAGE_V_Y,
-    CAGE_V_Z,
-    CAGE_X,
-    CAGE_Y,
-    CAGE_Z,
-)
+from bearing_model.generated import variables as Y
 from bearing_model.numbers.vec import vec_cross
 from bearing_model.physics.frame import frame_acceleration, frame_moment
 from bearing_model.physics.rotor import Rotor, rotor_acceleration, rotor_axis, rotor_body_axes, rotor_roll
 
-CAGE_PLACE = ((CAGE_X, CAGE_V_X), (CAGE_Y, CAGE_V_Y), (CAGE_Z, CAGE_V_Z))
+CAGE_PLACE = ((Y.CAGE_X, Y.CAGE_V_X), (Y.CAGE_Y, Y.CAGE_V_Y), (Y.CAGE_Z, Y.CAGE_V_Z))
 
 
 def of_half(y, block, h):
@@ -37,9 +24,13 @@ def halves_kinematics(model, y, w):
     w.half = [Rotor(), Rotor()]
     for h, half in enumerate(w.half):
         rotor_axis(
-            half, *(of_half(y, block, h) for block in (CAGE_BETA, CAGE_GAMMA, CAGE_BETA_DOT, CAGE_GAMMA_DOT, CAGE_S))
+            half,
+            *(
+                of_half(y, block, h)
+                for block in (Y.CAGE_BETA, Y.CAGE_GAMMA, Y.CAGE_BETA_DOT, Y.CAGE_GAMMA_DOT, Y.CAGE_S)
+            ),
         )
-        psi = of_half(y, CAGE_PSI, h)
+        psi = of_half(y, Y.CAGE_PSI, h)
         rotor_body_axes(half, np.cos(psi), np.sin(psi))
         half.c = model.d.com_x[h] * half.a + model.d.com_e * half.b_y
         half.x = np.array([of_half(y, X, h) for X, _ in CAGE_PLACE]) - half.c
@@ -54,12 +45,12 @@ def half_rates(y, half, h, acc, a_ddot, s_dot, y_dot):
     for i, (X, V) in enumerate(CAGE_PLACE):
         of_half(y_dot, X, h)[...] = of_half(y, V, h)
         of_half(y_dot, V, h)[...] = acc[i]
-    of_half(y_dot, CAGE_BETA, h)[...] = of_half(y, CAGE_BETA_DOT, h)
-    of_half(y_dot, CAGE_GAMMA, h)[...] = of_half(y, CAGE_GAMMA_DOT, h)
-    of_half(y_dot, CAGE_PSI, h)[...] = half.s - rotor_roll(half)
-    of_half(y_dot, CAGE_BETA_DOT, h)[...] = -a_ddot[2]
-    of_half(y_dot, CAGE_GAMMA_DOT, h)[...] = a_ddot[1]
-    of_half(y_dot, CAGE_S, h)[...] = s_dot
+    of_half(y_dot, Y.CAGE_BETA, h)[...] = of_half(y, Y.CAGE_BETA_DOT, h)
+    of_half(y_dot, Y.CAGE_GAMMA, h)[...] = of_half(y, Y.CAGE_GAMMA_DOT, h)
+    of_half(y_dot, Y.CAGE_PSI, h)[...] = half.s - rotor_roll(half)
+    of_half(y_dot, Y.CAGE_BETA_DOT, h)[...] = -a_ddot[2]
+    of_half(y_dot, Y.CAGE_GAMMA_DOT, h)[...] = a_ddot[1]
+    of_half(y_dot, Y.CAGE_S, h)[...] = s_dot
 
 
 def halves_acceleration(model, y, w, y_dot):

@@ -2,20 +2,7 @@
 
 import numpy as np
 
-from bearing_model.generated.variables import (
-    BALL_OMEGA_M,
-    BALL_R,
-    BALL_THETA,
-    BALL_V_R,
-    BALL_V_X,
-    BALL_X,
-    CAGE_BETA_DOT,
-    CAGE_GAMMA_DOT,
-    CAGE_S,
-    CAGE_V_X,
-    CAGE_V_Y,
-    CAGE_V_Z,
-)
+from bearing_model.generated import variables as Y
 
 
 def rigid_approach(model, gamma, direction, f, state, y, half, h, k):
@@ -25,17 +12,17 @@ def rigid_approach(model, gamma, direction, f, state, y, half, h, k):
     f: rates at the step's start; state: velocities in its middle; y: positions at its end; half: in the middle.
     """
     (v_x, v_r, omega), (a_x, f_r, f_t) = (
-        [rows[block][k] for block in (BALL_V_X, BALL_V_R, BALL_OMEGA_M)] for rows in (state, f)
+        [rows[block][k] for block in (Y.BALL_V_X, Y.BALL_V_R, Y.BALL_OMEGA_M)] for rows in (state, f)
     )
-    r, theta = y[BALL_R][k] - gamma * v_r, y[BALL_THETA][k] - gamma * omega
+    r, theta = y[Y.BALL_R][k] - gamma * v_r, y[Y.BALL_THETA][k] - gamma * omega
     e_x, e_r = np.array([1.0, 0.0, 0.0]), np.array([0.0, np.cos(theta), np.sin(theta)])
     e_t = np.cross(e_x, e_r)
     a, b_y, b_z, x, v, c, Omega = (getattr(half, name)[:, 0] for name in ("a", "b_y", "b_z", "x", "v", "c", "Omega"))
     cosine, sine = model.d.pocket_cos[k], model.d.pocket_sin[k]
     n = direction[0] * a + direction[1] * (cosine * b_y + sine * b_z) + direction[2] * (cosine * b_z - sine * b_y)
-    p = (y[BALL_X][k] - gamma * v_x) * e_x + r * e_r - x
-    turn = np.array([f[block][h] for block in (CAGE_S, CAGE_BETA_DOT, CAGE_GAMMA_DOT)])
-    by_half = np.array([f[block][h] for block in (CAGE_V_X, CAGE_V_Y, CAGE_V_Z)])
+    p = (y[Y.BALL_X][k] - gamma * v_x) * e_x + r * e_r - x
+    turn = np.array([f[block][h] for block in (Y.CAGE_S, Y.CAGE_BETA_DOT, Y.CAGE_GAMMA_DOT)])
+    by_half = np.array([f[block][h] for block in (Y.CAGE_V_X, Y.CAGE_V_Y, Y.CAGE_V_Z)])
     by_half = by_half + np.cross(turn, p - c) + np.cross(Omega, np.cross(Omega, p - c))
     by_ball = a_x * e_x + (f_r - r * omega**2) * e_r + (r * f_t + 2.0 * v_r * omega) * e_t
     rate = n @ (v_x * e_x + v_r * e_r + r * omega * e_t - v - np.cross(Omega, p))

@@ -53,16 +53,8 @@ from bearing_model.cage.common.pocket_films import pocket_films_arrive
 from bearing_model.cage.common.spin_preload import spin_bending
 from bearing_model.cage.two_half.half_path import half_path_rows, land_rows
 from bearing_model.cage.two_half.joint_open import joints_open
-from bearing_model.generated.variables import (
-    CAGE_BETA,
-    CAGE_GAMMA,
-    CAGE_PSI,
-    CAGE_X,
-    CAGE_Y,
-    CAGE_Z,
-    WORK,
-    Z,
-)
+from bearing_model.generated import variables as Y
+from bearing_model.generated.variables import Z
 from bearing_model.numbers.lanes import ball_array_sum, maximum
 
 ROW_M_T, ROW_DP = 4, 5
@@ -202,7 +194,9 @@ def correct_halves(model, w, gamma, axial, shear, delta, y, joints):
     d, h0 = model.d, w.half[0]
     relative = delta[HALF[:, 1]] - delta[HALF[:, 0]]
     weights = (axial, shear, shear, axial, axial, shear)
-    for q, change, c in zip((CAGE_X, CAGE_Y, CAGE_Z, CAGE_BETA, CAGE_GAMMA, CAGE_PSI), relative, weights, strict=True):
+    for q, change, c in zip(
+        (Y.CAGE_X, Y.CAGE_Y, Y.CAGE_Z, Y.CAGE_BETA, Y.CAGE_GAMMA, Y.CAGE_PSI), relative, weights, strict=True
+    ):
         y[q] += 0.5 * c * gamma * change * np.array([-1.0, 1.0])
     _, dv_y, dv_z, _, _, ds = relative
     u_y, u_z = (axis[1] * dv_y + axis[2] * dv_z for axis in (h0.b_y, h0.b_z))
@@ -226,7 +220,7 @@ def two_half_end(model, step, start, end, error, w):
     """
     gamma, one, films = step.gamma, np.eye(N_HALVES), halves_films(model, w)
     before, pockets = start.cage.pockets, end.cage.pockets
-    end.f[WORK] += pocket_films_arrive(model, gamma, None, before, end.y, w, end.f, pockets)
+    end.f[Y.WORK] += pocket_films_arrive(model, gamma, None, before, end.y, w, end.f, pockets)
     A, K, K_shear, axial, shear = two_half_matrices(model, w, gamma)
     residual = np.linalg.solve(one + gamma**2 * K_shear, halves_residual(step, start, end))
     delta = np.linalg.solve(one + gamma * (films + A) + gamma**2 * K, residual)

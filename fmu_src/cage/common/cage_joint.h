@@ -1,7 +1,7 @@
 // The riveted joints between the cage halves: the part that both kinds of halves share.  Equations in cage_joint.c.
 #pragma once
 
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
@@ -19,17 +19,14 @@ typedef struct {
 } JointMotion;
 
 // Offset and velocity of half 1 against half 0 as rigid bodies at each rivet, in the frame of half 0.
-#define cage_joint_kinematics FOR_ISA(cage_joint_kinematics)
 void cage_joint_kinematics(const Model *model, Work *w);
 
 // Friction and hole contact of all joints: sets S, H, B, F; adds the joints' wrench to both halves, as forces at the holes of
 // the halves as rigid bodies.
-#define cage_joint_force FOR_ISA(cage_joint_force)
 void cage_joint_force(const Model *model, const scalar *y, const JointStiffness *k, const JointMotion *at,
                       Work *w);
 
 // Forces on half 1 in the plane, for offsets and the friction states in y.
-#define cage_joint_shear FOR_ISA(cage_joint_shear)
 void cage_joint_shear(const Model *model, const double *y, const JointStiffness *k, const ball_array u_y,
                       const ball_array u_z, ball_array F_y, ball_array F_z);
 
@@ -40,12 +37,10 @@ typedef struct {
 } JointStep;
 
 // The friction states in y follow the motion with the velocities v for the time h: trial deflections.
-#define cage_joint_follow FOR_ISA(cage_joint_follow)
 void cage_joint_follow(double h, const double *v_y, const double *v_z, double *y);
 
 // Maps the trial deflections in y back onto those that friction bears under the tension T of the rivets and the force
 // N_plate between the plates; adds to step->rubbed.  Returns the energy that the slip dissipates [J].
-#define cage_joint_slide FOR_ISA(cage_joint_slide)
 double cage_joint_slide(const Model *model, const JointStiffness *k, const double *T, const double *N_plate,
                         double *y, JointStep *step);
 
@@ -54,10 +49,8 @@ typedef struct {
     ball_array plates[2], heads[2], shank[2];
 } JointShear;
 
-#define cage_joint_carried FOR_ISA(cage_joint_carried)
 void cage_joint_carried(const Model *model, const Work *w, JointShear *shear);
 
 // Loads of all joints from (N, M_r, M_t) of the joints, (T, m_r, m_t) of their rivets and their loads in the plane.
-#define cage_joint_loads FOR_ISA(cage_joint_loads)
 void cage_joint_loads(const Model *model, const ball_array joint[3], const ball_array rivet[3],
                       const JointShear *shear, JointLoads *load);

@@ -4,9 +4,7 @@
 #include "physics/rotor.h"
 
 // Poses and velocities of both halves from y, without forces.
-#define halves_kinematics FOR_ISA(halves_kinematics)
 void halves_kinematics(const Model *model, const scalar *y, Work *w);
 
 // Rates of both halves under the forces and moments in w.
-#define halves_acceleration FOR_ISA(halves_acceleration)
 void halves_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot);

@@ -4,7 +4,7 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/common/pocket_films.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Carried from an evaluation to the next step: -dF/dv of each land's film yy, yz, zz [N.s/m]; films in pockets.  Part of the saved
@@ -38,35 +38,28 @@ typedef struct {
 #ifndef DUAL
 // Rotations of the halves in y, whose other positions have their values at the end and whose velocities of the halves become those of
 // the middle; kinematics of halves and joints in the middle.
-#define halves_move FOR_ISA(halves_move)
 void halves_move(const Model *model, double h, const StepFrom *from, const double *middle, double *y,
                  HalvesStep *step, Work *w);
 
 // Velocities of the halves at the end as predicted, from those of the middle.  film: -dF/dv of each land's film at the start.
-#define halves_predict FOR_ISA(halves_predict)
 void halves_predict(const Model *model, const StepFrom *from, const double film[2][3], double *y,
                     HalvesStep *step);
 
 // Residual of the trapezoidal rule at the prediction.
-#define halves_residual FOR_ISA(halves_residual)
 void halves_residual(const HalvesStep *step, const StepFrom *from, const StepTo *to);
 
 // Velocities at the end by the solution `delta`; change = v_{n+1} - v_n - h a_n.
-#define halves_correct FOR_ISA(halves_correct)
 void halves_correct(const HalvesStep *step, const StepTo *to, double change[N_STATES]);
 
 // v = v - (1 + gamma A)^-1 v of the halves' velocities, A of the films alone.
-#define halves_stiff_part FOR_ISA(halves_stiff_part)
 void halves_stiff_part(const Model *model, const Work *w, double gamma, double *v);
 
 // Maps the friction states in y back under the tensions T and the forces N_plate, from joints->before; the work loses the
 // energy that the mapping dissipates.
-#define halves_slide FOR_ISA(halves_slide)
 void halves_slide(const Model *model, const JointStiffness *k, const double *T, const double *N_plate,
                   double *y, JointStep *joints, Work *w);
 
 // Accelerations, mean rates of the friction states, their history and their errors; the films at the end.
-#define halves_remember FOR_ISA(halves_remember)
 void halves_remember(const Model *model, const Work *w, const HalvesStep *step, const StepFrom *from,
                      const double change[N_STATES], const StepTo *to, double film[2][3]);
 #endif

@@ -7,7 +7,7 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/common/joint_law.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Capacity of joints for transverse loads: friction of plates and heads [N], play [m]; stiffness of heads
@@ -28,6 +28,5 @@ typedef struct {
 } SlipState;
 
 // Adds to shear the loads of plates, heads and shanks by the bonded loads V_r, V_t.
-#define joint_slip_add FOR_ISA(joint_slip_add)
 void joint_slip_add(const Model *model, const Work *w, const SlipState *at, const ball_array V_r,
                     const ball_array V_t, JointShear *shear);

@@ -2,14 +2,12 @@
 #pragma once
 
 #include "cage/common/pocket_forces.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/hertz.h"
 
 // Contacts of all pockets of two rigid or two elastic halves: add to the balls' forces, moments, rates and dissipation, set
 // the wrench on both halves.
-#define pocket_rigid FOR_ISA(pocket_rigid)
 void pocket_rigid(const Model *model, Work *w);
-#define pocket_elastic FOR_ISA(pocket_elastic)
 void pocket_elastic(const Model *model, Work *w);
 
 // Where a packet of balls is in the pockets of a half.

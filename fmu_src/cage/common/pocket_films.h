@@ -2,7 +2,7 @@
 // bearing_model/cage/common/pocket_films.py.
 #pragma once
 
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // The films of both halves at an evaluation, D = 0 where there is none.  Part of the saved state: no member is aligned beyond a
@@ -39,30 +39,25 @@ INLINE void pocket_films_add(const PocketFilms *films, int h, int k, double more
 }
 
 // Takes the films of an evaluation.
-#define pocket_films_split FOR_ISA(pocket_films_split)
 void pocket_films_split(const Model *model, const Work *w, PocketFilms *films);
 
 // Finds the films of a step of length h under the rates f.  state: velocities in the middle of the step; y: positions at its end; w:
 // kinematics of the halves in the middle.
-#define pocket_films_find FOR_ISA(pocket_films_find)
 void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,
                        const double *state, const double *y, const Work *w, PocketFilmsStep *step);
 
 // The impulses of a substep of length d at its end, the time t of the step, on velocities v of S and D and on those of the
 // halves by all but slow forces, `halves`; `pushed` gets the same as halves.
-#define pocket_films_follow FOR_ISA(pocket_films_follow)
 void pocket_films_follow(const Model *model, double t, double d, double *v,
                          double halves[2 * RELATIVE_MOTIONS], double pushed[2 * RELATIVE_MOTIONS],
                          PocketFilmsStep *step);
 
 // Adds to accelerations of the modes and of the halves the part by the change of the films' forces since the step's start.
-#define pocket_films_foreseen FOR_ISA(pocket_films_foreseen)
 void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
                            double halves[2 * RELATIVE_MOTIONS]);
 
 // At the step's end y, w, behind the evaluation: takes the excess of the films' forces at the predicted velocities from the rates f and
 // the pockets' forces, and returns the power that this saves [W].  step: films that followed in substeps, NULL without.
-#define pocket_films_arrive FOR_ISA(pocket_films_arrive)
 double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsStep *step,
                            const PocketFilms *before, const double *y, Work *w, double *f,
                            PocketFilms *films);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cage/common/pocket_forces.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 
 // Constants of the pockets of a ribbon cage; d->R and d->R_c are known.
 void spheres_derive(const Parameters *p, double E_star, Derived *d);
@@ -13,11 +13,9 @@ double spheres_edge(const Parameters *p);
 void spheres_seams(const Parameters *p, double *sin_chi, double *sin_eta);
 
 // Contacts of all pockets of two rigid halves, as pocket_rigid of machined ones.
-#define spheres_rigid FOR_ISA(spheres_rigid)
 void spheres_rigid(const Model *model, Work *w);
 
 // Contacts of all pockets of two elastic halves, as pocket_elastic of machined ones.
-#define spheres_elastic FOR_ISA(spheres_elastic)
 void spheres_elastic(const Model *model, Work *w);
 
 static const double TIP =

@@ -1,7 +1,7 @@
 // How balls approach a half of the cage along given directions, both as rigid bodies.
 #pragma once
 
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Rates and accelerations of the balls of a packet against half h along given directions, both as rigid bodies.
@@ -15,6 +15,5 @@ typedef struct {
 
 // Of the balls from j on, at the time gamma before the positions y; direction: (x, r, t) along the pockets' axes; f: slow rates;
 // state: velocities there; w: kinematics of the halves there.
-#define rigid_approach FOR_ISA(rigid_approach)
 void rigid_approach(const Model *model, double gamma, const double *const direction[3], const double *f,
                     const double *state, const double *y, const Work *w, int h, int j, RigidApproach *to);

@@ -3,33 +3,26 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/elastic/elastic_half.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Coordinates of both halves from y, and the elastic part of the pads' motions against each other.
-#define cage_elastic_kinematics FOR_ISA(cage_elastic_kinematics)
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w);
 
 // Motions of all pads against each other: out of the plane (x, about r, about t) by coordinates S, in it (r, t) by D.
-#define cage_elastic_out FOR_ISA(cage_elastic_out)
 void cage_elastic_out(const ElasticHalf *half, const scalar *S, ball_array to[3]);
-#define cage_elastic_in FOR_ISA(cage_elastic_in)
 void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[2]);
 
 // Square of the halves' speed in space, mean of both.
-#define cage_elastic_speed_2 FOR_ISA(cage_elastic_speed_2)
 scalar cage_elastic_speed_2(const Work *w);
 
 // Preloads [N] with the preload that the centrifugal load at that speed adds.
-#define cage_elastic_preload FOR_ISA(cage_elastic_preload)
 void cage_elastic_preload(const Model *model, scalar omega_2, ball_array P);
 
 // Loads of the joints out of the plane and of their rivets for the motions e and preloads P.
-#define cage_elastic_loads FOR_ISA(cage_elastic_loads)
 void cage_elastic_loads(const Model *model, const ball_array P, ElasticJoints *joints);
 
 // Forces of the joints on the modes, from their loads.
-#define cage_elastic_pull FOR_ISA(cage_elastic_pull)
 void cage_elastic_pull(const Model *model, ElasticJoints *joints);
 
 // Stiffnesses in the plane, in series with the residual of the modes.
@@ -40,13 +33,10 @@ INLINE JointStiffness cage_elastic_stiffness(const Model *model)
 }
 
 // Joints by the present state (cage_joint_kinematics before); adds their forces and moments to both halves.
-#define cage_elastic_joints FOR_ISA(cage_elastic_joints)
 void cage_elastic_joints(const Model *model, const scalar *y, Work *w);
 
 // Sets the rates of the modal coordinates, their energy and dissipation.
-#define cage_elastic_acceleration FOR_ISA(cage_elastic_acceleration)
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot);
 
 // Loads of all joints and their rivets.
-#define cage_elastic_rivets FOR_ISA(cage_elastic_rivets)
 void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load);

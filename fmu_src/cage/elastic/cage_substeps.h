@@ -5,7 +5,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/pocket_films.h"
 #include "cage/elastic/rim_films.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part
@@ -20,7 +20,6 @@ typedef struct {
 } FastState;
 
 // Takes the fast part from the rates f of the state y, at which w was evaluated, and writes it to `fast`.
-#define cage_substeps_split FOR_ISA(cage_substeps_split)
 void cage_substeps_split(const Model *model, const double *y, const Work *w, double *f, FastState *fast);
 
 // Slow accelerations at the step's end as the substeps foresee them: of the modes their values, of the halves their
@@ -33,7 +32,6 @@ typedef struct {
 // step's start but for positions and velocities of the halves, which a step without fast accelerations has reached at its end
 // and in its middle; the substeps add theirs, and advance modes, friction states and work.  w: kinematics in
 // the middle; films: those of rims that follow in the substeps, NULL if none does; pockets: those of pockets.
-#define cage_substeps_advance FOR_ISA(cage_substeps_advance)
 void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
                            const double *state, double *y, Foreseen *foreseen, JointStep *slip,
                            RimFilmsStep *films, PocketFilmsStep *pockets, const Work *w);

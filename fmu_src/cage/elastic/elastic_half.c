@@ -332,12 +332,6 @@ static ElasticBody body_of(const Parameters *p, const Derived *d)
                          d->J_p,        d->J_t,    d->k_plate_t};
 }
 
-static bool same_body(const ElasticBody *a, const ElasticBody *b)
-{
-    return a->shape == b->shape && a->m == b->m && a->land_x == b->land_x && a->d_m == b->d_m &&
-           a->J_p == b->J_p && a->J_t == b->J_t && a->friction == b->friction;
-}
-
 // Constants that follow from the body alone.
 static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
@@ -371,7 +365,7 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
 {
     const HalfModes *table = &rivet_table.modes;
     const ElasticBody body = body_of(p, d);
-    if (!same_body(&half->of.body, &body)) derive_body(p, d, half);
+    if (memcmp(&half->of.body, &body, sizeof body) != 0) derive_body(p, d, half);
     take_forces(p, half);
 
     // mean over r and t, of both halves

@@ -22,7 +22,7 @@
 
 #include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 enum { MODES = N_MODES };
@@ -42,8 +42,7 @@ enum { WALL_NODES = 16, WALL_RADII = 3 };  // of a wall, at most
 
 // Parameters and constants from which the constants of a half are derived that no temperature changes.
 typedef struct {
-    int shape;
-    double m, land_x, d_m, J_p, J_t, friction;
+    double shape, m, land_x, d_m, J_p, J_t, friction;
 } ElasticBody;
 
 struct ElasticHalf {
@@ -126,20 +125,16 @@ typedef struct {
 } WallShape;
 
 // Places of a packet of balls from j on, on the half at side (+1 or -1).
-#define elastic_wall_places FOR_ISA(elastic_wall_places)
 void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wide n_t, WallPlaces *at);
 
 // Motion of the wall of pocket j along the contact's normal by each mode.
-#define elastic_wall_shape FOR_ISA(elastic_wall_shape)
 void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape);
 
 // Sets velocity and tilt of that wall, and its motion by each mode.  S: distance of the ball from the pocket's axis.
-#define elastic_wall FOR_ISA(elastic_wall)
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
                   const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape);
 
 // Adds the modal forces of the force (x, r, t) on the wall of pocket j.
-#define elastic_wall_force FOR_ISA(elastic_wall_force)
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
                         mode_array modal);
 
@@ -155,7 +150,6 @@ typedef struct {
 } RibbonNodes;
 
 // The nodes around the angles chi at the radii, of the part `front`.
-#define ribbon_wall_nodes FOR_ISA(ribbon_wall_nodes)
 void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide front, RibbonNodes *nodes);
 
 // Motions at all nodes, radius by radius, value and slope, (x, r, t), by those coordinates q that move all pockets alike.
@@ -163,16 +157,13 @@ typedef struct {
     scalar row[WALL_RADII * WALL_NODES][2][4];
 } RibbonAlike;
 
-#define ribbon_alike FOR_ISA(ribbon_alike)
 void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike);
 
 // Motion (x, r, t) by these coordinates at the place of a lane.
-#define ribbon_wall_alike FOR_ISA(ribbon_wall_alike)
 void ribbon_wall_alike(const ElasticHalf *half, int side, const RibbonNodes *nodes, int lane,
                        const RibbonAlike *alike, scalar u[3]);
 
 // Motion there by all coordinates q, in pocket j; shapes for ribbon_wall and elastic_wall_force.
-#define ribbon_wall_moved FOR_ISA(ribbon_wall_moved)
 void ribbon_wall_moved(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                        const scalar *q, scalar u[3], WallShape *shape);
 
@@ -181,16 +172,13 @@ typedef struct {
     scalar u_dot[3], over_chi, over_radius, over_front;
 } RibbonWall;
 
-#define ribbon_wall FOR_ISA(ribbon_wall)
 void ribbon_wall(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
                  RibbonWall *wall);
 
 // Motion along n (x, r, t) by each mode there, and the same bits by the shapes of ribbon_wall_moved.
-#define ribbon_wall_shape FOR_ISA(ribbon_wall_shape)
 void ribbon_wall_shape(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                        const scalar n[3], mode_array shape);
-#define elastic_wall_along FOR_ISA(elastic_wall_along)
 void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                         mode_array shape);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of their rivets.
@@ -12,6 +12,5 @@ typedef struct {
 
 // Whether the rivets feel the films.  If so, sets the loads with the films and adds the shear loads that the films put on plates,
 // heads and shanks.  P: preloads with the centrifugal load.
-#define elastic_lands FOR_ISA(elastic_lands)
 bool elastic_lands(const Model *model, const Work *w, const ball_array P, LandedJoints *joints,
                    JointShear *shear);

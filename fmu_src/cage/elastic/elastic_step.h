@@ -4,7 +4,7 @@
 #include "cage/common/halves_step.h"
 #include "cage/elastic/cage_substeps.h"
 #include "cage/elastic/rim_films.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Carried from an evaluation to the next step.  Part of the saved state: no member is aligned beyond a double, so that nothing
@@ -26,21 +26,17 @@ typedef struct {
 } ElasticStep;
 
 // Separates the part that the halves advance by themselves from the rates f at the state y, where w was evaluated.
-#define elastic_split FOR_ISA(elastic_split)
 void elastic_split(const Model *model, const double *y, const Work *w, double *f, ElasticMemory *memory);
 
 // Motion and predicted velocities (cage_begin).
-#define elastic_begin FOR_ISA(elastic_begin)
 void elastic_begin(const Model *model, double h, const StepFrom *from, const HalvesMemory *at,
                    const ElasticMemory *memory, const double *middle, double *y, HalvesStep *halves,
                    ElasticStep *step, Work *w);
 
 // Solution, corrections and history (cage_end).
-#define elastic_end FOR_ISA(elastic_end)
 double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *step, const StepFrom *from,
                    const HalvesMemory *at, const ElasticMemory *before, const StepTo *to,
                    HalvesMemory *at_end, ElasticMemory *memory, Work *w);
 
 // Maps the friction states in y back under the loads in w.
-#define elastic_slide FOR_ISA(elastic_slide)
 void elastic_slide(const Model *model, double *y, JointStep *joints, Work *w);

@@ -1,7 +1,7 @@
 // Films on bent rims within a step.  Equations in rim_films.c; twin: bearing_model/cage/elastic/rim_films.py.
 #pragma once
 
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/land_bent.h"
 #include "physics/model.h"
 
@@ -25,21 +25,17 @@ typedef struct {
 } RimFilmsStep;
 
 // Motions of both rims' shapes by coordinates S and D.
-#define rim_motions FOR_ISA(rim_motions)
 void rim_motions(const Model *model, const double *modes, double rim[2][RIM]);
 
 // Adds a part of impulses on the rims' shapes to velocities of S and D.
-#define rim_push FOR_ISA(rim_push)
 void rim_push(const Model *model, double part, double impulse[2][RIM], double *modes);
 
 // Before the first substep of length d: constants of the films at the step's start, and half of the first impulses to the velocities v of
 // S and D.  f: slow rates; w: kinematics of the halves.
-#define rim_films_first FOR_ISA(rim_films_first)
 void rim_films_first(const Model *model, const Work *w, double d, const double *f, double *v,
                      RimFilmsStep *step);
 
 // The impulses of a substep at its end, t after the step's start, and half of the next one's unless it is the last.  at: velocities
 // of S and D with all other accelerations; halves: changes of the halves' velocities by the joints, in the order of the state.
-#define rim_films_follow FOR_ISA(rim_films_follow)
 void rim_films_follow(const Model *model, const Work *w, double t, const double *at,
                       const double halves[2 * RELATIVE_MOTIONS], bool last, double *v, RimFilmsStep *step);

@@ -38,20 +38,17 @@ typedef struct {
 
 // Finds the loads of a step of length h from `fast` under the rates f.  state: velocities in the middle of the step; y: positions at its
 // end, coordinates of the modes at its start; w: kinematics of the halves in the middle.
-#define wall_loads_find FOR_ISA(wall_loads_find)
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
                      const double *state, const double *y, const Work *w, WallLoads *loads);
 
 // Adds to the modes' accelerations (S, then D) the part by the change of the loads up to the time t of the step, the end of a substep of the
 // length sub, and writes the parts of the halves and of the balls.  q: coordinates at t; moved: rigid motions of the halves by the fast
 // accelerations and by this part.
-#define wall_loads_follow FOR_ISA(wall_loads_follow)
 void wall_loads_follow(const Model *model, double t, double sub, const double *q,
                        const double moved[CAGE_MOTIONS], WallLoads *loads, double slow[2 * N_MODES],
                        double push[CAGE_MOTIONS]);
 
 // The same at the end of the step, at the velocities there: q_dot of the modes, `moving` of the halves beside the slow motion.
-#define wall_loads_end FOR_ISA(wall_loads_end)
 void wall_loads_end(const Model *model, const double *q_dot, const double moving[CAGE_MOTIONS],
                     WallLoads *loads, double slow[2 * N_MODES], double push[CAGE_MOTIONS]);
 
@@ -70,5 +67,4 @@ INLINE void ball_motions_move(double t, BallMotions *balls)
 
 // Adds the ways of a step of length h to the state, and to the predicted velocities the part of the impulses that the trapezoidal rule
 // of the changes of the accelerations at the step's end, `foreseen` in the order of the balls' velocities, does not have.
-#define ball_motions_arrive FOR_ISA(ball_motions_arrive)
 void ball_motions_arrive(const BallMotions *balls, double h, double *y, double foreseen[BALL_MOTIONS]);

@@ -35,7 +35,7 @@
 //                                    b_n cos n theta_k - a_n sin n theta_k   odd: V_t, M_r, dm_r
 #pragma once
 
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/land_path.h"
 
 typedef struct {
@@ -59,7 +59,6 @@ typedef struct {
 } PathForces;
 
 // Adds to the rows of all joints those by the loads on the rims of the halves 0 and 1, Re and Im G_p.
-#define half_path_add_lands FOR_ISA(half_path_add_lands)
 void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2], PathRows *rows);
 
 // Sets the rows of all joints by the forces on the halves 0 (-x) and 1 (+x).  Returns false and sets nothing if no

@@ -5,7 +5,7 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/films.h"
 #include "cage/common/halves_step.h"
-#include "numbers/isa.h"
+#include "numbers/lanes.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
@@ -16,32 +16,25 @@ INLINE JointStiffness two_half_stiffness(const Derived *d)
 }
 
 // Forces of the joints (cage_joint_kinematics before), tension of the rivets.
-#define two_half_joints FOR_ISA(two_half_joints)
 void two_half_joints(const Model *model, const scalar *y, Work *w);
 
 // Loads of all joints and their rivets.
-#define two_half_loads FOR_ISA(two_half_loads)
 void two_half_loads(const Model *model, const Work *w, JointLoads *load);
 
 // Motion and predicted velocities of a step of the default method (cage_begin).
-#define two_half_begin FOR_ISA(two_half_begin)
 void two_half_begin(const Model *model, double h, const StepFrom *from, const HalvesMemory *at,
                     const double *middle, double *y, HalvesStep *step, Work *w);
 
 // Solution, corrections and history (cage_end).
-#define two_half_end FOR_ISA(two_half_end)
 void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, const HalvesMemory *at,
                   const StepTo *to, HalvesMemory *at_end, Work *w);
 
 // v = (1 + gamma^2 K)^-1 v of the halves' velocities with the joints' stiffness across the axis; returns the weight of the
 // position correction.
-#define two_half_shear FOR_ISA(two_half_shear)
 double two_half_shear(const Model *model, const Work *w, double gamma, double *v);
 
 // v = (1 + gamma A + gamma^2 K)^-1 v with the films and the joints along the axis; likewise.
-#define two_half_solve FOR_ISA(two_half_solve)
 double two_half_solve(const Model *model, const Work *w, double gamma, double *v);
 
 // Maps the friction states in y back under the loads in w.
-#define two_half_slide FOR_ISA(two_half_slide)
 void two_half_slide(const Model *model, double *y, JointStep *joints, Work *w);
