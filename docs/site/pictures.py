@@ -471,7 +471,20 @@ def info():
 
 PICTURES = {
     made.__name__: made
-    for made in (overview, report, cage_section, sheet, sweep, cages, rivet, real_time, spectrum, identify, browser, info)
+    for made in (
+        overview,
+        report,
+        cage_section,
+        sheet,
+        sweep,
+        cages,
+        rivet,
+        real_time,
+        spectrum,
+        identify,
+        browser,
+        info,
+    )
 }
 
 

@@ -196,9 +196,7 @@ def plot(result, path):
     speed.plot(ms, result["shaft.shaft.omega"] * 30 / np.pi)
     speed.set_title("speed [r/min]")
     speed.ticklabel_format(useOffset=False)
-    force.plot(
-        ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction, A"
-    )
+    force.plot(ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction, A")
     force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="load")
     force.set_title("radial force [N]")
     force.legend()

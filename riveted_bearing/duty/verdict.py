@@ -79,7 +79,7 @@ def rivets_judged(evidence, target):
         return "bad", f"{life}, even the upper end of the interval, {high}, is below it" if sure else life
     if evidence.low is not None and evidence.low < target:
         return "open", f"{life}, but the interval begins at {low}"
-    return "good", life + (f", at least {low}" if evidence.low else "")
+    return "good", life + (f", at least {low}" if evidence.low and low != life else "")
 
 
 def raceways_judged(found, target):

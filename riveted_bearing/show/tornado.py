@@ -31,6 +31,7 @@ def tornado(fig: Any, budget: Budget, sign: float = 1.0, label: str = "") -> Non
     ax.axvline(0.0, color=FORCE, lw=0.8)
     ax.set_yticks(range(len(bars)), [name for name, *_ in bars])
     ax.invert_yaxis()
+    ax.use_sticky_edges = False  # the longest bar ends inside the axes
     ax.grid(axis="y", visible=False)
     ax.set_xlabel(
         label or f"truth less number [{unit}]", loc="right"
