@@ -135,7 +135,9 @@ def wrong_picture(budget):
         return {}
     sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
     return {
-        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label, MOST_BARS), (3.0, 1.5), "How wrong the verdict may be")
+        "wrong": charts.svg(
+            lambda fig: tornado(fig, budget, sign, label, MOST_BARS), (3.0, 1.5), "How wrong the verdict may be"
+        )
     }
 
 
