@@ -200,13 +200,13 @@ def summary(rows):
     return "\n".join(lines)
 
 
-def picture(rows, path, shown):
-    """A page's rivets and causes, shown(figure, figure), beside the reliability diagram, as PNG."""
+def pictures(rows, folder, shown):
+    """A page's rivets above its causes, shown(figure, figure), and the reliability diagram, as PNG."""
     with plt.rc_context(STYLE):
-        figure = plt.figure(figsize=(13, 4.4), layout="constrained")
-        left, middle, right = figure.subfigures(1, 3, width_ratios=[1, 1.15, 1])
-        shown(left, middle)
-        ax = right.subplots()
+        figure = plt.figure(figsize=(4.5, 8.8), layout="constrained")
+        shown(*figure.subfigures(2, 1))
+        save(figure, folder / "failure.png")
+        figure, ax = plt.subplots(figsize=(4.5, 4.4), layout="constrained")
         ax.plot([0, 100], [0, 100], color=MUTED, lw=0.8)
         for step, colour in ((0, HEAD), (ADVISED, MIDDLE)):
             found = reliability(rows, f"{step} ")
@@ -221,8 +221,12 @@ def picture(rows, path, shown):
             title=f"{len(rows)} hidden failures",
         )
         ax.legend()
-        write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=100))
-        plt.close(figure)
+        save(figure, folder / "reliability.png")
+
+
+def save(figure, path):
+    write_atomically(path, lambda temporary: figure.savefig(temporary, dpi=100))
+    plt.close(figure)
 
 
 def example(path, folder, client):
@@ -248,7 +252,7 @@ def main():
         shown = example(paths["6207"], folder / "6207", lambda: client)
     rows, many = recovery(bearings, FAILURES), recovery(bearings, MANY, seed=2)
     write("causes", {"known": KNOWN, "failures": rows}, False)
-    picture(many, folder / "failure.png", shown)
+    pictures(many, folder, shown)
     print(summary(rows), summary(many), sep="\n")
 
 

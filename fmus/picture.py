@@ -98,10 +98,10 @@ def section(ax, mm):
 
 def draw(mm, path):
     """Writes the picture; the format follows the file's ending."""
-    figure, (left, right) = plt.subplots(1, 2, figsize=(12, 5), width_ratios=[1, 1.35])
-    front(left, mm)
-    section(right, mm)
-    for ax in (left, right):
+    figure, (above, below) = plt.subplots(2, 1, figsize=(5.2, 6.4), height_ratios=[1.3, 1], layout="constrained")
+    front(above, mm)
+    section(below, mm)
+    for ax in (above, below):
         ax.set_aspect("equal")
         ax.autoscale_view()
         ax.axis("off")

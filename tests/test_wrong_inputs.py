@@ -113,7 +113,7 @@ WRONG = {
     "variables friction_of_the_moon": ['"friction_of_the_moon"'],
     "variables oil --fmu shaft.fmu": ["the FMU of Shaft"],
     "sweep none.toml": ["none.toml", "no such sweep file"],
-    "sweep vary.toml": ["vary.joint.preload = []", "a list or"],
+    "sweep vary.toml": ["vary.joint.preload = []", "a list of values or"],
     "matrices none.toml": ["none.toml", "no such scene file"],
     "matrices demo --speed soon": ["--speed soon", "not a number with a unit"],
     "matrices demo --speed 200krpm": ["--speed 200krpm", "-143239 ... 143239 rev/min"],

@@ -13,7 +13,10 @@ from mkdocs.structure.files import File
 ROOT = Path(__file__).resolve().parents[2]
 # file of the repository -> page
 OUTSIDE = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "VERSIONING.md": "VERSIONING.md"}
+STYLE = Path(__file__).with_name("site.css")
 BEARING = ROOT / "build" / "browser" / "bearing.html"  # written by `make browser`
+CELL = re.compile(r"<t[dh].*?</t[dh]>", re.DOTALL)
+NAME = re.compile(r"([._/\]])(?=[A-Za-z][^<]*</code>)")
 CODE = re.compile(r"(^```.*?^```|`[^`\n]+`)", re.MULTILINE | re.DOTALL)
 
 
@@ -25,7 +28,8 @@ def on_config(config):
 
 
 def on_files(files, config):
-    """Add the pages that stand outside docs/, and the bearing in the browser if it has been built."""
+    """Add the style, the pages that stand outside docs/, and the bearing in the browser if it has been built."""
+    files.append(File.generated(config, STYLE.name, abs_src_path=str(STYLE)))
     for name, page in OUTSIDE.items():
         files.append(File.generated(config, page, content=(ROOT / name).read_text(encoding="utf-8")))
     if BEARING.is_file():
@@ -42,6 +46,12 @@ def on_page_markdown(markdown, page, config, files):
     if page.file.src_uri == "browser.md" and files.get_file_from_path(BEARING.name):
         parts.append(f"\n[Open the bearing]({BEARING.name}){{ .md-button }}\n")
     return "".join(parts)
+
+
+def on_page_content(html, page, config, files):
+    """Code breaks its lines before an option, not within; a name in a table also after a dot or underscore (site.css)."""
+    html = CELL.sub(lambda cell: NAME.sub(r"\1<wbr>", cell[0]), html)
+    return re.sub(r"(?<![\w-])--[a-z][\w-]*(?=[^<]*</code>)", r'<span class="option">\g<0></span>', html)
 
 
 def formulas(text):
@@ -70,7 +80,7 @@ def links(text, folder, here, files):
         place = (ROOT / folder / path).resolve().relative_to(ROOT).as_posix()
         page = OUTSIDE.get(place, place.removeprefix("docs/"))
         if files.get_file_from_path(page) is None:
-            return f"{label} (`{place}`)" if label.strip("`") != place else f"`{place}`"
+            return f"`{place}`" if place.endswith(label.strip("`")) else f"{label} (`{place}`)"
         return f"[{label}]({os.path.relpath(page, here)}{'#' + anchor if anchor else ''})"
 
     text = text if folder.parts else re.sub(r"!\[([^]]*)\]\(docs/", r"![\1](", text)

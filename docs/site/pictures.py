@@ -39,6 +39,7 @@ from rivet_model.ribbon_shape import fillet_circle, offset, seam, sphere_radius
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.building.rivet import geometry_of
 from riveted_bearing.show.orbit import cage_orbit
+from riveted_bearing.show.spectrum import draw, spectra
 from riveted_bearing.show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE
 from riveted_bearing.studies.rows import columns_of
 
@@ -278,7 +279,7 @@ def overview():
     worst = [result.summary[f"stat.rivet_head_p999[{k}]"] / 1e6 for k in rivets]
     bars.bar(list(rivets), worst, color=[HEAD if value == max(worst) else MUTED for value in worst])
     bars.set(xticks=list(rivets), ylim=(0.8 * min(worst), None))
-    bars.set_title("99.9 %, each rivet", fontsize=14, loc="left")
+    bars.set_title("99.9 % of each, MPa", fontsize=14, loc="left")
     for ax in (orbit, stress, bars):
         ax.tick_params(labelsize=13)
     for ax in orbit.child_axes:
@@ -426,6 +427,15 @@ def sweep():
     return fig
 
 
+def spectrum():
+    """Both spectra of the scene `spall`."""
+    with plt.rc_context({"font.size": 14, "axes.labelsize": 14}):
+        fig = plt.figure(figsize=(WIDTH / 120, 6.4), layout="constrained")
+        draw(fig, spectra(rb.run("spall", fmu=FMU)))
+    fig.axes[0].locator_params(axis="x", nbins=5)
+    return fig
+
+
 def identify():
     """The page of a study whose truth is known."""
     from synthetic import lines, study
@@ -433,7 +443,7 @@ def identify():
     folder = workshop()
     (folder / "rig.toml").write_text("\n".join(lines(study(1))) + "\n", encoding="utf-8")
     program("identify", "rig.toml", "--fmu", FMU.name, "--workers", "1", folder=folder)
-    return photograph(folder / "results" / "rig" / "identify.html", 300, "text=Answer", 600)
+    return photograph(folder / "results" / "rig" / "identify.html", 370, "text=Answer", 660)
 
 
 def browser():
@@ -461,7 +471,20 @@ def info():
 
 PICTURES = {
     made.__name__: made
-    for made in (overview, report, cage_section, sheet, sweep, cages, rivet, real_time, identify, browser, info)
+    for made in (
+        overview,
+        report,
+        cage_section,
+        sheet,
+        sweep,
+        cages,
+        rivet,
+        real_time,
+        spectrum,
+        identify,
+        browser,
+        info,
+    )
 }
 
 

@@ -219,17 +219,19 @@ def plot(speeds, responses, path):
     """Amplitude and phase of disk and bearing node over speed; lines ROSS, points FMUs."""
     import matplotlib.pyplot as plt
 
-    figure, axes = plt.subplots(2, 2, figsize=(10, 6), sharex=True, layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(5.2, 4.8), sharex=True, layout="constrained")
     for column, (name, dof) in enumerate((("disk", 6 * DISK), ("bearing", 6 * NODES[0]))):
         for unbalance, (linear, fmus) in responses.items():
             for values, style in ((linear, "-"), (fmus, "o")):
                 label = f"{1e6 * unbalance:g} g mm, {'ROSS' if style == '-' else 'FMUs'}"
                 axes[0, column].semilogy(speeds * 30.0 / np.pi, np.abs(values[:, dof]) / unbalance, style, label=label)
                 axes[1, column].plot(speeds * 30.0 / np.pi, np.degrees(np.angle(values[:, dof])), style)
-        axes[0, column].set(title=name, ylabel="amplitude / unbalance [1/kg]")
-        axes[1, column].set(xlabel="speed [r/min]", ylabel="phase [deg]")
+        axes[0, column].set(title=name)
+        axes[1, column].set(xlabel="speed [r/min]")
+    axes[0, 0].set(ylabel="amplitude / unbalance [1/kg]")
+    axes[1, 0].set(ylabel="phase [deg]")
     axes[0, 0].legend(fontsize=8)
-    figure.savefig(path, dpi=110)
+    figure.savefig(path, dpi=150)
 
 
 def plot_run_up(w, by_ross, on_fmus, path):

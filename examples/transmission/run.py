@@ -191,26 +191,24 @@ def plot(result, path):
     import matplotlib.pyplot as plt
 
     ms = 1e3 * result["time"]
-    figure, axes = plt.subplots(2, 2, figsize=(9, 5), sharex=True, layout="constrained")
+    figure, axes = plt.subplots(2, 2, figsize=(5.2, 4.6), sharex=True, layout="constrained")
     (speed, force), (torque, stress) = axes
     speed.plot(ms, result["shaft.shaft.omega"] * 30 / np.pi)
-    speed.set_ylabel("speed [r/min]")
+    speed.set_title("speed [r/min]")
     speed.ticklabel_format(useOffset=False)
-    force.plot(
-        ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction of bearing A"
-    )
-    force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="its load")
-    force.set_ylabel("radial force [N]")
+    force.plot(ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction, A")
+    force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="load")
+    force.set_title("radial force [N]")
     force.legend()
     torque.plot(ms, result["bearing.bearing.friction_torque"], label="bearing A")
     torque.plot(ms, result["shaft.support.M"], label="bearing B")
-    torque.set_ylabel("friction torque [N m]")
+    torque.set_title("friction torque [N m]")
     torque.legend()
     stress.plot(ms, result["bearing.rivet.sigma_head_max"] / 1e6)
-    stress.set_ylabel("largest head stress [MPa]")
+    stress.set_title("head stress [MPa]")
     for axis in axes[1]:
         axis.set_xlabel("time [ms]")
-    figure.savefig(path, dpi=120)
+    figure.savefig(path, dpi=150)
 
 
 def main():

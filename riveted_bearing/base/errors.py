@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 INSTEAD = {  # names that are near to others of another meaning: what does it
+    "bearing.Z": "the build fixes the number of balls: Z = 9 in a bearing file",
     "oil": 'the kind of oil stands above all sections: oil = "mineral ISO VG 32"',
     "gravity.x": "gravity along the shaft is the input frame.a_x: an acceleration of the frame against it",
 }

@@ -69,8 +69,10 @@ class Number(Rule):
             if self.above == 0.0:
                 return "must be greater than 0"
             return "must not be negative" if self.least == 0.0 else f"from {self.least:g} on is allowed"
-        low = f"above {self.above:g} and" if self.above is not None else f"from {self.least or 0.0:g}"
-        return f"{low} {f'to below {self.below:g}' if self.most is None else f'up to {self.most:g}'} is allowed"
+        high = f"below {self.below:g}" if self.most is None else f"up to {self.most:g}"
+        if self.above is not None:
+            return f"above {self.above:g} and {high} is allowed"
+        return f"from {self.least or 0.0:g} {'to ' if self.most is None else ''}{high} is allowed"
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
         limits = {

@@ -158,7 +158,7 @@ MULTIPLES = {
 WRITTEN = str.maketrans("µμ·⋅×*−℃", "uu....-C") | {ord("²"): "2", ord("³"): "3", ord("⁻"): "-", ord("¹"): "1"}
 TERM = re.compile(r"([^\d^+\-()]+)\^?([+-]?\d+(?:\.\d+)?)?")
 SHORT = 0.1  # h: a shorter life is told in minutes or seconds
-LONGEST = 1e6  # h: a longer life is no figure to tell
+LONGEST, SHORTEST = 1e6, 1.0 / 3600.0  # h: a longer or shorter life is no figure to tell
 NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*((?:1/|[^\d.,\s]).*?)?\s*")
 
 
@@ -308,12 +308,19 @@ def scale(symbol: Any, scales: Any) -> Any:
     return found[0] * factor, found[1] + found[0] * offset
 
 
+def three_digits(number: float) -> float:
+    """A computed number that nobody knows better."""
+    return float(f"{number:.3g}")
+
+
 def hours_text(hours: Any, digits: int = 3) -> str:
-    """A life in hours, minutes or seconds with so many digits, or that it is longer than LONGEST."""
+    """A life in hours, minutes or seconds with so many digits, or that it is longer than LONGEST or shorter than SHORTEST."""
     if not math.isfinite(hours):
         return "no damage"
     if hours > LONGEST:
         return "> 1e6 h"
+    if 0.0 < hours < SHORTEST:
+        return "< 1 s"
     if hours < SHORT:
         number, unit = (3600.0 * hours, "s") if hours < 1.0 / 60.0 else (60.0 * hours, "min")
     else:

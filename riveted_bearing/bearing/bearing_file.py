@@ -131,7 +131,10 @@ def entry_of(path, designation, data, given):
     if missing := [key for key in CATALOGUE if key not in data]:
         allowed = f"the balls need catalogue.{', catalogue.'.join(missing)} too, or give {', '.join(shape)}"
         raise UserError(f"{path}: catalogue.{next(iter(data))}: {allowed}")
-    return catalogue.Entry(designation, **data)
+    entry = catalogue.Entry(designation, **data)
+    with refusing(path, "catalogue.outside_diameter", entry.outside_diameter):
+        catalogue.balls(entry)
+    return entry
 
 
 def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):

@@ -15,6 +15,7 @@ from importlib.resources import files
 
 from bearing_model.load_ratings import dynamic_rating, static_rating
 
+from ..base.errors import UserError
 from ..base.shipped import csv_rows
 
 TABLE = files("riveted_bearing") / "data" / "catalogue.csv"
@@ -94,6 +95,11 @@ def balls(entry):
                 math.log(static_rating(Z, D, entry.d_m) / entry.C_0),
             )
             candidates.append((max(map(abs, deviations)), Z, D))
+    if not candidates:
+        least = 1e3 * (entry.bore + BALL_SIZES[0] / THICKEST_BALL)
+        raise UserError(
+            f"at least {least:.4g} mm is allowed with catalogue.bore = {1e3 * entry.bore:g} mm, so that balls lie between"
+        )
     _, Z, D = min(candidates)
     return Z, round(D, 9)
 

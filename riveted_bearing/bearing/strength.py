@@ -27,7 +27,7 @@ LEAST = 1e6  # Pa; no steel is weaker: a smaller strength is one in MPa without 
 LEAST_ALLOWED = "from 1e6 Pa (1 MPa) on is allowed"
 RULES = ("knee", "haibach", "elementary", "original")
 FKM_STEEL = "Steel"
-OF_PAPER = "as of the 6207's rivets (15CrMn)"
+OF_PAPER = "that of 15CrMn"
 
 
 def strong(stress):

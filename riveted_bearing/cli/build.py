@@ -8,6 +8,7 @@ import typer
 from rich.markup import escape
 from rich.progress import TimeElapsedColumn
 
+from ..base.errors import UserError
 from .printing import note, print_paths
 from .terminal import CAGE, command, console, messages, progress_bar
 from .terminal import screen as screening_of
@@ -17,6 +18,7 @@ TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a 
 
 @command
 def build(
+    name: Annotated[str | None, typer.Argument(hidden=True)] = None,
     bearing: Annotated[str | None, typer.Option(help="bearing file (TOML) or designation; default: the 6207")] = None,
     rivet: Annotated[
         Path | None,
@@ -60,6 +62,8 @@ def build(
     from ..building.builder import build_fmu, case_with, platform_names, table_copy
     from ..running.fmu import Model
 
+    if name is not None:
+        raise UserError(f"build {name}: an option names the bearing: riveted-bearing build --bearing {name}")
     for text in doubts(case_with(bearing, rivet, cage)):
         note(text)
     with progress_bar(TimeElapsedColumn()) as bar:

@@ -72,9 +72,12 @@ def mission_text(life):
     """How long a mission is, and a life in passes of it; one of shares alone has no length."""
     mission, found = life.mission, life.estimate
     if not mission.shares:
-        return f"{figure(mission.hours)} h", passes_text(found.life, mission.hours)
+        return f"{figure(mission.hours)} h", passes_text(found.life, mission.hours, digits(life.budgets))
     if any(part.event for part in mission.parts):
-        return "shares of an hour", f"events count for each hour · {passes_text(found.life, mission.hours)}"
+        return (
+            "shares of an hour",
+            f"events count for each hour · {passes_text(found.life, mission.hours, digits(life.budgets))}",
+        )
     return "shares of time", "of any length"
 
 
@@ -116,13 +119,15 @@ def width_text(life):
     return f"half-width {percent(life.estimate.half_width)} of life"
 
 
-def passes_text(life, hours):
-    """A life in passes of the mission."""
+def passes_text(life, hours, few=3):
+    """A life in passes of the mission; few: digits."""
     if not math.isfinite(life):
         return "no damage"
     if life < hours:
         return f"fails within the first pass, after {hours_text(life)}"
-    return f"{'> ' if life > LONGEST else ''}{figure(min(life, max(LONGEST, hours)) / hours)} passes"
+    return (
+        f"{'> ' if life > LONGEST else ''}{figure(float(f'{min(life, max(LONGEST, hours)) / hours:.{few}g}'))} passes"
+    )
 
 
 def percent(half_width: Any) -> str:

@@ -38,7 +38,7 @@ from .page import mission_text, part_rows, share_text
 from .raceways import of_result as raceways_of
 from .verdict import CHARACTERS, LINES, checks, clipped, judged, limits_crossed
 
-MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS = 8, 3, 5, 4, 2
+MOST_CHECKS, MOST_ASSUMED, MOST_PARTS, MOST_LIMITS, MOST_REMARKS, MOST_BARS = 8, 3, 5, 4, 2, 5
 
 STATES = {"good": "✓", "bad": "✗", "open": "?", "": ""}
 
@@ -110,13 +110,13 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
         {
             "where": charts.svg(
                 lambda fig: rivets_chart(fig, evidence.damage, evidence.rivet),
-                (2.5, 2.0),
+                (2.5, 1.75),
                 "Damage of the rivets on the circle",
             ),
             **wrong_picture(evidence.budgets.get(figure_judged)),
             "when": charts.svg(
                 lambda fig: history_chart(fig, worst, evidence.rivet),
-                (4.9, 2.0),
+                (4.9, 1.75),
                 "Stress of the worst rivet over time",
             ),
         },
@@ -135,7 +135,9 @@ def wrong_picture(budget):
         return {}
     sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
     return {
-        "wrong": charts.svg(lambda fig: tornado(fig, budget, sign, label), (3.0, 2.1), "How wrong the verdict may be")
+        "wrong": charts.svg(
+            lambda fig: tornado(fig, budget, sign, label, MOST_BARS), (3.0, 1.5), "How wrong the verdict may be"
+        )
     }
 
 

@@ -78,8 +78,8 @@ def rivets_judged(evidence, target):
         sure = evidence.high is not None and evidence.high < target
         return "bad", f"{life}, even the upper end of the interval, {high}, is below it" if sure else life
     if evidence.low is not None and evidence.low < target:
-        return "open", f"{life}, but the interval begins at {low}"
-    return "good", life + (f", at least {low}" if evidence.low else "")
+        return "open", f"{life}, but the interval begins {'' if low.startswith('<') else 'at '}{low}"
+    return "good", life + (f", at least {low}" if evidence.low and low != life else "")
 
 
 def raceways_judged(found, target):

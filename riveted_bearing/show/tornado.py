@@ -16,12 +16,14 @@ if TYPE_CHECKING:
 MOST = 7  # bars beside the whole
 
 
-def tornado(fig: Any, budget: Budget, sign: float = 1.0, label: str = "") -> None:
-    """Draw a Budget: the distance of the truth from the number by parts; sign: -1 for life, which falls as damage grows."""
+def tornado(fig: Any, budget: Budget, sign: float = 1.0, label: str = "", most: int = MOST) -> None:
+    """Draw a Budget: the distance of the truth from the number by its `most` largest parts; sign: -1 for life, which
+    falls as damage grows.
+    """
     ax = fig.subplots()
     _, unit, factor = FIGURES[budget.figure]
     named = {name for name, *_ in amounts(budget)}
-    parts = [part for part in budget.parts if part.name in named][:MOST]
+    parts = [part for part in budget.parts if part.name in named][:most]
     bars = [(part.name, part.shift - part.below, part.shift + part.above, part.source) for part in parts]
     bars.append(("all parts", budget.low - budget.value, budget.high - budget.value, ""))
     for k, (_, low, high, source) in enumerate(bars):
@@ -31,6 +33,8 @@ def tornado(fig: Any, budget: Budget, sign: float = 1.0, label: str = "") -> Non
     ax.axvline(0.0, color=FORCE, lw=0.8)
     ax.set_yticks(range(len(bars)), [name for name, *_ in bars])
     ax.invert_yaxis()
+    ax.use_sticky_edges = False
+    ax.margins(x=0.04)  # the longest bar ends inside the axes
     ax.grid(axis="y", visible=False)
     ax.set_xlabel(
         label or f"truth less number [{unit}]", loc="right"

@@ -155,7 +155,7 @@ def values_of(path, name, value, model):
             check_alike(value, SETTINGS.get(name) or model.units[getattr(variable, "unit", None) or "1"])
         return value
     if not isinstance(value, dict) or not {"from", "to", "count"} <= set(value) <= set(RANGE):
-        reason = 'a list or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed'
+        reason = 'a list of values or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed'
         raise refusal(path, f"vary.{name}", value, reason)
     low, high = bounds(path, name, (value["from"], value["to"]), model)
     count = points_of(path, f"vary.{name}.count", value["count"])
