@@ -41,9 +41,7 @@ def is_stamp(text):
 
 
 def parse(text):
-    """The parts of a stamp: (two days since a date, by both orders of day and month, None for no date; seconds of the day); None
-    if it is no stamp.
-    """
+    """((days by both orders of day and month) or None for no date, seconds of the day); None if it is no stamp."""
     match = STAMP.fullmatch(text)
     if match is None:
         return None

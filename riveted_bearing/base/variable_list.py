@@ -26,9 +26,7 @@ def is_like(text: str, pattern: Any) -> bool:
 
 
 def matching(pattern: Any) -> Any:
-    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if
-    there are none.
-    """
+    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; or UserError."""
     general = re.sub(r"\[\d+\]", "[*]", pattern)  # ball[3].Q_i is one of ball[j].Q_i
     pattern_or_word = general if "*" in general else f"*{general}*"
 
@@ -45,9 +43,7 @@ def matching(pattern: Any) -> Any:
 
 
 def row(variable: Any, model: Any = None) -> Any:
-    """Name, kind, unit, start, limits and description in the unit in which people read the variable; the start value is
-    that of `model`, if given.
-    """
+    """Name, kind, unit, start (of `model`, if given), limits and description in the unit in which people read it."""
     kind = next(title for title, known in KINDS.items() if variable.name in known).removesuffix("s").lower()
     symbol = variable.display or variable.unit
     start = allowed = ""

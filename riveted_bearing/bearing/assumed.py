@@ -102,9 +102,7 @@ def ranges():
 
 
 def ranges_of(given: Any, example: bool, parameters: Any) -> dict[str, Range]:
-    """Ranges of the values that were neither given nor follow from others; example: whether the bearing is the 6207, else
-    those by rule are among them.
-    """
+    """Ranges of the values that nobody gave and that follow from no others; example: whether it is the 6207."""
     own, by_rule = ranges()
     found = own if example else own | by_rule
     return {name: each for name, each in found.items() if not is_known(name, given, parameters)}
@@ -220,9 +218,7 @@ def assumed_as_bronze(result: Any) -> Any:
 
 
 def is_known(name, given, parameters):
-    """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's
-    density from the flow of oil; or has no effect: the clearance of a land that a cage guided by its balls does not have.
-    """
+    """Whether a parameter is given, follows from others that are, or has no effect, as the clearance of no land."""
     follows = {
         "oil.eta": {"oil.nu_1", "oil.nu_2"} <= given,
         "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0,

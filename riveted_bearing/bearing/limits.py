@@ -95,12 +95,7 @@ def holds(limit, values):
 
 
 def bound(limit, value, values_with):
-    """What is allowed for one value: ("at most" or "at least", bound); None if nothing between a thousandth and a
-    thousand times the value would do.
-
-    value: as it is, which the limit refuses; values_with: a function of it that gives all values, those that follow
-    from it too.
-    """
+    """("at most" or "at least", bound) for a refused value, None if nothing near does; values_with(value): all values."""
     if isinstance(value, int):
         fitting = [number for number in range(5, 33) if holds(limit, values_with(number))]
         return ("at most" if fitting[-1] < value else "at least", fitting[-1]) if fitting else None

@@ -91,9 +91,7 @@ PARTS = {
 
 @dataclass(frozen=True)
 class Material:
-    """Name and properties of one part's material [SI]; sources: in words, by property; given: the properties that the
-    bearing file decides, all if it names the material; by_rule: those that follow from others of the file.
-    """
+    """A part's material [SI]; sources: in words; given: what the file decides; by_rule: what follows from it."""
 
     name: str
     values: dict

@@ -48,10 +48,7 @@ NEEDED = ("nu_1", "T_1", "nu_2", "T_2", "T_0", "rho")
 
 
 def of_points(values):
-    """oil.eta [Pa.s] and oil.beta [1/K] at oil.T_0 by the two points; ValueError if they make no oil.
-
-    values: of the parameters oil.*, by full name.
-    """
+    """oil.eta [Pa.s] and oil.beta [1/K] at oil.T_0 by the points in values (oil.*); ValueError if they make no oil."""
     nu_1, T_1, nu_2, T_2, T_0, rho = (values[f"oil.{name}"] for name in NEEDED)
     points = Oil(nu_1, T_1, nu_2, T_2)
     return {"oil.eta": float(rho * points.nu(T_0)), "oil.beta": float(points.beta(T_0))}
@@ -188,9 +185,7 @@ def grade_of(where, written, kind, text):
 
 
 def points_of(where, written, kind, grade, given, values):
-    """oil.nu_1 and oil.nu_2 of a kind's oil: of its grade, or with the slope of its kind through the one viscosity that
-    a document gives; nothing where it gives both points.
-    """
+    """oil.nu_1 and oil.nu_2 of a kind's oil: of its grade, or through the one viscosity given; none if both are."""
     table, known = kinds()[kind]["grades"], [name for name in (*POINTS, "oil.eta") if name in given]
     if {*POINTS} <= given.keys():
         check_grade(where, written, grade, float(Oil(*(values[f"oil.{name}"] for name in NEEDED[:4])).nu(T_40)))
@@ -250,9 +245,7 @@ def density_of(entry, T_0):
 
 
 def pressure_of(entry, values):
-    """oil.alpha [1/Pa] at oil.T_0 and oil.alpha_T [1/K]: as measured, or alpha = s nu^t with its mean fall from 40 to
-    100 degC.
-    """
+    """oil.alpha [1/Pa] at oil.T_0, oil.alpha_T [1/K]: measured, or s nu^t with its mean fall from 40 to 100 degC."""
     T_0 = values["oil.T_0"]
     if hasattr(entry, "alpha"):
         return {"oil.alpha": entry.alpha * math.exp(-entry.alpha_T * (T_0 - T_JONES)), "oil.alpha_T": entry.alpha_T}

@@ -97,9 +97,7 @@ def scaled_joint(rivet):
 
 
 def scaled_materials(given):
-    """Parameters that follow from given materials: balls are of the rings' steel, the S-N curve of a rivet's steel
-    keeps its ratios to the strength, the land's contact stiffness goes with cage and ring (Hertz: K ~ E*).
-    """
+    """What follows from given materials: balls of the rings' steel, S-N curve by strength, K_land ~ E* (Hertz)."""
     values = {"bearing.rho": given["ring.rho"]} if "ring.rho" in given else {}
     if given.keys() & {*LAND}:
         values["cage.K_land"] = rounded(compliance({}) / compliance(given) * start("cage.K_land"))
@@ -129,9 +127,7 @@ def parts_temperatures(inputs):
 
 
 def shape_of(values, rivet):
-    """What half_shape.py needs of a cage half: values by the names of a bearing file, the rivet's by those of
-    rivet_model.geometry.
-    """
+    """What half_shape.py needs of a cage half: values by names of a bearing file, rivet's by those of Geometry."""
     cage = {name: values[parameter] for name, parameter in SHAPE.items()}
     if ribbon.is_ribbon(values):
         cage |= {name: values[parameter] for name, parameter in RIBBON.items()}

@@ -42,9 +42,7 @@ Positive = Annotated[float | None, Number(above=0.0)]
 
 
 class StrengthFile(Section):
-    """Curve of strength of the rivets' steel, [sn] of a mission or its file; what is not given comes from the run's
-    parameters fatigue.*.
-    """
+    """Curve of strength of the rivets' steel, [sn] of a mission or its file; the rest is the run's fatigue.*."""
 
     file: Annotated[str | None, Field(strict=True)] = Field(
         None, description="these keys in a file, or a table with the columns amplitude [Pa, or unit] and cycles"
@@ -95,9 +93,7 @@ class Strength:
 
 
 def read_strength(path: Path, section: Any, law: Any) -> Strength:
-    """The Strength of a mission's section [sn]; law: FatigueLaw that stands for what is not given.  Raises UserError
-    naming key and value.
-    """
+    """The Strength of a section [sn], over the FatigueLaw `law`; UserError naming key and value."""
     where = f"{path}: sn"
     section, table = with_file(path, where, dict(section))
     file = checked(StrengthFile, section, where)
@@ -220,9 +216,7 @@ def surface_factor(file, sigma_m):
 
 
 def size_factor(file):
-    """n_st = (A_90_specimen/A_90)^(1/k_st): the larger the stressed surface, the weaker its weakest place.  FKM
-    guideline (2012), 4.3.1.3.2.
-    """
+    """n_st = (A_90_specimen/A_90)^(1/k_st), of the weakest place.  FKM guideline (2012), 4.3.1.3.2."""
     if file.A_90 is None:
         return 1.0
     functions, steel = fkm()
@@ -243,9 +237,7 @@ def curve(strength):
 
 
 def cycles_to_failure(strength, amplitude):
-    """Cycles that each amplitude at zero mean stress [Pa] is borne; a table is a straight line between its points in
-    logarithms, and beyond its ends.
-    """
+    """Cycles that each amplitude [Pa] at no mean stress is borne; a table is straight in logarithms."""
     if strength.table is None:
         return curve(strength).cycles(amplitude)
     from scipy.interpolate import make_interp_spline

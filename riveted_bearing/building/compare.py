@@ -44,9 +44,7 @@ SEEDS = 8
 
 @dataclass(frozen=True)
 class Channel:
-    """One output, all its elements: values [points, elements] of the reference, scale [its unit], largest
-    |difference|/scale at each point by tolerance.
-    """
+    """An output: reference [points, elements], scale [its unit], error: largest difference/scale [tolerances, points]."""
 
     name: str
     unit: str
@@ -84,9 +82,7 @@ class Statistic:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What compare() found: channels over the times t [s] by tolerance, statistics from `settle` to `long` [s] (none if
-    long is 0), where the energy went.
-    """
+    """Channels over t [s] by tolerance; statistics from `settle` to `long` [s], none if that is 0; energies."""
 
     scene: str
     t: np.ndarray
@@ -152,9 +148,7 @@ def through_fmu(model, scene, tolerance, **parameters):
 
 
 def through_reference(parameters, scene, tolerance, method, progress):
-    """The reference's Results of a scene with the FMU's own parameters; UserError if the reference refuses or cannot go
-    on.
-    """
+    """The reference's Results with the FMU's own parameters; UserError if it refuses or cannot go on."""
 
     def held(t):
         progress(t / scene.t_end)
@@ -194,9 +188,7 @@ def scale_of(variable, values, parameters):
 
 
 def is_motion(channel: Any) -> bool:
-    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in parts of 10 um
-    and 0.1 m/s.
-    """
+    """Whether a channel is a body's position, angle or speed, measured in parts of 10 um and 0.1 m/s."""
     return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
 
 
@@ -233,9 +225,7 @@ def with_statistics(found, model, scene, tolerance, long, seeds, progress):
 
 
 def short_table(found: Any) -> Any:
-    """Heads and rows of the short horizon: size and largest difference of each output, worst first within motion, loads
-    and stresses.
-    """
+    """Heads and rows of the short horizon, the largest difference first within motion, loads and stresses."""
     heads = ("largest difference / scale", "scale", "", *(f"at {tolerance:.0e}" for tolerance in found.tolerances))
     ordered = sorted(found.channels, key=lambda channel: (not is_motion(channel), -channel.worst[0]))
     return heads, [(c.name, f"{c.scale:.4g}", c.unit, *(f"{value:.1e}" for value in c.worst)) for c in ordered]

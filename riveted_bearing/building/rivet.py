@@ -1,6 +1,4 @@
-"""Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the
-finite elements.
-"""
+"""Stress of the rivets of a table or of a geometry: curves over preload, fit and load, and pictures of the elements."""
 
 import contextlib
 import math
@@ -248,9 +246,7 @@ def curve_tables(curves: Any) -> Iterator[Any]:
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder: Path, title: str, curves: Any, joint: Any) -> Any:
-    """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their
-    paths.
-    """
+    """Write drawing, curves, section and cage modes as PNG into a folder; returns their paths."""
     figures = {
         "rivet_curves.png": pictures.plot_curves(curves, title),
         "rivet_section.png": pictures.plot_section(joint),
@@ -279,9 +275,7 @@ def given_geometry(rivet: Any, bearing: Any = None) -> Any:
 
 
 def seat_note(geometry: Any) -> str:
-    """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than
-    the shank is pulled; else "".
-    """
+    """A warning where the seat is smaller than the shank's section, so that the head presses harder; else ""."""
     if geometry.seat_share >= 1.0:
         return ""
     ring = f"{1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section"

@@ -61,9 +61,7 @@ def best_budgets(found, bench, model):
 
 
 def parts_of_stress(found, bench):
-    """Static stress and swing of the points simulated again and of the present design, means over the fresh seeds [n, 2]
-    [Pa]; None without statistics.  It needs no new runs.
-    """
+    """Static stress and swing of candidates and present design [n, 2] [Pa]; None without statistics."""
     import numpy as np
 
     from ..design.optimize import fresh_seeds
@@ -77,9 +75,7 @@ def parts_of_stress(found, bench):
 
 
 def print_optimum(found, present, parts=None):
-    """The points simulated again, the recommended one marked, the present design with its values, and the criterion;
-    parts: as of parts_of_stress.
-    """
+    """Candidates, the recommended one marked, the present design, and the criterion; parts: of parts_of_stress."""
     from ..design.optimize import criterion
     from ..running.responses import PARTS, shown, titled
 

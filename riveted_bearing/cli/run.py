@@ -171,9 +171,7 @@ def lean_format(out):
 
 
 def result_path(scene, out, kind):
-    """File of the results: --out itself if it has the suffix of a format, else named after the scene in the folder
-    --out.
-    """
+    """File of the results: --out itself if its suffix is a format, else named after the scene in --out."""
     suffix = out.suffix.removeprefix(".")
     if kind is not None and kind not in FORMATS:
         raise unknown("--format", "format", kind, FORMATS)

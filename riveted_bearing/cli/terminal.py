@@ -118,9 +118,7 @@ def main(
 
 
 def guarded(function):
-    """The function of a command, whose UserError, and what the system refuses, becomes one line on stderr and exit code
-    2, Ctrl-C one and 130.
-    """
+    """A command whose UserErrors and the system's become one line and exit code 2, Ctrl-C one and 130."""
 
     @functools.wraps(function)
     def called(*arguments, **options):
@@ -247,9 +245,7 @@ def print_warnings(texts):
 
 @contextlib.contextmanager
 def design_runs(name, folder, scheduler, workers):
-    """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a
-    function for progress.
-    """
+    """For a study: a function that starts the cluster when it is first called, and one for progress."""
     from ..studies.sweep import cluster
 
     with resumable(folder), contextlib.ExitStack() as stack:
@@ -283,9 +279,7 @@ def simulation_progress(scene):
 
 @contextlib.contextmanager
 def sweep_progress():
-    """Progress bars of sweeps: gives the function to call with a sweep's name and its numbers of runs done, failed and in
-    all.
-    """
+    """Progress bars: gives progress(sweep's name, runs done, failed, in all)."""
     columns = MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn()
     with progress_bar(*columns, transient=True, speed_estimate_period=300.0) as bar:
         tasks = {}

@@ -1,15 +1,5 @@
 """What decides: Morris' screening of all factors, then Sobol indices of those that are left, by SALib.
 
-    responses = ["damage", "stress"]
-    [morris]
-    trajectories = 8                     # (factors + 1) points each
-    levels = 4
-    [sobol]
-    factors = 3                          # the first of the screening, by their largest effect on any response; 0: no Sobol indices
-    count = 64                           # power of 2; (factors + 2) count points
-
-Without [between] the factors are the parameters that were assumed, each over its documented range.
-
 Morris: mu_star is the mean size of the change of a response when a factor crosses its range (elementary effects), sigma
 their scatter: interactions and curvature.  Sobol: S1 is the share of the variance that goes with a factor alone, ST
 that with all its interactions.  Seeds are noise: a factor without any effect has mu_star = 2 s/sqrt(pi)/delta, s^2 the
@@ -113,18 +103,14 @@ class Study:
 
 
 def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, assumed: Any = None) -> Any:
-    """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what
-    cannot be used.
-    """
+    """The Study of a document; assumed: {name: (low, high)} if it names no factors; else UserError."""
     check_keys(path, document, SensitivityFile.model_fields, "sensitivity study")
     file = checked(SensitivityFile, document, path)
     return Study(Path(path), Box(path, file.between, model, assumed), file)
 
 
 def salib(command: str = "sensitivity") -> Any:
-    """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
-    missing.
-    """
+    """SALib's modules, samples and analyses of Morris and Sobol; UserError if the library is missing."""
     return [
         library(f"SALib.{part}", command)
         for part in ("sample.morris", "analyze.morris", "sample.sobol", "analyze.sobol")

@@ -1,6 +1,4 @@
-"""The life of a mission: runs on a cluster round by round, points left out by a bound, and what is written:
-runs.parquet and life.json.
-"""
+"""The life of a mission: runs on a cluster round by round, points left out by a bound, runs.parquet and life.json."""
 
 import json
 import math
@@ -67,9 +65,7 @@ class Runs:
     """The runs of a mission in a folder: damages by case and seed, simulated when they are asked for."""
 
     def __init__(self, mission, model, folder, client, progress=None):
-        """client: function that gives the Dask client, called once something has to be simulated; progress: as of
-        run_sweep.
-        """
+        """client: function that gives the Dask client, called when it is needed; progress: as of run_sweep."""
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
         self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
@@ -78,15 +74,13 @@ class Runs:
                 scene = started(replace(case.scene, outputs=outputs), model, mission.settings["seed"], s)
                 self.keys[c, s] = key_of(scene, model.digest)
                 scenes[self.keys[c, s]] = scene
-        about = mission.name, mission.description, model, model.path.read_bytes(), mission.document
+        about = mission.name, mission.description, model, mission.document
         self.sweep = Sweep(*about, ("start.seed",), scenes, (rainflow_columns, rainflow_fields))
         self.strengths, self.damages, self.matrices, self.cost, self.figures = {}, {}, {}, {}, {}
         self.per = {}  # of each run: what makes its damage one per hour of a point, or per event
 
     def __call__(self, counts):
-        """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case
-        without runs is asked for.
-        """
+        """Damages [n, Z, 2] of the first counts[c] runs of each case that has some, per hour or per event."""
         self.simulate({(c, s): self.keys[c, s] for c, n in enumerate(counts) for s in range(n)})
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
 
@@ -156,9 +150,7 @@ class Runs:
         self.figures[key] = {name: float(rows[name][i]) for name in (*FIGURES_KEPT, *BLOCK_COLUMNS) if name in rows}
 
     def counted(self):
-        """Damage of all matrices over the FMU's own count, with the FMU's law, at the place of each run with the most
-        damage; runs count by their damage in the mission.
-        """
+        """Damage of all matrices over the FMU's own count at each run's worst place, weighted by the mission."""
         found, own = 0.0, 0.0
         for c, case in enumerate(self.mission.cases):
             keys = self.keys_of(c)
@@ -185,10 +177,7 @@ def place_text(place, rivets):
 
 
 def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: None) -> Life:
-    """The Life of a mission from runs(counts), which returns for each case its damages [n, Z, 2].
-
-    Points that are rare are not simulated if a bound on their damage shows that they cannot matter.
-    """
+    """The Life of a mission from runs(counts), damages [n, Z, 2] of each case; points that cannot matter are left out."""
     settings, duty = mission.settings, mission.duty
     target = math.log1p(settings["half_width"])
     rare = rare_parts(mission)
@@ -245,9 +234,7 @@ def solve(duty, kept, runs, settings, progress):
 
 
 def places(damages, rivets):
-    """Damages [n, K] at the places that can fail: each rivet's head and middle, or, if all rivets take all places in
-    turn, their means.
-    """
+    """Damages [n, K] at the places that can fail: each head and middle, or their means if rivets change places."""
     return damages.reshape(len(damages), -1) if rivets == "each" else damages.mean(axis=1)
 
 
@@ -255,9 +242,7 @@ def places(damages, rivets):
 
 
 def rare_parts(mission):
-    """Numbers of the rarest points, which together have less than the share `skip` of the hours and no interpolation
-    rests on.
-    """
+    """Numbers of the rarest points, together less than the share `skip` of the hours, and no interpolation's."""
     needed = {
         mission.cases[c].part
         for i, part in enumerate(mission.parts)
@@ -319,9 +304,7 @@ def bound(mission, rate, q, i):
 
 
 def record(life):
-    """life.json's content: what it rests on, hours, damages per hour, shares; None where nothing is known (a point left
-    out) or never (no damage).
-    """
+    """life.json's content; None where nothing is known (a point left out) or never (no damage)."""
     mission, found = life.mission, life.estimate
     share = dict(zip(life.kept, found.shares, strict=True))
     k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)

@@ -41,9 +41,7 @@ def cases_of(path, parts, factors, model):
 
 
 def slopes_of(parts, blends):
-    """Duty.slopes: difference quotients between the neighbours of a class along each axis, times the spread of its
-    values; None without a record.
-    """
+    """Duty.slopes: difference quotients between neighbouring classes times their spread; None without a record."""
     classes = {part.cell: i for i, part in enumerate(parts) if part.cell}
     if not classes:
         return None

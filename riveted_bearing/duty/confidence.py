@@ -65,9 +65,7 @@ def estimate(duty, samples, confidence):
 
 
 def variance(weights, runs):
-    """Variance of the sum of weight x ln(mean of runs) over arrays of runs with common seeds, each [n]; the larger one of
-    that of the runs and that of the log-normal law.
-    """
+    """Variance of sum weight x ln(mean of runs [n]) with common seeds: that of the runs or of the law, the larger."""
     n, means = len(runs[0]), [max(x.mean(), NO_DAMAGE) for x in runs]
     own = np.var(sum(w * x / mean for w, x, mean in zip(weights, runs, means, strict=True)), ddof=1) / n
     if min(x.min() for x in runs) <= NO_DAMAGE:  # no logarithm
@@ -78,9 +76,7 @@ def variance(weights, runs):
 
 
 def combined(variances, counts):
-    """Standard error of a sum over independent cases and its degrees of freedom, from the variances and numbers of runs
-    of the cases.
-    """
+    """Standard error and degrees of freedom of a sum, from the variances and runs of independent cases."""
     total = np.sum(variances)
     of_cases = np.sum(np.square(variances) / (np.asarray(counts) - 1))
     return math.sqrt(total), total**2 / of_cases if of_cases > 0.0 else math.inf

@@ -112,9 +112,7 @@ def first_case(mission, i):
 
 
 def scaled_lives(life, runs, used, x):
-    """Shortest lives [h] of head and middle with all stresses x times as large: cycles of the rainflow matrices, scaled
-    so that they give the counted damage at x = 1.
-    """
+    """Shortest lives [h] of head and middle with all stresses x times as large, the counted ones at x = 1."""
     mission, means = life.mission, []
     for c in used:
         damages = np.array([scaled_damage(runs, key, x) for key in runs.keys_of(c)])
@@ -135,9 +133,7 @@ def scaled_damage(runs, key, x):
 
 
 def damage_by(strength, laws, matrix, scale):
-    """Miner's sum of each channel of a matrix at a scale of its stresses; strength: of [sn], None for the FMU's laws of
-    the channels.
-    """
+    """Miner's sum of each channel of a scaled matrix; strength: of [sn], None for the laws of the channels."""
     channel, span, mean, count = matrix
     span, mean = scale * span, scale * mean
     if strength is not None:

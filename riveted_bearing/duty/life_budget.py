@@ -61,9 +61,7 @@ def budgets_of(mission: Any, found: Any, kept: Any, runs: Runs) -> dict[str, Bud
 
 
 def to_accuracy(mission: Any, model: Any) -> tuple[Any, list[str]]:
-    """The Mission with the steps that its simulation.accuracy needs, and a sentence on each case whose figures are not within
-    it; the seeds are those of the life's interval.
-    """
+    """The Mission with the steps that its accuracy needs, and a sentence on each case that is not within it."""
     cases, told, chosen = [], [], {}
     for case in mission.cases:
         asked = case.scene.accuracy

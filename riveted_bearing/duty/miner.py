@@ -55,9 +55,7 @@ def part_rates(duty, rates):
 
 
 def class_factors(duty, logs):
-    """Mean rate over a class of a record over the rate at its mean values [..., J, I, K], MOST at most; 1 for other
-    parts.  logs: of the cases' rates.
-    """
+    """Mean rate over a class over that at its mean values [..., J, I, K], MOST at most; logs: of the cases."""
     if duty.slopes is None:
         return 1.0
     across = np.einsum("ajic,...ck->...ajik", duty.slopes, logs)
@@ -65,9 +63,7 @@ def class_factors(duty, logs):
 
 
 def lives(duty, rates):
-    """Life at each place [h], inf without damage [..., K]: the time at which Miner's sum is 1, and the damage of each
-    part by then [..., J, I, K], each stretch of hours counted half to either of its ends.
-    """
+    """Life at each place [h] (inf without damage) [..., K], and each part's damage by then [..., J, I, K]."""
     parts = duty.weights[:, None] * part_rates(duty, rates)
     if len(duty.hours) == 1:
         total = parts.sum(axis=-2)[..., 0, :]
@@ -102,9 +98,7 @@ def endless(life):
 
 
 def stretch_damage(first, grows, length, share):
-    """Damage over a share of a stretch in which a rate starts at `first` and grows by the factor exp(grows): integral
-    of first exp(grows x) length dx.
-    """
+    """Damage over a share of a stretch: integral of first exp(grows x) length dx."""
     length = np.broadcast_to(length, first.shape[:-2] + first.shape[-1:])[..., None, :]
     return first * length * share * exprel(grows * share)
 

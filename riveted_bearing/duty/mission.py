@@ -1,6 +1,4 @@
-"""Missions: operating points with their hours and events with their counts, checked against the FMU; mission_file.py has
-the keys of the file, docs/life.md an example.
-"""
+"""Missions: operating points with hours and events with counts, checked against the FMU (mission_file.py, docs/life.md)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -115,9 +113,7 @@ def plan_mission(name, document, model, path):
 
 
 def idle_settings(model, parts):
-    """Names of what the scenes of simulated parts set without effect on stress, damage and raceways in any of them; of many
-    parts the MOST_TRIED with the most hours or counts.
-    """
+    """Names of what parts set without effect on stress, damage and raceways in the MOST_TRIED longest."""
     tried = sorted((part for part in parts if part.scene is not None), key=lambda part: -part.weight)[:MOST_TRIED]
     idle = {name: True for part in tried for name in own_names(part.scene, model) if name not in FORCED}
 

@@ -26,9 +26,7 @@ WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
 def write_page(life: Life, path: Path, notes: Any, warnings: Any = ()) -> Path:
-    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out; warnings:
-    beside those of the mission.  Returns the path.
-    """
+    """Write a Life's page with sentences (notes) and further warnings, whole or not at all; returns the path."""
     return save_page(
         path,
         "life.html",

@@ -61,9 +61,7 @@ def settings_of(block):
 
 
 def values_of(scene, model):
-    """What of a scene can be compared and interpolated: constant inputs, its own or the FMU's, and its parameters, SI;
-    None for inputs that vary.
-    """
+    """What can be compared and interpolated: inputs (None for varying ones) and the scene's parameters, SI."""
     varying = {name for name, history in scene.inputs.items() if len(history.t) > 1}
     inputs = {name: None if name in varying else scene.value(name, model) for name in model.inputs}
     return inputs | {name: value for name, value in scene.parameters.items() if not isinstance(value, bool)}

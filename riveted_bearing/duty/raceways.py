@@ -95,9 +95,7 @@ def too_little_load(case: Case) -> Iterator[Any]:
 
 
 def cleanliness_of(value: Any) -> Any:
-    """A name of load_ratings.CLEANLINESS, or a contamination factor e_C, from what the user wrote: "normal", "20/17/14",
-    "-/15/12 filtered", 0.4.
-    """
+    """A name of load_ratings.CLEANLINESS, or e_C, from "normal", "20/17/14", "-/15/12 filtered", 0.4."""
     from bearing_model.load_ratings import CLEANLINESS
 
     try:

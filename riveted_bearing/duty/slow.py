@@ -11,9 +11,7 @@ KINDS = {  # of turns(): revolutions wanted, what happens with fewer, and the ke
 
 
 def slow_warnings(parts, model):
-    """Sentences on the simulated points with few revolutions, a shaft at rest apart: at a low speed the start of a run
-    counts, or chance does.
-    """
+    """Sentences on simulated points with few revolutions, where the start or chance counts; not at rest."""
     found = {
         part.name: turns(model, part.scene, part.scene.t_end)
         for part in parts

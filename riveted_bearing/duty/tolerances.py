@@ -1,14 +1,6 @@
 """No two bearings alike: tolerances as distributions, and the scatter of life over bearings that are drawn from them.
 
-[tolerance]
-bearings = 30                        # how many are drawn
-seeds = 2                            # runs of each bearing at each point
-share = 0.95                         # simulate the points and events that have this share of the damage; the rest keeps its damage
-[tolerance.parameters]
-joint.preload = { distribution = "normal", mean = "20 N", sd = "2 N" }
-joint.fit = { distribution = "uniform", low = "-20 um", high = "0 um" }
-cage.guide_clearance = { distribution = "triangular", low = "0.15 mm", mode = "0.2 mm", high = "0.3 mm" }
-joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68 % within median/factor ... median factor
+Of a lognormal one 68 % lie within median/factor ... median factor.
 """
 
 import math
@@ -39,9 +31,7 @@ RECORD = "bearings.json"
 
 @dataclass(frozen=True)
 class Tolerances:
-    """How many bearings with how many seeds at which share of the damage, and the frozen distributions of scipy.stats
-    by parameter (SI).
-    """
+    """Numbers of bearings and seeds, share of the damage, and distributions of scipy.stats by parameter (SI)."""
 
     bearings: int
     seeds: int
@@ -51,9 +41,7 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class Scatter:
-    """lives of the bearings [h]; draws: {parameter: values}; noise: share of the variance of ln life that the seeds
-    have; law: of Weibull.
-    """
+    """lives [h]; draws: {parameter: values}; noise: share of the seeds in the variance of ln life; law: Weibull."""
 
     lives: np.ndarray
     draws: dict = field(repr=False)
@@ -165,9 +153,7 @@ def scatter(
 
 
 def relative_error(spread, count):
-    """Standard error of ln of the mean of n runs whose logarithms have the standard deviation `spread` (log-normal
-    law).
-    """
+    """Standard error of ln of the mean of n log-normal runs whose logarithms scatter by `spread`."""
     return np.sqrt(np.expm1(np.minimum(spread, 5.0) ** 2) / count)
 
 
@@ -198,9 +184,7 @@ def changed(mission, model, i, values):
 
 
 def write_scatter(found: Any, path: Path) -> Path:
-    """Write bearings.json: the Weibull law, the seeds' share of the scatter, lives and what was drawn; returns the
-    path.
-    """
+    """Write bearings.json: Weibull law, the seeds' share, lives and what was drawn; returns the path."""
     document = found.law.record() | {
         "confidence": found.law.confidence,
         "seeds_share": found.noise if math.isfinite(found.noise) else None,

@@ -16,9 +16,7 @@ from ..show.style import FORCE, HEAD, MIDDLE, few_ticks, picture
 
 @dataclass(frozen=True)
 class Weibull:
-    """beta, eta [h], b10 [h], each with its interval (low, high) at `confidence`; failures: lives [h] with their median
-    ranks.
-    """
+    """beta, eta, b10 [h] with intervals at `confidence`; failures: lives [h] with their median ranks."""
 
     beta: float
     eta: float

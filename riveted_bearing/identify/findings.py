@@ -1,19 +1,4 @@
-"""Findings of a failure analyst, and the causes that may explain them.
-
-    scene = "demo"                       # the mission's point that matters: scene, [simulation], [parameters], [inputs] as in a sweep
-    hours = "about 900 h"                # until the rivets were found broken
-    loose = [7]                          # rivets that hold but rattle
-    missing = []                         # rivets that were never set
-    [broken]                             # numbers of rivets, or how many where the numbers are not known
-    head = [1, 2, 3]
-    middle = [4]
-    order = [2, 3, 1]                    # as far as known, first to last
-    [marks]
-    pocket = "heavy"                     # or "none"
-    [measured]
-    fit = "about -60 um"                 # [[inspection]] of data/causes.toml, or of this file
-    [prior]
-    misalignment = 2                     # against 1 of the others
+"""Findings of a failure analyst, and the causes that may explain them; docs/failure.md has an example.
 
 What is missing is not known.  "about" makes an uncertainty three times as large, that of the hours a factor of two.
 """

@@ -161,9 +161,7 @@ def identify(study: Any, evaluate: Any, start: Any) -> Any:
 
 
 def found_by(study, evaluate, start):
-    """The Found of a Study; evaluate(points [n, d] in SI, seeds) returns [n, seeds, targets]; start: SI values before
-    the fit [d].
-    """
+    """The Found; evaluate(points [n, d], seeds) gives [n, seeds, targets]; start: SI values before the fit [d]."""
     seeds = range(study.settings["seed"], study.settings["seed"] + study.settings["seeds"])
     rng = np.random.default_rng(study.settings["seed"])
     u = screen_points(study)
@@ -293,9 +291,7 @@ def profiles(study, objective, best, J):
 
 
 def crossing(grid, rise, best, limit):
-    """Ends of the set around `best` where a profile stays within the limit, by straight lines between its points; the
-    outermost ones, if the profile has more than one valley.
-    """
+    """Outermost ends around `best` where a profile stays within the limit, straight between its points."""
     inside = np.flatnonzero(rise <= limit)
     if not len(inside):
         return best, best

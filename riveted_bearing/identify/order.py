@@ -82,9 +82,7 @@ def state_of(bench, rivets, gone):
 
 
 def follow(state_at, breaks, seed=1, missing=(), within=np.inf):
-    """States in order; state_at(gone) gives a State and its rates with each seed.  missing: gone from the start; within:
-    hours that are followed.
-    """
+    """States in order; state_at(gone): a State and its rates with each seed; missing: at the start; within: hours."""
     damage, gone, states, rng = None, list(missing), [], np.random.default_rng(seed)
     while True:
         state, rates = state_at(gone)

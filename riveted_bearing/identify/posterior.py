@@ -277,9 +277,7 @@ def normalized(values):
 
 
 def measured(study, pool, of):
-    """Kernel of each design [designs], and for each measured quantity its density under each cause [q, causes] and evenly
-    over all values [q].
-    """
+    """Kernel of each design, density of each measured quantity under each cause [q, causes] and evenly [q]."""
     kernel = np.ones(len(pool))
     density, even = np.ones((len(study.findings.measured), len(study.causes))), []
     for q, (name, (value, sd)) in enumerate(study.findings.measured.items()):

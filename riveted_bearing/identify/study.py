@@ -81,9 +81,7 @@ class IdentifyFile(Settings):
 
 @dataclass(frozen=True)
 class Parameter:
-    """A value to be found between low and high (SI); log: searched by ratios; mean, sd: of a normal prior, None: the
-    whole range is equally likely.
-    """
+    """A value to be found in low ... high (SI); log: by ratios; mean, sd: of a normal prior, None: none."""
 
     name: str
     low: float
@@ -120,9 +118,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Study:
-    """An identification that was checked; points: names and documents of the operating points; measures: of channels,
-    computed by the workers.
-    """
+    """A checked identification; points: names and documents; measures: of channels, computed by workers."""
 
     path: Path
     description: str

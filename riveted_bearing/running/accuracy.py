@@ -81,9 +81,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Found:
-    """A figure's value corrected by its bias, the plain mean, the bias's share (shift), half-widths of seeds and step, and
-    whether all seeds fall on one motion.
-    """
+    """Value corrected by its bias, plain mean, shift, half-widths of seeds and step, whether one motion only."""
 
     value: float
     plain: float
@@ -211,9 +209,7 @@ def spread_of(values: Any, blocks: Any, kurtosis: float = 0.0) -> tuple[float, f
 
 
 def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confidence: float = CONFIDENCE) -> Found:
-    """The Found of a figure from values of plain runs [n], of finer ones on the first seeds [m], and the plain runs' block
-    variances.
-    """
+    """The Found of a figure: plain runs [n], finer ones on the first seeds [m], block variances of the plain."""
     from scipy import stats
 
     x, y = np.asarray(plain, float), np.asarray(fine, float)
@@ -342,9 +338,7 @@ def with_settings(scene: Scene, settings: dict[str, Any]) -> Scene:
 
 
 def finer_settings(model: Model, scene: Scene, above: Sample, run: Any) -> tuple[dict[str, Any], Sample]:
-    """The parameters of the first steps that prove to be finer than those of the scene, and the Sample run(parameters) with them; above:
-    the scene's own Sample.
-    """
+    """Parameters of the first finer steps than the scene's, and run(them); above: the scene's own Sample."""
     for settings in shorter_steps(model, scene, above):
         found = run(settings)
         limited = found.failed > max(above.failed, FEW)

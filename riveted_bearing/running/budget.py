@@ -126,9 +126,7 @@ def budgets(result: Result, plain: Any, fine: Any = ()) -> dict[str, Budget]:
 
 
 def of_result(result: Result, damage: float | None = None) -> dict[str, Budget]:
-    """The Budgets that a Result carries, else those of the one run; damage: log10 per hour, where the FMU counted none.  None
-    without statistics.
-    """
+    """The Budgets of a Result, else of its one run; damage: log10 per hour, if not counted; none without statistics."""
     if found := result.about.get("budget"):
         return {figure: of_record(record) for figure, record in found.items()}
     try:

@@ -70,9 +70,7 @@ def without_effect(
 
 
 def acts(name: str, scene: Scene, figures: Any, reference: Any) -> bool:
-    """Whether the figures of a scene, {name: array}, change without one of its values; what is refused changes them, the
-    record of the value itself does not.
-    """
+    """Whether {name: array} of a scene changes without one of its values; what is refused changes it."""
     try:
         found = figures(without(scene, name))
     except UserError:

@@ -22,9 +22,7 @@ def variable_of(name: str) -> Any:
 
 
 def unit_of(result: Result, name: str, variable: Any) -> Any:
-    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset
-    from SI.
-    """
+    """The unit that the user wrote, else the one that people read, "" for none; factor and offset from SI."""
     scales = scales_of(variable.unit, variables.UNITS[variable.unit])
     symbol = result.about.get("units", {}).get(name)
     symbol = symbol if symbol in scales else variable.display or variable.unit

@@ -1,6 +1,4 @@
-"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law
-of bearing_model.instance.fatigue.
-"""
+"""Rainflow cycles and life of the rivets by the `rainflow` package (ASTM E1049) and bearing_model.instance.fatigue."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -19,9 +17,7 @@ CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
 
 @dataclass(frozen=True)
 class RivetLife:
-    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time [s] to
-    Miner's sum 1 if the run repeated.
-    """
+    """Cycles (range [Pa], mean [Pa], count), Miner's sum, time [s] to Miner's sum 1 if the run repeated."""
 
     cycles: np.ndarray
     damage: float
@@ -51,9 +47,7 @@ def cycle_damages(law: Any, span: Any, mean: Any) -> Any:
 
 
 def fatigue_law_at(parameters: dict[str, Any], k: Any, place: str) -> Any:
-    """FatigueLaw of a result's rivet k at "head" or "mid": strength_factor scales its strengths, fretting weakens a shank
-    on which its hole presses.
-    """
+    """FatigueLaw of rivet k at "head" or "mid" with its strength_factor, and fretting of a pressed shank."""
     law = strengthened(fatigue_law(parameters), parameters.get(f"rivet[{k}].strength_factor", 1.0))
     if place == "head" or law.fretting == 1.0:
         return law

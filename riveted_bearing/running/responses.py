@@ -47,9 +47,7 @@ def response(path: Path, rows: Any, name: str) -> Any:
 
 
 def display_of(name: str) -> Any:
-    """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the
-    SI value.
-    """
+    """Unit in which people read a name's values, "" without one; factor and offset from SI."""
     if name == "damage":
         return DAMAGE_UNIT, 1.0, 0.0
     inner = re.fullmatch(r"(?:\w+\()?([^()]*)\)?", COLUMNS.get(name, name))

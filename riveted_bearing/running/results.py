@@ -62,9 +62,7 @@ class Result:
         }
 
     def to_pandas(self):
-        """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs
-        pandas (the extra "full").
-        """
+        """A pandas.DataFrame over time [s], its attrs the metadata; needs pandas (the extra "full")."""
         pandas = needed("pandas")
         frame = pandas.DataFrame(
             {name: values for name, values in self.data.items() if name != "time"},

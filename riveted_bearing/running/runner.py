@@ -27,9 +27,7 @@ PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
 def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
-    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run
-    after the step under way.
-    """
+    """The Result of a Scene checked against the Model (riveted_bearing.run); Ctrl-C ends it after a step."""
     if scene.accuracy is not None:
         raise UserError(
             f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose steps and seeds by it; here both are given"
@@ -124,9 +122,7 @@ def closing_values(instance, model):
 
 
 def closing_names(model: Model) -> list[str]:
-    """Variables that say how it went over the whole run: statistics, damage, broken rivets, solver counters, processor
-    time, and what the rivets' stress rests on.
-    """
+    """Variables on the whole run: statistics, damage, breaks, solver counters, what the stress rests on."""
     names = [*model.outputs, *model.locals]
     return [
         name

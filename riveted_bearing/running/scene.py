@@ -105,9 +105,7 @@ def load_scene(source: Any, model: Model, *changes: Any) -> Scene:
 
 
 def warm(scene, model):
-    """The scene with the oil's temperature, where it sets one, in all parts of which neither it nor the bearing's own
-    file gives another.
-    """
+    """The scene with its oil's temperature in all parts whose own neither it nor the bearing's file gives."""
     if "oil.T" not in scene.inputs:
         return scene
     parts = [name for name in PARTS_TEMPERATURES if name not in scene.inputs and model.origin.get(name) != "yours"]
@@ -125,9 +123,7 @@ def working_point(model):
 
 
 def own_names(scene: Scene, model: Model) -> Any:
-    """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene; what follows from
-    the kind or the temperature of its oil is not among them.
-    """
+    """Names that a scene sets otherwise than its FMU or load_scene; what follows from its oil is not among them."""
     own = {name: model.default(model.parameters[name]) for name in scene.parameters} | ALWAYS
     of_oil, warm = OF_PROPERTY if scene.oil else (), scene.inputs.get("oil.T")
     return [n for n, value in scene.parameters.items() if value != own[n] and n not in of_oil] + [
@@ -150,9 +146,7 @@ def in_words(model: Model, name: str, value: Any = None, symbol: Any = None) -> 
 
 
 def replacements(of_file, scene, model):
-    """Values of a scene's file, not changed since, in the place of the FMU's own: "shaft.F_y 2994 N for 4100 N".  How
-    to simulate does not count, what follows from the kind of oil is not listed.
-    """
+    """Values of a scene's file in the place of the FMU's: "shaft.F_y 2994 N for 4100 N"; not how to simulate."""
     if of_file.oil and of_file.oil == scene.oil:
         yield f"oil {scene.oil} for its own"
     for name, given in (of_file.parameters | of_file.inputs).items():

@@ -46,9 +46,7 @@ OF_BUILD = "part of the FMU's stress table, so that another value needs an FMU o
 
 
 def screened(model: Model, say: Any = lambda done, total: None, further: Any = None) -> dict[str, Any]:
-    """The record of an FMU's screening, measured and kept if there is none; further: ranges of a study, {name: (low, high)}, which are
-    measured if the record has others.
-    """
+    """The record of an FMU's screening, measured if there is none of these further ranges {name: (low, high)}."""
     record = known(model) or {}
     further, own = further or {}, own_ranges(model.ranges, record)
     if record and all(own.get(name) == ends for name, ends in further.items()):

@@ -20,9 +20,7 @@ COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
 @dataclass(frozen=True)
 class Row:
-    """One line: channel, unit shown, figures in that unit (nan if unknown), and whether every internal step or only the
-    communication points count.
-    """
+    """A line: channel, unit shown, figures in it (nan if unknown), whether every internal step counts."""
 
     channel: str
     unit: str
@@ -34,9 +32,7 @@ class Row:
 
 
 def summary_rows(result: Result) -> Any:
-    """Rows for every channel that the result has; values before start.settle [s] do not count, and without later ones
-    there are no rows.
-    """
+    """Rows of every channel that the result has, after start.settle; none without later values."""
     if not has_statistics(result):
         return []
     rows = [
@@ -49,9 +45,7 @@ def summary_rows(result: Result) -> Any:
 
 
 def channels(result):
-    """Channel, unit shown, factor, names of the outputs and how they combine, for what is known at the communication
-    points alone.
-    """
+    """Channel, unit shown, factor, outputs and how they combine, of what communication points alone tell."""
     return [
         ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
         ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),

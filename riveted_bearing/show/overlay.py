@@ -31,9 +31,7 @@ BUCKETS = 300
 
 @dataclass(frozen=True)
 class Series:
-    """A channel of the run with the measured one: times [s] and values in the unit shown; column: as the file names it;
-    gap: in its times, in words.
-    """
+    """A channel beside its measured series: times [s], values in the unit shown; column, gap: in words."""
 
     channel: str
     column: str

@@ -173,9 +173,7 @@ OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), (
 
 
 def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
-    """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by
-    tolerance, statistics in standard deviations.
-    """
+    """Write a Comparison as PNG: outputs of both, differences by tolerance, statistics in deviations."""
     rows = 3 if found.statistics else 2
     with picture(path, (4.6 * rows, 7.0), f"{found.scene}: FMU against the Python reference", dpi) as figure:
         axes = figure.subplots(2, rows)

@@ -227,9 +227,7 @@ def chart(result, name, lives):
 
 
 def all_lives(result):
-    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted; none from closed
-    forms.
-    """
+    """One dict a rivet: k, RivetLife of head and middle, the FMU's own sums; none from closed forms."""
     rows = []
     if result.parameters.get("scene.stress") == "off" or not life_is_known(result) or not has_statistics(result):
         return rows

@@ -205,9 +205,7 @@ def density(values: np.ndarray, rate: float, segment: int = 1024) -> tuple[np.nd
 
 
 def kurtosis_band(x, rate):
-    """The band (low, high) whose short-time amplitudes are most impulsive: largest <|X|^4>/<|X|^2>^2 - 2 over
-    frequencies and lengths of the window.
-    """
+    """The band (low, high) of the largest <|X|^4>/<|X|^2>^2 - 2 over frequencies and window lengths."""
     best, found = -math.inf, (0.05 * rate, 0.45 * rate)
     for segment in (n for n in SEGMENTS if 4 * FEWEST_BLOCKS * n <= len(x) or n == SEGMENTS[0]):
         transform, width = ShortTimeFFT(hann(segment, sym=False), hop=segment // 4, fs=rate), 1.5 * rate / segment
@@ -256,9 +254,7 @@ def contact_angle(result, Z):
 
 
 def expected_lines(kinematic):
-    """Name and frequency of each kinematic line, its harmonics, and the side bands at the speed that modulates it; names
-    of one frequency share a line, and what stands still has none.
-    """
+    """Names and frequencies of lines, harmonics and side bands; equal ones once, none of what stands still."""
     # a fault that turns passes through the load
     modulators = {"BPFI": "shaft", "BPFO": "housing", "BSF": "FTF"}
     found = []

@@ -60,11 +60,7 @@ class Matrices:
 
 
 def quasi_static_matrices(case: Case, speeds: Any, loads: Any = (1.0,)) -> Any:
-    """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is
-    no equilibrium.
-
-    case: scene_case of a scene.
-    """
+    """Matrices without K and C of the FMU at each load factor and speed [rad/s]; else UserError."""
     return [Matrices(omega, load, abs(omega), *equilibrium(case, load, omega)) for load in loads for omega in speeds]
 
 
@@ -103,9 +99,7 @@ def scene_at(model: Model, scene: Scene, point: Any) -> Any:
 
 
 def idle_settings(model: Model, scene: Scene, point: Any, speeds_given: Any, static: Any) -> Any:
-    """Names of what a scene sets without effect on the matrices at the highest speed, a Matrices: neither on the stiffness
-    of the equilibrium nor, unless static, on the reactions of the ring that is held there.
-    """
+    """Names set without effect at the highest speed on the stiffness and, unless static, the reactions."""
 
     def held(one):
         one = scene_at(model, one, point)
@@ -142,17 +136,13 @@ def equilibrium(case, load, omega):
 
 
 def response(model, scene, omega, q, direction, amplitude, w):
-    """-dR/dq_i at the frequency w [rad/s], complex [5]: half the difference of the responses to both signs of the
-    amplitude.
-    """
+    """-dR/dq_i at w [rad/s], complex [5]: half the difference of the responses to both signs."""
     there, back = (shaken(model, scene, omega, q, direction, sign * amplitude, w) for sign in (1.0, -1.0))
     return -(there - back) / (2.0 * amplitude)
 
 
 def shaken(model, scene, omega, q, direction, amplitude, w):
-    """First harmonic of the reactions [5], as the factor of sin(w t) + i times that of cos(w t), while the ring shakes
-    with amplitude sin(w t).
-    """
+    """First harmonic of the reactions [5] to amplitude sin(w t): of sin(w t) + i times that of cos(w t)."""
     period = 2.0 * math.pi / w
     count = math.ceil(period / LONGEST_STEP)
     h, settle, periods = period / count, math.ceil(SETTLE / period), math.ceil(LENGTH / period)
@@ -197,9 +187,7 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
 
 
 def write_table(found: Any, path: Path, basis: Any = ()) -> Path:
-    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry,
-    SI; in front, behind "# ", the basis.
-    """
+    """A CSV row for each Matrices: speed, load factor, frequency, place, matrices, SI; before it the basis."""
     entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
     kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
     places = [f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS]
@@ -263,9 +251,7 @@ def write_ross(found: Any, path: Path, node: int = 0, tag: str = "bearing", basi
 
 
 def plot_matrices(found: Any, path: Path) -> Path:
-    """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
-    factor.
-    """
+    """Stiffness and damping of the translations over speed as PNG, one line style for each load factor."""
     loads = list(dict.fromkeys(p.load for p in found))
     with picture(path, (11, 4.2)) as figure:
         left, right = figure.subplots(1, 2)

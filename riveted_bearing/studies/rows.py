@@ -1,6 +1,4 @@
-"""Rows of a sweep, one for each run: as they arrive in _rows.sqlite of the sweep's folder, at the end of each call in the
-order of the design in runs.parquet, which readers take.
-"""
+"""Rows of a sweep, one a run: in _rows.sqlite as they arrive, then in the design's order in runs.parquet for readers."""
 
 import base64
 import contextlib
@@ -103,9 +101,7 @@ class Store:
             return {key for (key,) in self.file.execute("SELECT key FROM runs WHERE status = 'done'")}
 
     def export(self, schema, keys, grows=False):
-        """Write runs.parquet: rows of the keys in their order, each with its place as `run`, and where the design grows
-        all others behind them; columns without a value are null.  Returns the columns as numpy arrays by name.
-        """
+        """Write runs.parquet, rows in the keys' order with their place as `run`, all others behind if it grows."""
         import pyarrow as pa
 
         with self.errors():

@@ -1,6 +1,4 @@
-"""Results of a sweep: means over seeds with their confidence for each point of the design, as a table, a picture
-and a page.
-"""
+"""Results of a sweep: means over seeds with their confidence at each point, as a table, a picture and a page."""
 
 import math
 from dataclasses import dataclass
@@ -32,9 +30,7 @@ RESPONSES = (  # (title, unit, factor, column)
 
 @dataclass(frozen=True)
 class Response:
-    """Means and half-widths of the confidence interval (nan with one seed) of a response at the points of the design
-    [P].
-    """
+    """Means and half-widths (nan with one seed) of a response at the points of the design [P]."""
 
     title: str
     unit: str
