@@ -5,10 +5,12 @@ import hashlib
 
 import numpy as np
 
+from ..base.errors import unknown
 from ..base.toml_files import section_of
 from ..design.bench import Bench
 from ..running.basis import basis
 from ..running.scene import load_scene
+from ..studies.sweep import schema_of
 from ..studies.sweep_file import sections_of
 from .measures import of_result
 
@@ -24,11 +26,18 @@ class Rig(Bench):
         if not any(target.column == "damage" or ".damage_" in target.column for target in study.targets):
             self.common["parameters"] = section_of(study.path, document, "parameters")
         words = ", ".join(measure.column for measure in study.measures)
-        self.fingerprint = hashlib.sha256(f"{model.digest} {words}".encode()).hexdigest()
+        self.fingerprint = hashlib.sha256(model.content + words.encode()).hexdigest()
         self.needed = sorted({k for t in study.targets for k in (t.point, *([t.other] if t.operation else []))})
         self.columns = list(dict.fromkeys(target.column for target in study.targets))
         self.label, self.scene = "a point", self.scene_at((), (), self.needed[0])
-        self.check(self.columns)
+        self.check()
+
+    def check(self):
+        """Refuse a column that the rows will not have, before anything is simulated."""
+        columns = schema_of(self.sweep((), {"": self.scene})).names
+        for target in self.study.targets:
+            if target.column != "damage" and target.column not in columns:
+                raise unknown(f"{self.path}: target {target.name}", "measure", target.column, columns)
 
     def fields(self):
         """Fields of the measures, beside those of a sweep's rows."""
