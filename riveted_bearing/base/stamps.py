@@ -120,6 +120,15 @@ class Stamps:
         return DAY * (days - self.first[0]) + (clock - self.first[1])
 
 
+def stamps_of(texts, where):
+    """The Stamps of a column of texts; UserError if its days and months may be exchanged."""
+    texts = iter(texts)
+    if not may_turn(first := next(texts, "")):
+        return Stamps()
+    parts = [own for text in (first, *texts) if (own := parse((text or "").strip())) is not None]
+    return Stamps(month_is_first(parts, where))
+
+
 def month_is_first(parts, where):
     """Which order of day and month holds in the dates of a whole column; UserError if nothing tells."""
     pairs = [own for own, _ in parts if own is not None and own[0] != own[1]]

@@ -325,10 +325,7 @@ def hours_text(hours: Any, digits: int = 3) -> str:
 
 
 def to_si(value: Any, scales: Any) -> float:
-    """SI value of a number (SI already) or of a text with a unit: 0.01, "10 mm".
-
-    Raises UserError for a text without a unit, a unit that does not fit, or anything that is not a finite number.
-    """
+    """SI value of a number (SI already) or of a text with a unit, "10 mm"; UserError for anything that is not a finite one."""
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
         if not match:

@@ -15,6 +15,12 @@ KINDS = {"Inputs": INPUTS, "Parameters": PARAMETERS, "Outputs": OUTPUTS, "Locals
 KNOWN = INPUTS | PARAMETERS | OUTPUTS | LOCALS
 
 
+def variable_of(name: str) -> Any:
+    """The variable of a name in the table, where those of an array have one entry; None for an unknown name."""
+    names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
+    return next((KNOWN[known] for known in names if known in KNOWN), None)
+
+
 def essentials() -> Any:
     """The essential variables by question."""
     return {title: [KNOWN[name] for name in names] for title, names in ESSENTIALS.items()}

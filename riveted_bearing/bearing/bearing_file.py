@@ -38,8 +38,7 @@ OF_EXAMPLE = ("Z", "bearing.D", "bearing.d_m", "shaft.F_x", "shaft.F_y", "shaft.
 def bearing_case(source: Any, rivet: Any = None, cage: Any = None) -> Case:
     """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
 
-    rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own
-    rivet; cage: one of CAGES, None: the file's, else machined.
+    rivet: (file, keys) of another rivet, whose new shank leaves nothing of the bearing's own; cage: one of CAGES or None.
     """
     if cage is not None and cage not in CAGES:
         raise unknown("--cage", "shape", cage, CAGES)

@@ -95,7 +95,9 @@ def holds(limit, values):
 
 
 def bound(limit, value, values_with):
-    """("at most" or "at least", bound) for a refused value, None if nothing near does; values_with(value): all values."""
+    """What is allowed for a refused value: ("at most" or "at least", bound), None if nothing within a thousand times does;
+    values_with: a function of it that gives all values.
+    """
     if isinstance(value, int):
         fitting = [number for number in range(5, 33) if holds(limit, values_with(number))]
         return ("at most" if fitting[-1] < value else "at least", fitting[-1]) if fitting else None

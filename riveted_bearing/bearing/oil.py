@@ -55,11 +55,7 @@ def of_points(values):
 
 
 def viscosity(values, start, T):
-    """Viscosity [Pa.s] at T [K] as the FMU has it: a start value is that of the two points; ValueError if they make no
-    oil.
-
-    values, start: of the parameters oil.*, by full name, as they are and as the FMU has them at the start.
-    """
+    """Viscosity [Pa.s] at T [K] of parameters oil.*, by full name; one left at its start is that of the two points."""
     oil, own = map(plain, (values, start))
     return float(oil.eta * oil_ratios(oil, T, own if oil.eta == own.eta else oil)[0])
 
@@ -70,10 +66,7 @@ def plain(values: dict[str, Any]) -> SimpleNamespace:
 
 
 def check_given(where: Any, given: Any, written: Any, values: Any) -> Any:
-    """UserError if one document gives the viscosity twice, and differently.
-
-    given: the document's parameters in SI; written: the same as it has them; values: all of oil.*, by full name.
-    """
+    """UserError if a document's parameters (given, SI; written) have the viscosity twice, and differently; values: all oil.*."""
     if not {*POINTS} <= given.keys():
         return
     try:
@@ -99,10 +92,8 @@ def check_pair(where, given, written):
 
 
 def merged(earlier: Any, given: Any, start: Any) -> Any:
-    """Parameters of a scene with those that a later document gives.
-
-    Two points replace an earlier viscosity, and the FMU's own (`start`: values of its oil.*) where it is not that of
-    the FMU's points.
+    """Parameters of a scene with those of a later document; its two points replace an earlier viscosity, and the FMU's own
+    (`start`: its oil.*) where that is not that of the FMU's points.
     """
     if not {*POINTS} <= given.keys():
         return earlier | given
@@ -122,10 +113,9 @@ def kinds():
 
 
 def named(where: Any, written: Any, given: Any, start: Any) -> Any:
-    """Name and parameters of the oil that a document names, without those that it gives itself; "" and none for None.
+    """Name and parameters of the oil that a document names, without those that it gives; "" and none for None.
 
-    written: the document's value of `oil`; given: its parameters in SI; start: all of oil.* without the document, by
-    full name.
+    written: the document's `oil`; given: its parameters in SI; start: all of oil.* without it, by full name.
     """
     if written is None:
         return "", {}

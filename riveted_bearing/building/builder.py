@@ -54,15 +54,9 @@ def build_fmu(
     modes: Any = None,
     cage: Any = None,
 ) -> Any:
-    """Build an FMU and return its path.
+    """Build an FMU and return its path, as riveted_bearing.build; UserError leaves `out` as it was.
 
-    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet
-    (TOML), None for the bearing's own rivet; out: the FMU to write, None for my.fmu here from my.toml,
-    RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what is being done and the share
-    done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's
-    compiler alone; kind, modes: of the rivet table, see table_of; cage: machined or ribbon, None: the file's, else
-    machined. Raises UserError with the reason; `out` is then left
-    as it was.
+    say: called with what is being done and the share done; kind, modes: of the rivet table, see table_of.
     """
     sources = source_folder()
     out = Path(out) if out else default_out(sources, bearing or rivet, cage)

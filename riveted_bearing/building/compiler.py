@@ -96,8 +96,8 @@ def cmake() -> str:
 
 
 def configure(sources: Path, folder: Path, options: Sequence[str], platform: str | None, say: Any) -> None:
-    """Configure a build folder for a platform (None: this machine's compiler); from nothing if it was configured for
-    another compiler or with other options of it, which CMake would not notice.
+    """Configure a build folder for a platform (None: this machine's compiler); from nothing after another compiler or options
+    of it, which CMake would not notice.
     """
     say("configuring (the first time fetches SUNDIALS)")
     stamp, compiler = folder / "compiler.txt", identity(platform)

@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from ..base.errors import UserError, unknown
-from ..base.schema import Count, Named, checked
+from ..base.schema import Count, Named, checked, holds, is_list_of
 from ..base.toml_files import leaves
 from ..duty.mission import curves
 from ..running.basis import basis
@@ -142,15 +142,10 @@ class Bench:
         return ", ".join(f"{name} = {shown(name, rows[name][i])}" for name in names if name in rows)
 
 
-def responses_of(value):
-    """A list of names of responses; ValueError for anything else."""
-    texts = isinstance(value, list) and all(isinstance(name, str) for name in value)
-    if not texts or not value or len(set(value)) != len(value):
-        raise UserError(f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}")
-    return value
-
-
-Responses = Annotated[list[str], BeforeValidator(responses_of)]
+DIFFERENT = f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}"
+Responses = Annotated[
+    list[str], holds(lambda names: is_list_of(names, str) and len(set(names)) == len(names) > 0, DIFFERENT)
+]
 
 
 def noise_variance(values):

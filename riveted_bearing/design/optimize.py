@@ -68,9 +68,8 @@ class Study:
 
 @dataclass(frozen=True)
 class Optimum:
-    """points [n, d] of the search in its order with their means over seeds [n, m]; candidates: numbers of those
-    simulated again, their means [c, m] and standard errors over fresh seeds; best: place among the candidates, None if
-    none keeps the limits; present: mean and standard error [2, m] of the design that nothing varies, over the same seeds.
+    """points [n, d] of the search, their means [n, m]; candidates: numbers, means [c, m] and errors over fresh seeds; best:
+    place among these, None if none keeps the limits; present: mean and error [2, m] of the design as it is.
     """
 
     study: Study

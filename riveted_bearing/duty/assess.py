@@ -35,10 +35,8 @@ FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind", "solver.steps", "sol
 
 @dataclass(frozen=True)
 class Life:
-    """What was found: estimate of the parts kept; kept: their numbers; bounds: upper bound of the damage per hour of
-    each part left out, by number; counts: runs of each part; samples: damages of each part's runs [n, Z, 2], None for a
-    part left out or interpolated; rates: mean damages of the parts at the start of the mission, per hour (point) or per
-    event [I, Z, 2].
+    """estimate of the parts kept; kept: numbers; bounds: of the damage per hour of those left out; counts: runs of each part;
+    samples: their damages [n, Z, 2] or None; rates: means at the start, per hour or per event [I, Z, 2].
     """
 
     mission: Mission
@@ -242,7 +240,7 @@ def places(damages, rivets):
 
 
 def rare_parts(mission):
-    """Numbers of the rarest points, together less than the share `skip` of the hours, and no interpolation's."""
+    """Numbers of the rarest points, together less than the share `skip` of the hours, on which no interpolation rests."""
     needed = {
         mission.cases[c].part
         for i, part in enumerate(mission.parts)
@@ -260,14 +258,10 @@ def rare_parts(mission):
 
 
 def bounded(mission, found, kept, rare):
-    """Bounds of the damage per hour of the mission of those rare points that all together cannot have more than the
-    share `skip` of it.
+    """Bounds of the damage per hour of rare points that together cannot have more than the share `skip` of it.
 
-    The damage of a point is at most that of a simulated point q times the ratio of their loads and of the square of
-    their speeds, the larger over the smaller, to the power of the steeper slope of the S-N curve, times a safety of 10.
-    It rests on the assumption that stress changes no faster than loads and centrifugal forces; less load may well do
-    more damage, because the balls skid.  Points that hardly do damage break the assumption (their cycles grow from
-    nearly nothing), so that the largest of the bounds by all simulated points counts.
+    By the ratio of loads and of squared speeds to any simulated point, to the steeper slope of the S-N curve, times 10: stress
+    changes no faster.  Less load may do more damage, as balls skid, so the largest bound by all simulated points counts.
     """
     duty, total = mission.duty, 1.0 / found.life if found.life > 0.0 else math.inf
     rate_of = dict(zip(kept, found.shares * total / np.maximum(duty.weights[list(kept)], 1e-300), strict=True))

@@ -74,9 +74,8 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was found for one design: estimate of its life, place that fails first in words, Ratio of life to the first
-    design's (None for it), and of each part means of RESPONSES with their Ratios: {part: {response: (mean, Ratio)}};
-    deciding: the part with the most damage; raceways: its Raceways; budgets: of its errors, by figure.
+    """One design: estimate, place that fails first, Ratio of life to the first design's (or None), {part: {response: (mean,
+    Ratio)}}, deciding part, Raceways, budgets by figure.
     """
 
     design: Design

@@ -22,9 +22,8 @@ def events(path, file, model):
 
 
 def event_in_time(path, label, moved, scene, settle, names):
-    """The scene of an event, its times moved if they count from settle on, and warnings; names: of the inputs that it sets.
-
-    UserError for an input whose changes are all over before start.settle, or begin after the end: they count nothing.
+    """The scene of an event, its times from settle on if moved, and warnings; names: of its own inputs.  UserError for an input
+    whose changes are all outside the counted time.
     """
     varying = {name: scene.inputs[name] for name in names if np.ptp(scene.inputs[name].value) > 0.0}
     if moved:

@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from bearing_model.instance.fatigue import fully_reversed
-
 from ..base.errors import UserError
-from ..bearing.strength import damage_of_matrix
+from ..bearing.strength import damage_of_matrix, reversed_amplitudes
 from ..running.budget import digits
 from ..running.budget import of_result as of_run
 from ..running.fmu import Model
@@ -27,12 +25,8 @@ from .raceways import Raceways
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a sheet judges.
-
-    life, low, high [h], None where nothing is known (untold: why not), with place and interval in words; scaled(x): shortest lives [h] of
-    heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
-    [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
-    one that decides; rivet: number of the one that fails first; raceways: their Raceways.
+    """What a sheet judges: life, low, high [h] (None, and why untold), scaled(x): shortest lives [h] of heads and middles at x
+    times the stress; amplitudes [Pa]; knees [Pa], None for a table; results by part; worst: the part that decides; rivet.
     """
 
     life: float | None
@@ -152,10 +146,8 @@ def largest_amplitudes(pairs):
     for (channel, span, mean, _), laws in pairs:
         for place in (0, 1):
             mine = channel % 2 == place
-            cycles = zip(span[mine].tolist(), mean[mine].tolist())
-            largest[place] = max(
-                largest[place], max((fully_reversed(laws[place], 0.5 * s, m) for s, m in cycles), default=0.0)
-            )
+            amplitudes = reversed_amplitudes(laws[place], span[mine], mean[mine])
+            largest[place] = max(largest[place], float(amplitudes.max(initial=0.0)))
     return tuple(largest)
 
 

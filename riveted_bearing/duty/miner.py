@@ -35,11 +35,8 @@ BISECTIONS = 60  # halve the interval to the last digit
 
 @dataclass(frozen=True)
 class Duty:
-    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C]; hours: at which the blends
-    hold [J], the first 0.
-
-    slopes: of classes of a record, what makes g s of the logarithms along each axis [A, J, I, C], zero for other parts;
-    None: there is no record.
+    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C] at hours [J], the first 0; slopes: g s
+    of classes of a record along each axis [A, J, I, C], zero for other parts, or None.
     """
 
     weights: np.ndarray

@@ -35,10 +35,8 @@ MOST_TRIED = 8  # parts in which a setting without effect in one is tried
 
 @dataclass(frozen=True)
 class Mission:
-    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
-    whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file;
-    slow: sentences on points at which the shaft turns too few times; raceways(): the Raceways; idle(): names of settings
-    without effect.
+    """A mission checked against its Model; hours: of all points; basis: of all; shares: whether of a time that is not given;
+    slow: sentences; raceways(): the Raceways; idle(): names of settings without effect.
     """
 
     name: str
@@ -113,7 +111,7 @@ def plan_mission(name, document, model, path):
 
 
 def idle_settings(model, parts):
-    """Names of what parts set without effect on stress, damage and raceways in the MOST_TRIED longest."""
+    """Names that the MOST_TRIED longest parts set without effect on stress, damage and raceways."""
     tried = sorted((part for part in parts if part.scene is not None), key=lambda part: -part.weight)[:MOST_TRIED]
     idle = {name: True for part in tried for name in own_names(part.scene, model) if name not in FORCED}
 

@@ -13,9 +13,8 @@ FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage":
 
 @dataclass(frozen=True)
 class Part:
-    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of all
-    inputs, None for those that vary, and of the parameters that it sets, SI; load, speed: in words; warnings: sentences.
-    Of a class of a record: cell, its number along each axis; means and spreads, of the record's values in it.
+    """An operating point (weight: hours) or an event (weight: count); scene: None if interpolated; values: inputs (None if
+    varying) and own parameters, SI; cell, means, spreads: of a class of a record along each axis.
     """
 
     name: str

@@ -149,7 +149,7 @@ def history_points(path, file, model):
 
 
 def wide_classes(columns, spent, means, spreads):
-    """Sentences on forces whose classes miss much of the mean of F^3 = mu^3 + 3 mu sigma^2, as raceways live."""
+    """Sentences on forces in classes too wide for the raceways: mean of F^3 = mu^3 + 3 mu sigma^2."""
     found = []
     for name, mean, spread in zip(columns, np.abs(means.T), spreads.T, strict=True):
         cubes = spent @ mean**3

@@ -116,11 +116,8 @@ def scatter(
     progress: Any = None,
     runs_of: Any = None,
 ) -> Any:
-    """The Scatter of life over bearings drawn from the tolerances, for the mission of a Life.
-
-    Points and events that have the share asked for are simulated for each bearing with common seeds, at the preload of
-    the mission's start. runs_of: function of the mission of bearings that gives its runs(counts), None for the FMU's in
-    a folder of their own.
+    """The Scatter of life over bearings drawn from the tolerances: parts with the share asked for run for each, common seeds, at
+    the start's preload.  runs_of(mission): its runs(counts), None for the FMU's in a folder.
     """
     mission, settings = life.mission, life.mission.settings
     draws = drawn(tolerances, settings["seed"])

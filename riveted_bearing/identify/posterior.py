@@ -47,8 +47,8 @@ GRID = 400
 
 @dataclass(frozen=True)
 class Predicted:
-    """What a design predicts: log10 of the hours of its breaks; probability of a middle and of a neighbour in each state;
-    rivets in the order of their breaks; share of loose rivets; probability of each heavy mark; values of the quantities.
+    """log10 of the hours of breaks; probability of a middle and of a neighbour in each state; order; missing; share of loose
+    ones; probability of marks; values of quantities.
     """
 
     cause: int
@@ -199,8 +199,8 @@ def pattern(found, pool, Z):
 
 @dataclass(frozen=True)
 class Answer:
-    """The posterior [causes + none], its bootstrap [RESAMPLES, causes + none]; single: likelihood of each finding alone,
-    over its mean by the prior; effective: designs that bear a cause; weights: of the designs; inspections: (name, bits).
+    """posterior [causes + none] and its bootstrap; single: likelihood of each finding over its mean; effective: designs of a
+    cause; weights: of designs; inspections: (name, text, bits).
     """
 
     names: list

@@ -53,9 +53,8 @@ class SeriesBlock(Common):
 
 @dataclass(frozen=True)
 class Target:
-    """A measured figure: of an operating point, as its ratio or difference ("over", "minus") to another, or of it alone.
-
-    column: of a row; value, uncertainty: in SI, the latter one standard deviation; origin: where the value is from.
+    """A measured figure of an operating point, or its ratio or difference to another; column: of a row; value, uncertainty: SI,
+    one standard deviation; origin: of the value.
     """
 
     name: str

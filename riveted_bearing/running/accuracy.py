@@ -155,10 +155,8 @@ def steps_of(summary: Any) -> tuple[float, float]:
 
 
 def block_variances(result: Result, values: dict[str, float]) -> dict[str, float]:
-    """Variance of each figure of a run by its BLOCKS: that of the blocks' own figures over their number.
-
-    values: of the whole run, to which those of blocks are scaled, because a quantile of a short block lies lower and largest forces
-    of all balls lie higher.
+    """Variance of each figure by a run's BLOCKS; values: of the whole run, to which blocks' are scaled, as their quantiles lie
+    lower and largest forces of all balls higher.
     """
     late, slope = settled(result), result.parameters["fatigue.k_2"]
     heads = [CHANNELS[0]] if CHANNELS[0] in result.data else columns(result, "rivet[", "].sigma_head_peak")
@@ -259,8 +257,8 @@ FALLS = 0.8  # largest share of a bias that shorter steps may leave, else it doe
 
 @dataclass(frozen=True)
 class Reached:
-    """What an accuracy took: the parameters of its steps and their mean length [s], the runs' Found by figure, why a figure is not within
-    it, the plain run, the Result and Samples (plain, finer) with these steps, and the processor time [s].
+    """Target, settings and mean length [s] of the steps, Found by figure, why some missed, the plain run, Result, Samples
+    (plain, finer) and processor time [s].
     """
 
     target: float
@@ -359,10 +357,8 @@ def shorter_steps(model, scene, above):
 def accurate(
     model: Model, scene: Scene, target: float, within: float = WITHIN, progress: Any = lambda runs: None
 ) -> Reached:
-    """Run a scene until its NAMED figures are within `target` of their values, or until more runs do not help; UserError where it
-    would take longer than `within` [s of processor time].
-
-    Two runs and a finer one, then more of both, or shorter steps where the bias decides.
+    """Run until the NAMED figures are within `target` of their values or no runs help, by more of them or by shorter steps where
+    the bias decides; UserError where it takes longer than `within` [s].
     """
     runs, level, n, m, before = Runs(model, scene, progress), 0, 2, 1, {}
     while True:

@@ -193,10 +193,7 @@ def table_parts(about, summary, size, swing, figure, value):
 
 
 def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
-    """The part of a value with a range, None if its effect on the figure is not measured.
-
-    An effect's variance is taken from its square, so that many values without effect do not add up.
-    """
+    """The part of a value with a range, None without a known effect, whose variance leaves its square, lest noise adds up."""
     if row.effect is None or figure not in row.effect:
         return None
     ends = [math.copysign(math.sqrt(max(0.0, e**2 - se**2)), e) for e, se in row.effect[figure]]

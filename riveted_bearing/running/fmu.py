@@ -77,10 +77,7 @@ def check_archive(path):
 
 
 class Model:
-    """An FMU's variables by name, with units, limits and enumerations.
-
-    path: the .fmu file, None for the default one.  Raises UserError if it is not a co-simulation FMU of FMI 2.0.
-    """
+    """An FMU's variables by name, with units, limits and enumerations; UserError if it is none of FMI 2.0 co-simulation."""
 
     def __init__(self, path=None):
         self.path = Path(path) if path else default_fmu()

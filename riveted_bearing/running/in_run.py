@@ -1,11 +1,11 @@
 """Parameters that changed and rivets that broke while the bearing ran, in words."""
 
-import re
 from typing import Any
 
 from bearing_model.generated import variables
 
 from ..base.units import scales_of, suffix
+from ..base.variable_list import variable_of
 from .results import Result
 from .summary import breaks, rivets_of
 
@@ -13,12 +13,6 @@ ALONE = (
     "all rivets are gone: the halves come apart, held by pockets and lands alone, and there is no stress of rivets; "
     "with scene.breakage = on such a run ends"
 )
-
-
-def variable_of(name: str) -> Any:
-    """The parameter of this name in the table, where those of an array have one entry; None for an unknown one."""
-    names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
-    return next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
 
 
 def unit_of(result: Result, name: str, variable: Any) -> Any:

@@ -78,12 +78,8 @@ class Scene:
 
 
 def load_scene(source: Any, model: Model, *changes: Any) -> Scene:
-    """Read a scene and apply changes to it.
-
-    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs, over at least
-    twice its start.settle; model: the Model to run it; changes: pairs (origin for messages, document like the file's), later ones win.
-    scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
-    Returns a Scene; raises UserError naming file, key, value and what is allowed.
+    """The Scene of a file or shipped name (None: the FMU's own, over twice start.settle) with changes: pairs (origin for
+    messages, document), later ones win.  UserError naming file, key, value and what is allowed.
     """
     start = Scene(parameters=ALWAYS)
     if source is None:
@@ -273,10 +269,7 @@ def surface_parameters(where, surfaces, model, folder):
 
 
 def profile_waves(race, profile, model, folder):
-    """Amplitudes and phases of a race's waves from one measured turn, by least squares; heights into the clearance.
-
-    The mean height is left out: it belongs to the groove's diameter.
-    """
+    """Amplitudes and phases of a race's waves from one measured turn; the mean height belongs to the groove's diameter."""
     from ..base import tables
     from ..bearing.surfaces import waves_of
 

@@ -174,8 +174,8 @@ def life_is_known(result: Result) -> bool:
 
 
 def static_and_swing(values: Any, place: str) -> Any:
-    """Stress of the rivets' heads ("head") or middles ("mid") in two parts: the largest mean of a rivet, and the largest
-    distance of a 99.9 % quantile from its own mean; values: stat.* by name.  Fatigue follows the second one.
+    """Largest mean of a rivet's heads ("head") or middles ("mid"), and largest 99.9 % quantile less its own mean, which fatigue
+    follows; values: stat.* by name.
     """
     kinds = (f"stat.rivet_{place}_{kind}[" for kind in ("mean", "p999"))
     mean, p999 = (np.array([values[name] for name in values if name.startswith(kind)], float) for kind in kinds)

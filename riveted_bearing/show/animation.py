@@ -37,10 +37,8 @@ def number_of_balls(result):
 
 
 def frames(result):
-    """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
-
-    Azimuths are relative to the mean rotation of the halves, `psi` [rad], so that they fit 16 bits; channels are
-    {first, step, data}: value = first + step n, n 16-bit numbers in base64; SI units.
+    """Data for animation.js (None if channels are missing), and the missing channels: azimuths relative to `psi` [rad], channels
+    as {first, step, data}: value = first + step n, 16-bit n in base64; SI.
     """
     Z = number_of_balls(result)
     missing = [name for name in needed(Z) if name not in result.data]

@@ -13,11 +13,12 @@ from bearing_model.generated import variables
 from ..base.errors import UserError
 from ..base.files import FORMATS, write_text
 from ..base.units import duration, figure
+from ..base.variable_list import variable_of
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
 from ..running.budget import computed_share, shown
-from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
+from ..running.in_run import alone_note, change_lines, later_values, unit_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
 from ..running.results import Result, read_result
@@ -73,11 +74,9 @@ def report_files(source):
 def report_pages(
     source: Any, out: Any = None, decides: Any = None, overlay: Any = None, columns: Any = None
 ) -> Iterator[Any]:
-    """Write a page for each result of a path and yield the pages' paths one by one.
+    """Write a page for each result of a path and yield their paths; UserError for no result, no numbers, or several in a file.
 
-    out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show;
-    overlay: CSV file of measured series, columns: their {channel: column} where names differ (overlay.py).
-    Raises UserError if there is no result, if one has no numbers, or if several are to go into one file.
+    out: file or folder, None: beside the results; decides: a Sensitivity; overlay, columns: as of read_measured.
     """
     sources, out = report_files(source), Path(out) if out else None
     as_file = out is not None and out.suffix in (".html", ".htm")

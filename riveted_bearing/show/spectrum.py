@@ -89,9 +89,7 @@ class Spectra:
 
 
 def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any:
-    """Spectra of a Result.  channel: name, default the first of CHANNELS that moves; band: (low, high) of the envelope in
-    Hz, default by spectral kurtosis.  UserError names what the result lacks.
-    """
+    """Spectra of a Result; channel: None, the first of CHANNELS that moves; band: of the envelope [Hz]; UserError if it lacks."""
     rows = settled(result)
     t = result.data["time"][rows]
     channel = channel or default_channel(result)
@@ -123,9 +121,7 @@ def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any
 
 
 def idle_settings(result: Result, found: Any) -> Any:
-    """Names of what the run's scene sets without effect on its Spectra, and the time [s] up to which that was seen; none
-    where the run cannot be repeated: its FMU is another one by now, or parameters or long inputs changed in it.
-    """
+    """Names set without effect on a run's Spectra, and until when [s] that was seen; none where the run cannot be repeated."""
     about, path = result.about, Path(result.about.get("fmu", ""))
     names = about.get("set", [])
     if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):

@@ -44,10 +44,8 @@ ROSS = {"x": "y", "y": "z", "z": "x"}  # its axes, z axial, by ours, x axial
 
 @dataclass(frozen=True)
 class Matrices:
-    """The bearing at one speed and load: place and matrices [5], [5, 5] in m, rad, N, N.m and s.
-
-    omega [rad/s], load: factor of the loads, frequency of the shake [rad/s]; q: equilibrium; K_static: quasi-static
-    stiffness; K, C: of the FMU, None without it.
+    """omega [rad/s], factor of the loads, frequency of the shake [rad/s], place q [5], K_static and the FMU's K and C [5, 5] or
+    None; m, rad, N, N.m, s.
     """
 
     omega: float
@@ -72,11 +70,7 @@ def dynamic_matrices(
     frequency: Any = None,
     progress: Any = lambda share: None,
 ) -> Any:
-    """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the
-    FMU refuses.
-
-    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz).
-    """
+    """The points with the FMU's K and C; frequency [rad/s]: None for the speed, at standstill 100 Hz; else UserError."""
     found = []
     for i, point in enumerate(points):
         w = frequency or point.frequency or 2.0 * math.pi * 100.0
@@ -206,12 +200,8 @@ def comments(basis):
 
 
 def ross_coefficients(found):
-    """Coefficients of ROSS 3's BearingElement: {kxx, kxy ... czz, speed [, frequency]}, its axes (x, y lateral, z axial)
-    for our (Y, Z, X).
-
-    speed: of the rotor, frequency: of the whirl, both [rad/s].  With more than one whirl at a speed, each coefficient
-    is a table [speed][frequency]; else one over speed. K and C of the FMU where they are known, else the quasi-static K
-    and no damping.
+    """Coefficients of ROSS 3's BearingElement by name over speed, with several whirls [speed][frequency] [rad/s], in its axes (x,
+    y lateral, z axial); quasi-static K and no damping where the FMU's are not known.
     """
     speeds, whirls = sorted({p.omega for p in found}), sorted({p.frequency for p in found})
     places = {(p.omega, p.frequency): p for p in found}
@@ -236,10 +226,7 @@ def entry(point, kind):
 
 
 def write_ross(found: Any, path: Path, node: int = 0, tag: str = "bearing", basis: Any = (), version: int = 3) -> Path:
-    """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising.
-
-    version: of ROSS.  In 2 the one axis is called frequency and is the rotor's speed; it has no tables over both.
-    """
+    """A TOML file for ross.BearingElement.load; in version 2 of ROSS the axis is called frequency, without tables over both."""
     coefficients = ross_coefficients(found)
     if version < 3:
         if "frequency" in coefficients:

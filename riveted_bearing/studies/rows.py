@@ -30,10 +30,8 @@ def decoded(found):
 
 
 class Store:
-    """The rows of a folder by key, in a file that one process holds at a time; a context manager.
-
-    A row is there once `add` has returned, whatever becomes of the process.  Rows stay when the design changes, so that
-    a run that belongs to it again is not done again.  Rows of a folder that has Parquet files only are taken over.
+    """The rows of a folder by key, in a file of one process at a time; a context manager.  A row is there once `add` returned,
+    stays when the design changes, and is taken over from Parquet files where these are all.
     """
 
     def __init__(self, folder):

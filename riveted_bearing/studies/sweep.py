@@ -129,14 +129,10 @@ class cluster:
 
 
 def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, keys: Any = None) -> dict[str, np.ndarray]:
-    """Do the runs that a sweep's folder lacks and return the rows that it then has, of the keys in their order if there are
-    some.
+    """Do the runs that a sweep's folder lacks and return its rows, of the keys in their order if some are given.
 
-    folder: of the rows, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with
-    the runs), or a function that gives it, called if something has to be simulated; progress:
-    called with the numbers of runs done, failed, and in all; keys: of the runs that are wanted, None for all. A worker that
-    dies is replaced by another; its run counts once.
-    A run that fails is a row with status and message, and is tried again in the next call.
+    client: of a Dask cluster with this package, or a function that gives it when needed; progress: called with runs done,
+    failed, in all.  A lost worker's run counts once; a failed one is a row, and is tried again in the next call.
     """
     with Store(folder) as store:
         try:
