@@ -238,13 +238,13 @@ def least_share(name, values):
 def given_names(model: Any, scene: Any = None) -> Any:
     """Names of the values that a scene or the bearing's own file gives, those of an oil that they name among them."""
     of_file = {name for name, origin in model.origin.items() if origin == "yours" or name_of({name: origin})}
-    return of_file | {*(scene.parameters if scene else ()), *(given_inputs(scene) if scene else ())}
-
-
-def given_inputs(scene):
-    """Names of the inputs that a scene gives; parts that are as warm as its oil by rule are not among them."""
-    oil = scene.inputs.get("oil.T")
-    return {name for name, history in scene.inputs.items() if name == "oil.T" or history is not oil}
+    if scene is None:
+        return of_file
+    oil = scene.inputs.get("oil.T")  # parts that are as warm by rule are not given
+    return of_file | {
+        *scene.parameters,
+        *(n for n, history in scene.inputs.items() if n == "oil.T" or history is not oil),
+    }
 
 
 def is_example(model: Any) -> Any:

@@ -28,11 +28,6 @@ def parameters_of(v):
     return in_force(p)
 
 
-def of_table(limit):
-    """A limit of the table over the names of a bearing file."""
-    return Limit(limit.keys, lambda v: limit.margin(parameters_of(v), v["Z"]), limit.reason)
-
-
 def shape_of(v):
     """What half_shape.py needs of the cage half."""
     return scaling.shape_of(
@@ -83,7 +78,11 @@ RIBBON = tuple(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS)
 def limits_of(values):
     """All limits that a bearing with these values must keep, but those about values that are not known."""
     first, rest = (
-        tuple(of_table(limit) for limit in part if all(name in values for name in limit.needs))
+        tuple(
+            Limit(limit.keys, lambda v, limit=limit: limit.margin(parameters_of(v), v["Z"]), limit.reason)
+            for limit in part
+            if all(name in values for name in limit.needs)
+        )
         for part in (TABLE[:FIRST], TABLE[FIRST:])
     )
     return first + (RIBBON if ribbon.is_ribbon(values) else MACHINED) + OF_BODY + rest

@@ -146,7 +146,10 @@ def criterion(study: Any) -> str:
 def explore(study, evaluate):
     """Points of the search [n, d] and their means over seeds [n, m]."""
     optuna, file = optuna_library(), study.file
-    sampler = optuna.samplers.TPESampler(seed=file.seed, n_startup_trials=max(8, file.trials // 5), **quiet(optuna))
+    # experimental: variables together, points of one batch apart from each other
+    warnings.filterwarnings("ignore", category=optuna.exceptions.ExperimentalWarning)
+    options = {"multivariate": True, "constant_liar": True, "n_startup_trials": max(8, file.trials // 5)}
+    sampler = optuna.samplers.TPESampler(seed=file.seed, **options)
     found = optuna.create_study(directions=["minimize"] * len(study.objectives), sampler=sampler)
     points, values = [], []
     while len(points) < file.trials:
@@ -160,12 +163,6 @@ def explore(study, evaluate):
             found.tell(trial, np.nan_to_num(study.signs * mean[: len(study.objectives)], nan=BAD).tolist())
         points, values = [*points, *batch], [*values, *means]
     return np.array(points), np.array(values)
-
-
-def quiet(optuna):
-    """The sampler's experimental options: variables together, points of one batch apart from each other."""
-    warnings.filterwarnings("ignore", category=optuna.exceptions.ExperimentalWarning)
-    return {"multivariate": True, "constant_liar": True}
 
 
 def excess(study, values):

@@ -190,15 +190,11 @@ def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: N
     rates = np.zeros((len(mission.parts), *means.shape[1:]))
     at_start = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0]
     rates[kept] = at_start.reshape(len(kept), *means.shape[1:])
-    own = [[used.index(c) for c in own_cases(mission, i) if c in used] for i in range(len(mission.parts))]
+    simulated = [duty.blends[:, i].any(axis=0) & (part.scene is not None) for i, part in enumerate(mission.parts)]
+    own = [[used.index(c) for c in np.flatnonzero(cases).tolist() if c in used] for cases in simulated]
     runs_of = tuple(int(sum(counts[place] for place in places)) for places in own)
     damages_of = tuple(samples[places[0]] if places else None for places in own)
     return Life(mission, found, tuple(kept), bounds, runs_of, damages_of, rates)
-
-
-def own_cases(mission, i):
-    """Numbers of the cases that are part i itself, at all factors of preload; none if it is interpolated."""
-    return [] if mission.parts[i].scene is None else np.flatnonzero(mission.duty.blends[:, i].any(axis=0)).tolist()
 
 
 def used_cases(duty, kept):

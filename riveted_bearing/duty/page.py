@@ -255,17 +255,16 @@ def condition(values):
     return 1e-3 * math.hypot(*loads), RPM * (values.get("shaft.omega") or 0.0)
 
 
-def wrong_chart(fig, life):
-    """What the life's error is made of."""
-    tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades")
-
-
 CHARTS = {
     "life": (life_chart, WIDE, "Life and its confidence"),
     "shares": (share_chart, TALL, "Share of each point and event in the damage"),
     "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
     "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
-    "wrong": (wrong_chart, TALL, "How wrong the life may be, by parts"),
+    "wrong": (
+        lambda fig, life: tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades"),
+        TALL,
+        "How wrong the life may be, by parts",
+    ),
 }
 
 

@@ -143,15 +143,11 @@ def scatter(
         if tolerances.seeds > 1:
             spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
             shares = np.array([runs.mean() for runs in at_place]) / damage[place]
-            noise.append(np.sum((shares * relative_error(spread, tolerances.seeds)) ** 2))
+            error = np.expm1(np.minimum(spread, 5.0) ** 2) / tolerances.seeds  # of the mean of log-normal runs, squared
+            noise.append(np.sum(shares**2 * error))
     lives = np.array(lives)
     share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
     return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))
-
-
-def relative_error(spread, count):
-    """Standard error of ln of the mean of n log-normal runs whose logarithms scatter by `spread`."""
-    return np.sqrt(np.expm1(np.minimum(spread, 5.0) ** 2) / count)
 
 
 def decisive_parts(life, share):

@@ -108,11 +108,6 @@ class Found:
 # One run --------------------------------------------------------------------------------------------------------------
 
 
-def tolerance_of(model: Model, scene: Scene) -> float:
-    """The tolerance at which a scene runs."""
-    return float(scene.tolerance or scene.value("solver.tol", model))
-
-
 def sample(model: Model, scene: Scene, whole: bool = False) -> Sample:
     """The Sample of a scene; UserError where it has no statistics.  whole: with the Result and all outputs of the scene."""
     parameters = dict(scene.parameters)
@@ -347,7 +342,7 @@ def finer_settings(model: Model, scene: Scene, above: Sample, run: Any) -> tuple
 
 def shorter_steps(model, scene, above):
     """Parameters with which steps may be shorter than those of a scene's Sample."""
-    tolerance = tolerance_of(model, scene)
+    tolerance = float(scene.tolerance or scene.value("solver.tol", model))
     if above.failed > FEW and tolerance * FINER >= FINEST:
         yield {"solver.tol": tolerance * FINER}
     for shorter in range(1, SHORTEST + 1):
@@ -370,7 +365,7 @@ def accurate(
         if not open_ones:
             break
         if level + 1 < LEVELS and any(
-            of_bias(each) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)
+            abs(each.shift) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)
         ):
             before, level, m = {name: each.shift for name, each in found.items()}, level + 1, 1
             continue
@@ -381,7 +376,7 @@ def accurate(
             raise UserError(
                 f"accuracy {100 * target:g} %: {FIGURES[name][0]} is known to {100 * each.half / abs(each.value):.2g} % after {len(runs.done)} "
                 f"runs; {100 * target:g} % would take about {needed:,.0f} seeds, {needed * each_costs:,.0f} s of processor time, and {within:,.0f} s are "
-                f"allowed: {100 * reachable(each, target, needed, within / each_costs):.2g} % can be reached, or a longer time (within)"
+                f"allowed: {100 * target * math.sqrt(needed / max(within / each_costs, 1.0)):.2g} % can be reached, or a longer time (within)"
             )
         n = int(max(n + 1, min(math.ceil(needed), GROWTH * n)))
         m = (n + 1) // 2
@@ -398,11 +393,6 @@ def accurate(
     )
 
 
-def of_bias(each):
-    """The part of a half-width that the finer run's own error makes, which no seeds reduce."""
-    return abs(each.shift)
-
-
 def is_bias(each):
     """Whether the shift is more than scatter."""
     return abs(each.shift) > each.seeds
@@ -410,14 +400,9 @@ def is_bias(each):
 
 def runs_needed(each, target):
     """Runs with which the scatter would be narrow enough beside the bias."""
-    bias = of_bias(each) if is_bias(each) else 0.0
+    bias = abs(each.shift) if is_bias(each) else 0.0  # of the finer run's own error, which no seeds reduce
     room = (target * abs(each.value)) ** 2 - bias**2
     return each.runs[0] * (each.half**2 - bias**2) / room if room > 0.0 else GROWTH * each.runs[0]
-
-
-def reachable(each, target, needed, runs):
-    """Share of the value that a number of runs reaches."""
-    return target * math.sqrt(needed / max(runs, 1.0))
 
 
 def no_way(each, target, before, level):
@@ -425,7 +410,7 @@ def no_way(each, target, before, level):
     share = 100.0 / abs(each.value)
     if each.one_motion and each.seeds > target * abs(each.value):
         return f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
-    if is_bias(each) and of_bias(each) > target * abs(each.value):
+    if is_bias(each) and abs(each.shift) > target * abs(each.value):
         if before and abs(each.shift) > FALLS * abs(before):
             return f"its bias of {share * abs(before):.2g} % does not fall with the step: {share * abs(each.shift):.2g} % is left at shorter ones"
         if level + 1 >= LEVELS:

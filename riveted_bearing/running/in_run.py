@@ -7,7 +7,7 @@ from bearing_model.generated import variables
 from ..base.units import scales_of, suffix
 from ..base.variable_list import variable_of
 from .results import Result
-from .summary import breaks, rivets_of
+from .summary import breaks, count_note, rivets_of, settle_note, speed_note
 
 ALONE = (
     "all rivets are gone: the halves come apart, held by pockets and lands alone, and there is no stress of rivets; "
@@ -88,6 +88,12 @@ def largest_damage(result):
         if (name := f"rivet[{k}].damage_{short}") in result.summary
     ]
     return max(found, default=(0.0, 0, ""), key=lambda each: each[0])
+
+
+def notes(result: Result) -> list[str]:
+    """Sentences that a reader of a run's figures has to know."""
+    kinds = (settle_note, count_note, speed_note, alone_note)
+    return [text for note in kinds if (text := note(result))]
 
 
 def alone_note(result: Result) -> str:

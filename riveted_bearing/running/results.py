@@ -159,8 +159,9 @@ def check_result(result, path):
         if not is_number(value):
             raise UserError(f"{path}: {name} = {value!r}: not a number")
     for name, value in result.about.items():
-        if problem := origin_problem(name, value):
-            raise UserError(f"{path}: {name} = {value!r}: {problem}")
+        for names, holds, words in ORIGINS:
+            if name in names.split() and not holds(value):
+                raise UserError(f"{path}: {name} = {value!r}: {words}")
 
 
 def is_number(value):
@@ -191,11 +192,6 @@ ORIGINS = (  # facts about the origin of a result: their names, test, and what i
     ("rivet", lambda value: is_table(value, is_number), "not a table of numbers"),
     ("t_end step settle_turns count_turns", is_number, "not a number"),
 )
-
-
-def origin_problem(name, value):
-    """What is wrong with a fact about the origin of a result, nothing if it may stand there or has no meaning here."""
-    return next((words for names, holds, words in ORIGINS if name in names.split() and not holds(value)), "")
 
 
 def parameter_problem(name, value):

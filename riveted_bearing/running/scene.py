@@ -97,7 +97,8 @@ def load_scene(source: Any, model: Model, *changes: Any) -> Scene:
         scene = apply(scene, where, document, model, folder)
     check_times(scene, " with ".join([*filter(None, [scene.source]), *(where for where, _ in changes)]))
     replaced = tuple(replacements(of_file, scene, model))
-    return warm(replace(scene, outputs=scene.outputs or default_outputs(model), replaced=replaced), model)
+    all_but_statistics = tuple(name for name in [*model.inputs, *model.outputs] if not name.startswith("stat."))
+    return warm(replace(scene, outputs=scene.outputs or all_but_statistics, replaced=replaced), model)
 
 
 def warm(scene, model):
@@ -308,11 +309,6 @@ def select(patterns, model):
             raise unknown("outputs", "name", pattern, names)
         chosen.update(matches)
     return tuple(name for name in names if name in chosen)
-
-
-def default_outputs(model):
-    """All inputs and outputs but the statistics, which are read once at the end."""
-    return tuple(name for name in [*model.inputs, *model.outputs] if not name.startswith("stat."))
 
 
 def check_times(scene, where):

@@ -68,7 +68,7 @@ def frames(result):
         "time": packed(data["time"][rows]),
         "turned": {name: packed(values[rows]) for name, values in turned.items()},
         "channels": {
-            name: quantized(thinned(values, stride) if shows_peak(name) else values[rows])
+            name: quantized(thinned(values, stride) if is_peak(name) or name.startswith("stress") else values[rows])
             for name, values in channels.items()
         },
         "scale": exaggeration(p),
@@ -85,11 +85,6 @@ def thinning(rows, Z, bends=False):
     """Distance of the rows to keep, so that all channels in base64 fit the budget; bends: elastic halves."""
     channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2 + bends * len(FLEX))
     return max(1, -(-rows * channels * 8 // (3 * BUDGET)))
-
-
-def shows_peak(name):
-    """Whether a channel holds largest values between frames."""
-    return is_peak(name) or name.startswith("stress")
 
 
 def thinned(values, stride):

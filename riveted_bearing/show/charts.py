@@ -11,7 +11,6 @@ from matplotlib.colors import LogNorm
 from ..base.errors import UserError
 from ..running.summary import columns, settled
 from . import plot, spectrum
-from .orbit import cage_orbit as draw_orbit
 from .plot import wanted
 from .spectrum import density
 from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
@@ -271,7 +270,7 @@ def section(figure, result):
 def cage_orbit(figure, result):
     """Orbit of the cage's centre in its guide clearance."""
     ax = figure.subplots()
-    draw_orbit(ax, result)
+    plot.cage_orbit(ax, result)
     ax.set_title("")
 
 

@@ -18,7 +18,7 @@ from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
 from ..running.budget import computed_share, shown
-from ..running.in_run import alone_note, change_lines, later_values, unit_of
+from ..running.in_run import change_lines, later_values, notes, unit_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
 from ..running.results import Result, read_result
@@ -28,15 +28,12 @@ from ..running.summary import (
     breaks,
     clearance_of_cage,
     columns,
-    count_note,
     early_rows,
     flag_note,
     has_statistics,
     life_is_known,
     no_statistics,
-    settle_note,
     settled,
-    speed_note,
     summary_rows,
     table_note,
 )
@@ -102,6 +99,8 @@ def render(result, decides=None, measured=()):
     """The page as text; decides: see report_pages; measured: Series beside the run's."""
     film, missing = frames(result)
     lives, elastic = all_lives(result), result.parameters.get("scene.cage") == "elastic"
+    absent = () if elastic else OF_ELASTIC
+    absent = absent if charts.vibrates(result) else (*absent, "vibration")  # of races that are not perfect
     return page_text(
         "page.html",
         about=NOT_SAID | result.about,
@@ -134,7 +133,7 @@ def render(result, decides=None, measured=()):
         **wrong(result),
         measured_in=measured_in(rows),
         as_bronze=assumed_as_bronze(result),
-        notes=[text for note in (settle_note, count_note, speed_note, alone_note) if (text := note(result))],
+        notes=notes(result),
         decides=decides,
         measured=views(measured),
         display_of=display_of,
@@ -143,7 +142,7 @@ def render(result, decides=None, measured=()):
         changes=change_lines(result),
         accelerated=accelerated(result),
         solver=list(solver_rows(result)),
-        charts={name: chart(result, name, lives) for name in CHARTS if is_shown(name, result, elastic)},
+        charts={name: chart(result, name, lives) for name in CHARTS if name not in absent},
         figure=figure,
         duration=duration,
     )
@@ -191,11 +190,6 @@ CHARTS = {  # name: draw(figure, result), size, label, channels that the chart n
     "energy": (charts.energy, LOW, "Power loss and energy balance over time", "bearing.power_loss"),
 }
 OF_ELASTIC = ("joints",)  # charts of elastic cage halves alone
-
-
-def is_shown(name, result, elastic):
-    """Whether the page has this chart: some belong to elastic halves, one to races that are not perfect."""
-    return (elastic or name not in OF_ELASTIC) and (name != "vibration" or charts.vibrates(result))
 
 
 def chart(result, name, lives):
