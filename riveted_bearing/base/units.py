@@ -193,6 +193,11 @@ def scales_of(unit: str, displays: Any) -> Any:
     return Scales({unit: (1.0, 0.0)} | displays | more)
 
 
+def differences(scales: Any) -> dict[str, tuple[float, float]]:
+    """Scales of a difference: without the offset of degrees Celsius."""
+    return {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
+
+
 def plain(symbol):
     """A unit in one way of writing: u for µ, a point between factors, digits for powers."""
     symbol = re.sub(r"\s+per\s+", "/", str(symbol or "").strip().translate(WRITTEN))

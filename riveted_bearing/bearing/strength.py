@@ -243,6 +243,7 @@ def quantile(strength):
     return float(norm.ppf(1.0 - strength.survival))
 
 
+@np.errstate(over="ignore")
 def reversed_amplitudes(law: Any, span: Any, mean: Any) -> np.ndarray:
     """fully_reversed() of many cycles: amplitudes at zero mean stress of arrays of ranges and means [Pa]."""
     half, mean = 0.5 * np.asarray(span, float), np.asarray(mean, float)

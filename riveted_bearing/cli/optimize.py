@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from ..base.files import make_folder
 from .printing import document_of, note, print_budgets, print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
+from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
 
 
 @command
@@ -18,9 +18,7 @@ def optimize(
         typer.Argument(help="study file (TOML): variables, limits, objectives; see docs/life.md", metavar="STUDY.toml"),
     ],
     fmu: FMU = None,
-    out: Annotated[
-        Path | None, typer.Option(help="folder of runs, optimize.json and picture; default: results/STUDY")
-    ] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):

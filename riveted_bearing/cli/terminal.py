@@ -49,6 +49,10 @@ FMU = Annotated[
     Path | None,
     typer.Option("--fmu", help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed"),
 ]
+OUT = Annotated[
+    Path | None,
+    typer.Option("--out", help="folder of runs, results and page; default: results/ and the name of the file"),
+]
 SETTINGS = Annotated[
     list[str] | None,
     typer.Option(
@@ -155,18 +159,6 @@ def command(function):
     return program.command()(guarded(function))
 
 
-@contextlib.contextmanager
-def resumable(folder):
-    """For work whose parts are kept in a folder one by one: Ctrl-C becomes one line that says so."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        messages.print(
-            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others"
-        )
-        raise typer.Exit(INTERRUPTED) from None
-
-
 def changes(model, settings, seed, t_end, step, accuracy=None):
     """The options of the command line as a document with the structure of a scene file."""
     document = {"parameters": {}, "inputs": {}, "simulation": {}}
@@ -248,10 +240,15 @@ def design_runs(name, folder, scheduler, workers):
     """For a study: a function that starts the cluster when it is first called, and one for progress."""
     from ..studies.sweep import cluster
 
-    with resumable(folder), contextlib.ExitStack() as stack:
-        progress = stack.enter_context(sweep_progress())
-        client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
-        yield client, functools.partial(progress, name)
+    try:
+        with contextlib.ExitStack() as stack:
+            progress = stack.enter_context(sweep_progress())
+            client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
+            yield client, functools.partial(progress, name)
+    except KeyboardInterrupt:
+        kept = f"finished runs are kept in {escape(str(folder))}; the same command does the others"
+        messages.print(f"interrupted: {kept}")
+        raise typer.Exit(INTERRUPTED) from None
 
 
 class RealTimeFactor(ProgressColumn):

@@ -4,11 +4,9 @@ The step's bias is that of finer runs of the deciding case, the seeds' interval 
 seeds of the case fall on one motion; table, assumed values and model as in running/budget.py.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,10 +14,7 @@ from ..bearing.assumed import all_assumed
 from ..running.accuracy import DECADES, FIGURES, accurate, found_of, with_settings
 from ..running.budget import Budget, budget_of
 from ..running.runner import origin_of
-from .assess import places, used_cases
-
-if TYPE_CHECKING:
-    from .assess import Life, Runs
+from .assess import Life, Runs, places, used_cases
 
 STRESS = "stat.sigma_head_p999"
 

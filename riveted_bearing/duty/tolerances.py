@@ -13,7 +13,7 @@ import numpy as np
 from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.files import write_json
 from ..base.toml_files import leaves
-from ..base.units import check_alike, to_si
+from ..base.units import check_alike, differences, to_si
 from ..running.fmu import Model
 from .assess import Life, Runs, places
 from .blends import Case, loosened
@@ -94,11 +94,6 @@ def distribution(path, name, entry, model):
         return stats.triang((rest[0] - first) / (rest[1] - first), loc=first, scale=rest[1] - first)
     reason = "sd above 0, median above 0, factor above 1, low below high and mode between them are allowed"
     raise refusal(path, where, entry, reason)
-
-
-def differences(scales):
-    """Scales of a difference: without the offset of degrees Celsius."""
-    return {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
 
 
 def drawn(tolerances, seed):

@@ -11,7 +11,7 @@ from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.schema import Count, Named, Number, Section, Truth
 from ..base.tables import Table, Wanted
 from ..base.toml_files import leaves
-from ..base.units import SECONDS, scales_of, to_si
+from ..base.units import SECONDS, differences, scales_of, to_si
 from ..running.responses import COLUMNS as RESPONSES
 from ..studies.sweep import KINDS
 from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
@@ -86,7 +86,7 @@ def spread(path, key, value, scales, mean):
     if relative:
         found = abs(mean) * quantity(path, key, value, scales_of("1", {}))
     else:
-        found = quantity(path, key, value, {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()})
+        found = quantity(path, key, value, differences(scales))
     if not found > 0.0:
         zero = f"{value} of {mean:g} is 0" if relative and found == 0.0 else "one standard deviation"
         raise refusal(path, key, value, f"{zero}: greater than 0 is needed")
@@ -113,7 +113,7 @@ class Reader:
         if operation == "over":
             unit, scales = "1", scales_of("1", {})
         elif operation == "minus":
-            scales = {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
+            scales = differences(scales)
         for key in ("value", "uncertainty"):
             if getattr(block, key) is None:
                 raise UserError(f"{where}: {key} is missing: its weight follows from value and uncertainty")

@@ -18,23 +18,19 @@ V^2 [2/(n-1) + K/n] with the excess kurtosis K, that of 2/[2/(n-1) + K/n] degree
 benchmarks/coverage.py measures how often the interval holds a reference.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError
+from .fmu import Model
+from .results import Result
 from .runner import simulate
+from .scene import Scene
 from .seeds import seeded
 from .summary import columns, has_statistics, settled
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .results import Result
-    from .scene import Scene
 
 # name -> in words, unit, factor from SI; DECADES is a logarithm, the others are judged relative to their value
 FIGURES = {

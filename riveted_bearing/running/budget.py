@@ -11,25 +11,21 @@ shifts add with their signs, half-widths of each side as the root of their squar
 ranges of assumed values count as such.  A figure is in Pa, or in decades (log10 of damage, and of life with the other sign).
 """
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..base.errors import UserError
 from ..base.units import certain, figure, with_error
 from ..bearing.assumed import YOURS, Assumed, all_assumed
 from .accuracy import CONFIDENCE, DECADES, FIGURES, PRIOR, WITHIN, Found, Runs, accurate, found_in, sample_of
+from .fmu import Model
+from .results import Result
+from .scene import Scene
 from .seeds import PULSES
 from .summary import TABLE_TITLE, Row
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .results import Result
-    from .scene import Scene
 
 RULE = (
     "independent parts: shifts add with their signs, half-widths of each side as the root of the sum of their squares; "
