@@ -6,9 +6,7 @@ import sys
 
 
 def main():
-    """Run the command line; Ctrl-C before it is loaded ends it with a line, and after its work is done changes nothing
-    more.
-    """
+    """Run the command line; Ctrl-C before it is loaded ends it with a line, after its work changes nothing more."""
     gc.set_threshold(100_000)  # what is imported stays: to look for garbage in it takes a tenth of the start
     try:
         from .cli import program

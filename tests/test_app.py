@@ -161,7 +161,7 @@ def test_pandas_and_xarray_have_every_number_and_unit(short):
 def test_without_pandas_the_extra_is_named(result, monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(
-        UserError, match=re.escape('pandas is not installed: pip install -e ".[full]" in a checkout, or')
+        UserError, match=re.escape('needs the library pandas: pip install -e ".[full]" in a checkout, or')
     ):
         result.to_pandas()
 

@@ -11,7 +11,8 @@ from typer.testing import CliRunner
 
 from bearing_model.generated.variables import OUTPUTS
 from riveted_bearing.base.errors import UserError
-from riveted_bearing.building.compare import Statistic, compare, family, is_motion, through_reference
+from riveted_bearing.base.variable_list import variable_of
+from riveted_bearing.building.compare import Statistic, compare, is_motion, through_reference
 from riveted_bearing.cli import program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
@@ -97,7 +98,7 @@ def test_deviation_in_scatters():
 
 
 def test_names():
-    assert [family(name) for name in ("ball[12].Q_i", "rivet[3].N", "rivet.sigma_head_max", "ring.x")] == [
+    assert [variable_of(name).name for name in ("ball[12].Q_i", "rivet[3].N", "rivet.sigma_head_max", "ring.x")] == [
         "ball[j].Q_i", "rivet[k].N", "rivet.sigma_head_max", "ring.x",
     ]  # fmt: skip
 

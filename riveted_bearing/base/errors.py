@@ -17,15 +17,11 @@ INSTEAD = {  # names that are near to others of another meaning: what does it
 
 
 class UserError(ValueError):
-    """A file, name, value or unit that cannot be used; the message says where it stands, what it is and what is
-    allowed.
-    """
+    """A file, name, value or unit that cannot be used; the message says where it stands and what is allowed."""
 
 
 def unknown(where: Any, kind: Any, name: str, allowed: Any, prefix: str = "") -> UserError:
-    """The error for a name that is not among those allowed, with the nearest one if there is any; prefix: of all these
-    names, which does not make them alike.
-    """
+    """The error for a name that is not allowed, with the nearest one if there is any; prefix: of all these names."""
     bracketed = re.sub(r"\.(\d+)(?=\.|$)", r"[\1]", str(name))  # rivet.3.intact is rivet[3].intact
     near = [bracketed] if bracketed in allowed else get_close_matches(bracketed, list(allowed), n=1, cutoff=0.6)
     listed = shortlist([f"{prefix}{one}" for one in allowed]) if prefix else shortlist(allowed)

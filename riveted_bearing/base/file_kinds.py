@@ -20,9 +20,7 @@ KINDS = {  # keys that only such a file has, and the command that reads it
 
 
 def check_keys(path: str | Path, document: dict[str, Any], allowed: Any, meant: Any) -> None:
-    """UserError for a key that is not allowed in a file of the kind `meant`; where the key is of another kind of file,
-    the error names this kind and its command.
-    """
+    """UserError for a key that is not allowed; one of another kind of file names that kind and its command."""
     for key in document:
         if key not in allowed:
             for kind, (keys, command) in KINDS.items():

@@ -44,9 +44,7 @@ def cache_folder(name: str) -> Path:
 
 
 def write_atomically(path: Path, write: Any) -> None:
-    """Let write(temporary path) make a file beside `path`, then rename it to `path`: never half a file.  UserError if
-    folder or disk refuse.
-    """
+    """Let write(temporary path) make a file, then rename it to `path`: never half a file; UserError if that fails."""
     make_folder(path.parent)
     temporary = path.with_name(f".{path.stem}.{secrets.token_hex(8)}{path.suffix}")
     try:

@@ -6,11 +6,8 @@ from multiprocessing import resource_tracker
 
 
 class held_interrupts:
-    """While this context lasts, Ctrl-C only sets `pending`, and does nothing if nobody asks for it.
-
-    Python's handler would raise KeyboardInterrupt between any two instructions, also between a finished step and its
-    place in the result, or in a callback of the FMU, where an exception is lost.  Only a program's main thread receives
-    Ctrl-C: in any other nothing changes.
+    """While this context lasts, Ctrl-C only sets `pending`: else KeyboardInterrupt may come between a finished step and its
+    place in the result, or in a callback of the FMU, where it is lost.  Nothing changes outside a program's main thread.
     """
 
     def __enter__(self):
@@ -30,10 +27,8 @@ class held_interrupts:
 
 
 class kept_from_children(held_interrupts):
-    """While this context lasts, Ctrl-C only sets `pending`; processes that are started meanwhile never receive it: they
-    inherit the mask.
-
-    Where signals have no masks (Windows), it is ignored instead and `pending` stays false.
+    """Ctrl-C only sets `pending`, and processes started meanwhile never receive it: they inherit the mask.  Where signals have
+    no masks (Windows), it is ignored and `pending` stays false.
     """
 
     def __enter__(self):

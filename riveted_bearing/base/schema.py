@@ -10,6 +10,7 @@ A number is SI in the model, a number or a text with its unit in the file.
 """
 
 import types
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, Any, TypeVar, get_args
 
@@ -38,9 +39,7 @@ class Rule:
 
 @dataclass(frozen=True, eq=False)
 class Number(Rule):
-    """A number within limits, in the file also with one of the units of `scales`; words: what is allowed, if not the
-    limits; times: factor of the SI value, as for hours.
-    """
+    """A number within limits, in the file also with one of the units of `scales`; words: what is allowed, if not the limits."""
 
     scales: Any = None
     least: float | None = None
@@ -122,15 +121,26 @@ class Choice(Rule):
         return {"type": "string", "enum": [*self.names]}
 
 
-def list_of_texts(value: Any) -> list[str]:
-    """A list of texts that is not empty."""
-    if not isinstance(value, list) or not value or not all(isinstance(entry, str) for entry in value):
-        raise UserError("a list of texts is needed")
-    return value
+def holds(test: Callable[[Any], Any], words: str, when: Any = BeforeValidator) -> Any:
+    """Part of a field's annotation: a value that fails the test is refused in these words; when: AfterValidator for a test
+    of what the annotation has read.
+    """
+
+    def tested(value: Any) -> Any:
+        if not test(value):
+            raise UserError(words)
+        return value
+
+    return when(tested)
+
+
+def is_list_of(value: Any, kind: type) -> bool:
+    """Whether a value of a file is a list whose entries are all of a kind; a truth value is no number."""
+    return isinstance(value, list) and all(isinstance(x, kind) and not isinstance(x, bool) for x in value)
 
 
 Text = Annotated[str, BeforeValidator(str)]  # anything, as a text
-Texts = Annotated[list[str], BeforeValidator(list_of_texts)]
+Texts = Annotated[list[str], holds(lambda value: is_list_of(value, str) and value, "a list of texts is needed")]
 Truth = StrictBool
 Named = dict[str, Any]  # variables of the FMU by name, which only the FMU can check
 WORDS = {
@@ -143,10 +153,7 @@ WORDS = {
 
 
 def checked(kind: type[S], document: Any, path: Any, where: str = "") -> S:
-    """A document as a section of a kind; UserError naming file, key, value and what is allowed.
-
-    where: key of the section in the file, "" for the whole file.
-    """
+    """A document as a section, `where` in the file ("" for all of it); UserError naming file, key, value and what is allowed."""
     try:
         return kind.model_validate(document)
     except ValidationError as problem:

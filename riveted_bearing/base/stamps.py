@@ -41,9 +41,7 @@ def is_stamp(text):
 
 
 def parse(text):
-    """The parts of a stamp: (two days since a date, by both orders of day and month, None for no date; seconds of the day); None
-    if it is no stamp.
-    """
+    """((days by both orders of day and month) or None for no date, seconds of the day); None if it is no stamp."""
     match = STAMP.fullmatch(text)
     if match is None:
         return None
@@ -120,6 +118,15 @@ class Stamps:
             self.midnights, self.last = days[-1], clock[-1]
         self.first = self.first or (days[0], clock[0])
         return DAY * (days - self.first[0]) + (clock - self.first[1])
+
+
+def stamps_of(texts, where):
+    """The Stamps of a column of texts; UserError if its days and months may be exchanged."""
+    texts = iter(texts)
+    if not may_turn(first := next(texts, "")):
+        return Stamps()
+    parts = [own for text in (first, *texts) if (own := parse((text or "").strip())) is not None]
+    return Stamps(month_is_first(parts, where))
 
 
 def month_is_first(parts, where):

@@ -11,7 +11,7 @@ from .encodings import encoding_of
 from .errors import UserError, extra
 from .files import one_line
 from .heads import split_head
-from .stamps import Stamps, is_stamp, may_turn, month_is_first, parse
+from .stamps import Stamps, is_stamp, parse, stamps_of
 from .units import is_unit
 
 BLOCK = 65536  # rows that are read together
@@ -113,11 +113,7 @@ class TextRows:
     def stamps(self, place):
         """The Stamps of a column; UserError if its days and months may be exchanged."""
         column = (row[place] for _, row in self.rows(self.separator, self.first) if place < len(row))
-        first = next(column, "")
-        if not may_turn(first):
-            return Stamps()
-        parts = [own for text in (first, *column) if (own := parse(text.strip())) is not None]
-        return Stamps(month_is_first(parts, f'{self.path}: column "{self.heads[place]}"'))
+        return stamps_of(column, f'{self.path}: column "{self.heads[place]}"')
 
     def blocks(self, places, timed=()):
         """Row numbers and the numbers of some columns, in pieces; timed: places of those that may hold dates."""
@@ -183,9 +179,7 @@ def seconds_of(stamps, entries, path, head):
 
 
 def head_of(sample):
-    """Share of rows of another length, first row of numbers, and names with their units, from the first rows of a file:
-    the names are the first row without a number before a row with numbers that is as long.
-    """
+    """Share of rows of another length, first row of numbers, names with units: the last row without numbers that is as long."""
     for k, ((_, names), (row, entries)) in enumerate(pairwise(sample)):
         names = [" ".join(name.split()) for name in named(names)]
         if len(names) < 2 or any(map(is_number, names)) or not fits(names, entries):
@@ -298,11 +292,7 @@ class ParquetRows:
 
         if types.is_temporal(self.file.schema_arrow.types[place]):
             return []
-        texts = self.texts(place)
-        if not may_turn(texts[0]):
-            return Stamps()
-        parts = [own for text in texts if (own := parse((text or "").strip())) is not None]
-        return Stamps(month_is_first(parts, f'{self.path}: column "{self.heads[place]}"'))
+        return stamps_of(self.texts(place), f'{self.path}: column "{self.heads[place]}"')
 
     def blocks(self, places, timed=()):
         """Row numbers and the numbers of some columns, in pieces; timed: places of those that may hold dates."""

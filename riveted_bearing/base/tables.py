@@ -144,10 +144,8 @@ class Table:
 
 
 class Clock:
-    """Times of a record as they come in pieces: they increase and, where the rate is fixed, leave no gap.
-
-    gap: longest interval [s] that is allowed; None: GAP usual intervals.  A gap ends in a UserError if strict, else in
-    the note.
+    """Times of a record in pieces: they increase and, at a fixed rate, leave no gap [s], None: GAP usual intervals; else a
+    UserError if strict, or the note.
     """
 
     def __init__(self, path, head, gap=None, strict=True):

@@ -193,6 +193,11 @@ def scales_of(unit: str, displays: Any) -> Any:
     return Scales({unit: (1.0, 0.0)} | displays | more)
 
 
+def differences(scales: Any) -> dict[str, tuple[float, float]]:
+    """Scales of a difference: without the offset of degrees Celsius."""
+    return {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
+
+
 def plain(symbol):
     """A unit in one way of writing: u for µ, a point between factors, digits for powers."""
     symbol = re.sub(r"\s+per\s+", "/", str(symbol or "").strip().translate(WRITTEN))
@@ -332,10 +337,7 @@ def hours_text(hours: Any, digits: int = 3) -> str:
 
 
 def to_si(value: Any, scales: Any) -> float:
-    """SI value of a number (SI already) or of a text with a unit: 0.01, "10 mm".
-
-    Raises UserError for a text without a unit, a unit that does not fit, or anything that is not a finite number.
-    """
+    """SI value of a number (SI already) or of a text with a unit, "10 mm"; UserError for anything that is not a finite one."""
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
         if not match:

@@ -15,6 +15,12 @@ KINDS = {"Inputs": INPUTS, "Parameters": PARAMETERS, "Outputs": OUTPUTS, "Locals
 KNOWN = INPUTS | PARAMETERS | OUTPUTS | LOCALS
 
 
+def variable_of(name: str) -> Any:
+    """The variable of a name in the table, where those of an array have one entry; None for an unknown name."""
+    names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
+    return next((KNOWN[known] for known in names if known in KNOWN), None)
+
+
 def essentials() -> Any:
     """The essential variables by question."""
     return {title: [KNOWN[name] for name in names] for title, names in ESSENTIALS.items()}
@@ -26,9 +32,7 @@ def is_like(text: str, pattern: Any) -> bool:
 
 
 def matching(pattern: Any) -> Any:
-    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; UserError if
-    there are none.
-    """
+    """Variables by kind whose name matches a pattern with *, or whose name or description contains it; or UserError."""
     general = re.sub(r"\[\d+\]", "[*]", pattern)  # ball[3].Q_i is one of ball[j].Q_i
     pattern_or_word = general if "*" in general else f"*{general}*"
 
@@ -45,9 +49,7 @@ def matching(pattern: Any) -> Any:
 
 
 def row(variable: Any, model: Any = None) -> Any:
-    """Name, kind, unit, start, limits and description in the unit in which people read the variable; the start value is
-    that of `model`, if given.
-    """
+    """Name, kind, unit, start (of `model`, if given), limits and description in the unit in which people read it."""
     kind = next(title for title, known in KINDS.items() if variable.name in known).removesuffix("s").lower()
     symbol = variable.display or variable.unit
     start = allowed = ""

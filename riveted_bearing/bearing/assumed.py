@@ -102,9 +102,7 @@ def ranges():
 
 
 def ranges_of(given: Any, example: bool, parameters: Any) -> dict[str, Range]:
-    """Ranges of the values that were neither given nor follow from others; example: whether the bearing is the 6207, else
-    those by rule are among them.
-    """
+    """Ranges of the values that nobody gave and that follow from no others; example: whether it is the 6207."""
     own, by_rule = ranges()
     found = own if example else own | by_rule
     return {name: each for name, each in found.items() if not is_known(name, given, parameters)}
@@ -220,9 +218,7 @@ def assumed_as_bronze(result: Any) -> Any:
 
 
 def is_known(name, given, parameters):
-    """Whether a parameter is given, or follows from others that are: the viscosity from both its points, the mixture's
-    density from the flow of oil; or has no effect: the clearance of a land that a cage guided by its balls does not have.
-    """
+    """Whether a parameter is given, follows from others that are, or has no effect, as the clearance of no land."""
     follows = {
         "oil.eta": {"oil.nu_1", "oil.nu_2"} <= given,
         "oil.rho_mix": "oil.flow" in given and parameters["oil.flow"] > 0.0,
@@ -242,13 +238,13 @@ def least_share(name, values):
 def given_names(model: Any, scene: Any = None) -> Any:
     """Names of the values that a scene or the bearing's own file gives, those of an oil that they name among them."""
     of_file = {name for name, origin in model.origin.items() if origin == "yours" or name_of({name: origin})}
-    return of_file | {*(scene.parameters if scene else ()), *(given_inputs(scene) if scene else ())}
-
-
-def given_inputs(scene):
-    """Names of the inputs that a scene gives; parts that are as warm as its oil by rule are not among them."""
-    oil = scene.inputs.get("oil.T")
-    return {name for name, history in scene.inputs.items() if name == "oil.T" or history is not oil}
+    if scene is None:
+        return of_file
+    oil = scene.inputs.get("oil.T")  # parts that are as warm by rule are not given
+    return of_file | {
+        *scene.parameters,
+        *(n for n, history in scene.inputs.items() if n == "oil.T" or history is not oil),
+    }
 
 
 def is_example(model: Any) -> Any:

@@ -1,25 +1,7 @@
-"""Bearings by designation or file: given values, values of the catalogue, values by rule, and results that need no
-simulation.
+"""Bearings by designation or file (docs/own_bearing.md, bearing_keys.py).  A number is SI, a text carries its unit.
 
-    designation = "6310"  # one of the catalogue's fills in what is not given below
-    Z = 8
-    oil = "mineral ISO VG 32"  # optional (oil.py)
-    [catalogue]           # optional: bore, outside_diameter, width [m], C, C_0, C_u, minimum_load [N]
-    [parameters]          # start values of the FMU made from this file
-    bearing.D = "19.05 mm"
-    [cage]                # optional, like [rings], [balls] and [rivet]: material by name or as a table, single properties (materials.py)
-    material = "steel"
-    [rivet]               # optional: dimensions by the names of rivet_model.geometry
-    shank_diameter = "2 mm"
-    head = "DIN 660"      # optional: head diameter and height by a standard (rivet_heads.py)
-    [inputs]              # start values too
-    shaft.F_y = 6000.0
-    [between]             # optional: what the drawing allows of a given value, a dimension of the rivet or a temperature too
-    cage.pocket_clearance = ["0.18 mm", "0.23 mm"]
-
-A number is SI, a text carries its unit.  What is left out comes from the catalogue (catalogue.py) if it knows the
-designation, by rule (scaling.py) from the rivet's shank, and from balls and pitch diameter if these differ from the
-6207's, else from the variable table; Case.origin says which.
+What is left out comes from the catalogue (catalogue.py) if it knows the designation, by rule (scaling.py) from the rivet's
+shank, and from balls and pitch diameter if these differ from the 6207's, else from the variable table; Case.origin says which.
 """
 
 import math
@@ -56,8 +38,7 @@ OF_EXAMPLE = ("Z", "bearing.D", "bearing.d_m", "shaft.F_x", "shaft.F_y", "shaft.
 def bearing_case(source: Any, rivet: Any = None, cage: Any = None) -> Case:
     """The Case of a designation or a bearing file; UserError naming file, key, value and what is allowed.
 
-    rivet: file and keys of another rivet, as in a section [rivet]: a new shank leaves nothing of the bearing's own
-    rivet; cage: one of CAGES, None: the file's, else machined.
+    rivet: (file, keys) of another rivet, whose new shank leaves nothing of the bearing's own; cage: one of CAGES or None.
     """
     if cage is not None and cage not in CAGES:
         raise unknown("--cage", "shape", cage, CAGES)
@@ -103,9 +84,7 @@ def with_cage(path, document, cage):
 
 
 def check_designation(path, document):
-    """UserError for a designation that the catalogue does not know in a file that leaves the balls to it: those of the
-    6207 would take their place.
-    """
+    """UserError for an unknown designation in a file that leaves the balls to it: they would be the 6207's."""
     designation = document.get("designation", "")
     if isinstance(designation, bool) or not isinstance(designation, str | int):
         raise refusal(path, "designation", designation, 'a text such as "6210" is needed')
@@ -121,9 +100,7 @@ def check_designation(path, document):
 
 
 def entry_of(path, designation, data, given):
-    """The catalogue's Entry that a file's own [catalogue] stands for, whose balls follow by the rule of designations;
-    None where the file gives the balls itself or no catalogue value but the 6207's; UserError where values are missing.
-    """
+    """The Entry that a file's own [catalogue] stands for; None where the file gives balls or only the 6207's values."""
     shape = [name for name in ("Z", *SHAPE[:2]) if given.get(name) is None]
     example = catalogue.entries()[EXAMPLE].data
     if not shape or len(shape) < 3 or all(example[key] == value for key, value in data.items()):
@@ -138,9 +115,7 @@ def entry_of(path, designation, data, given):
 
 
 def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
-    """The Case of a document; own: how the origin of its values is called; prefix: of the rivet's keys in messages; usual:
-    parts whose material follows from the cage's shape.
-    """
+    """The Case of a document; own: name of its origin; prefix: of the rivet's keys; usual: parts of usual material."""
     check_keys(path, document, BearingFile.model_fields, "bearing file")
     file = checked(BearingFile, document | {"rivet": {}}, path)
     rivet = checked(RivetFile, section_of(path, document, "rivet"), path, prefix.removesuffix("."))
@@ -245,9 +220,7 @@ def unit_with_range(path, name):
 
 
 def check_boundary(path, document, data, entry):
-    """UserError for a boundary dimension that is another one than the catalogue's of the designation, from which the
-    pitch circle follows; load ratings differ between makers.
-    """
+    """UserError for another boundary dimension than the designation's, from which the pitch circle follows."""
     for key in BOUNDARY:
         if entry and key in data and not math.isclose(data[key], entry.data[key], rel_tol=1e-6):
             written = document["catalogue"][key]
@@ -262,9 +235,7 @@ def called(name, prefix):
 
 
 def ratings(Z, D, d_m):
-    """C and C_0 [N] by ISO 281 and ISO 76 for Z balls [m]: of a bearing without a catalogue's, or with another number of
-    balls, for which the catalogue's do not hold.
-    """
+    """C and C_0 [N] by ISO 281 and ISO 76 for Z balls [m], where no catalogue's hold."""
     return {"C": scaling.rounded(dynamic_rating(Z, D, d_m)), "C_0": scaling.rounded(static_rating(Z, D, d_m))}
 
 

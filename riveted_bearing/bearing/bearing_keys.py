@@ -4,8 +4,7 @@ from typing import Annotated, Any
 
 from pydantic import AfterValidator, Field, create_model
 
-from ..base.errors import UserError
-from ..base.schema import Choice, Count, Named, Number, Section, Text
+from ..base.schema import Choice, Count, Named, Number, Section, Text, holds
 from . import catalogue, materials
 from .file_values import rivet_unit, unit_scales
 from .rules import RIVET
@@ -18,19 +17,13 @@ BALLS = Count(5, "allowed: an integer from 5 to 32", 32)  # that an FMU can have
 Newtons = Annotated[float | None, Number(unit_scales("N"), above=0.0)]
 
 
-def small(size: float) -> float:
-    """A dimension of a rivet [m]; ValueError for one beyond all rivets."""
-    if size > LARGEST_RIVET:
-        raise UserError(f"at most {LARGEST_RIVET:g} m is allowed")
-    return size
+SMALL = holds(lambda size: size <= LARGEST_RIVET, f"at most {LARGEST_RIVET:g} m is allowed", AfterValidator)
 
 
 def dimension(name: str) -> Any:
     """The type of a rivet's dimension or constant."""
     number = Number(unit_scales(rivet_unit(name)), above=0.0)
-    if rivet_unit(name) != "m":
-        return Annotated[float | None, number]
-    return Annotated[float | None, number, AfterValidator(small)]
+    return Annotated[float | None, number, SMALL] if rivet_unit(name) == "m" else Annotated[float | None, number]
 
 
 class Catalogue(Section):

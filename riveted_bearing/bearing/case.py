@@ -83,9 +83,7 @@ class Case:
 
     @property
     def load(self):
-        """Loads, speeds and support of the inner ring relative to the outer one for the quasi-static model: gravity and
-        the frame's inertia act on ring.m and the balls.
-        """
+        """Loads, speeds and support of the inner ring against the outer one; gravity and inertia act on ring.m and balls."""
         given = {f.name: self.value(f"shaft.{f.name}") for f in fields(Load) if f"shaft.{f.name}" in variables.INPUTS}
         given |= {name: given.get(name, 0.0) - self.value(f"housing.{name}") for name in ("tilt_y", "tilt_z")}
         given["F_x"] += self.value("impact.F_a")
@@ -144,9 +142,7 @@ class Case:
         return self.solved(self.load, "exact")
 
     def standard_equilibrium(self):
-        """The QuasiStatic as ISO/TS 16281 has it, with linear kinematics and without centrifugal forces at its speeds;
-        UserError if there is none.
-        """
+        """The QuasiStatic of ISO/TS 16281: linear kinematics, no centrifugal forces; UserError if there is none."""
         at_rest = self.solved(replace(self.load, omega=0.0, omega_e=0.0, frame_omega=0.0), "linear")
         return replace(at_rest, load=self.load)
 

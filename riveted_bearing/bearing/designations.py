@@ -31,9 +31,7 @@ def find_bearing(source):
 
 
 def unknown_designation(where: Any, kind: Any, name: str, known: Any) -> UserError:
-    """The error for a designation that is not among the known ones: one with a suffix leads to the designation without
-    it, another number to no other bearing.
-    """
+    """The error for an unknown designation: a suffix leads to the one without it, another number to none."""
     name = str(name)
     number = re.match(r"\d{4,}(?!\d)", name)
     if number and number[0] in known and number[0] != name:

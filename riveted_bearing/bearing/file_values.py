@@ -20,9 +20,7 @@ def defaults():
 
 
 def shown(name, value, written, words=""):
-    """A value in the unit in which the user wrote it, SI for a bare number, else in the one in which people read it; a
-    bound is rounded to the allowed side.
-    """
+    """A value in the unit that the user wrote, else in the one that people read; a bound on its allowed side."""
     if name == "Z":
         return f"{value}"
     unit = unit_of(name)

@@ -28,11 +28,6 @@ def parameters_of(v):
     return in_force(p)
 
 
-def of_table(limit):
-    """A limit of the table over the names of a bearing file."""
-    return Limit(limit.keys, lambda v: limit.margin(parameters_of(v), v["Z"]), limit.reason)
-
-
 def shape_of(v):
     """What half_shape.py needs of the cage half."""
     return scaling.shape_of(
@@ -83,7 +78,11 @@ RIBBON = tuple(of_half(limit, RIBBON_NAMES) for limit in ribbon_shape.LIMITS)
 def limits_of(values):
     """All limits that a bearing with these values must keep, but those about values that are not known."""
     first, rest = (
-        tuple(of_table(limit) for limit in part if all(name in values for name in limit.needs))
+        tuple(
+            Limit(limit.keys, lambda v, limit=limit: limit.margin(parameters_of(v), v["Z"]), limit.reason)
+            for limit in part
+            if all(name in values for name in limit.needs)
+        )
         for part in (TABLE[:FIRST], TABLE[FIRST:])
     )
     return first + (RIBBON if ribbon.is_ribbon(values) else MACHINED) + OF_BODY + rest
@@ -95,11 +94,8 @@ def holds(limit, values):
 
 
 def bound(limit, value, values_with):
-    """What is allowed for one value: ("at most" or "at least", bound); None if nothing between a thousandth and a
-    thousand times the value would do.
-
-    value: as it is, which the limit refuses; values_with: a function of it that gives all values, those that follow
-    from it too.
+    """What is allowed for a refused value: ("at most" or "at least", bound), None if nothing within a thousand times does;
+    values_with: a function of it that gives all values.
     """
     if isinstance(value, int):
         fitting = [number for number in range(5, 33) if holds(limit, values_with(number))]

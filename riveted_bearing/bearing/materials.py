@@ -50,11 +50,8 @@ OF_GEOMETRY = {  # begin of the members of the rivet table's geometry
 
 @dataclass(frozen=True)
 class Part:
-    """What of a part's material is used, and where: parameters of the FMU and members of the rivet table's geometry by
-    property.
-
-    material: that of the 6207, in a part for which nothing is given; named: a parameter that may give the material's
-    name, too.
+    """Parameters of the FMU and members of the rivet table's geometry by property; material: the 6207's; named: a parameter
+    that may give the material's name.
     """
 
     material: str
@@ -91,9 +88,7 @@ PARTS = {
 
 @dataclass(frozen=True)
 class Material:
-    """Name and properties of one part's material [SI]; sources: in words, by property; given: the properties that the
-    bearing file decides, all if it names the material; by_rule: those that follow from others of the file.
-    """
+    """A part's material [SI]; sources: in words; given: what the file decides; by_rule: what follows from it."""
 
     name: str
     values: dict
@@ -135,12 +130,9 @@ def code_of(name):
 
 
 def material_of(path, part, section, given, as_written):
-    """The Material of a part.
+    """The Material of a part; UserError naming the key for what is unknown, given twice with two values, or without material.
 
-    section: the keys `material` and properties of the part's section of a bearing file; given: the file's parameters in
-    SI, which may name the material (Part.named) or give its properties by the FMU's names; as_written: the same as the
-    file has them.  Raises UserError naming the key for an unknown material or property, one that is given twice with
-    two values, or one that is given where no material is.
+    section: the part's section of a bearing file; given: the file's parameters in SI, as_written: as the file has them.
     """
     where = PARTS[part]
     for key in section:

@@ -48,21 +48,14 @@ NEEDED = ("nu_1", "T_1", "nu_2", "T_2", "T_0", "rho")
 
 
 def of_points(values):
-    """oil.eta [Pa.s] and oil.beta [1/K] at oil.T_0 by the two points; ValueError if they make no oil.
-
-    values: of the parameters oil.*, by full name.
-    """
+    """oil.eta [Pa.s] and oil.beta [1/K] at oil.T_0 by the points in values (oil.*); ValueError if they make no oil."""
     nu_1, T_1, nu_2, T_2, T_0, rho = (values[f"oil.{name}"] for name in NEEDED)
     points = Oil(nu_1, T_1, nu_2, T_2)
     return {"oil.eta": float(rho * points.nu(T_0)), "oil.beta": float(points.beta(T_0))}
 
 
 def viscosity(values, start, T):
-    """Viscosity [Pa.s] at T [K] as the FMU has it: a start value is that of the two points; ValueError if they make no
-    oil.
-
-    values, start: of the parameters oil.*, by full name, as they are and as the FMU has them at the start.
-    """
+    """Viscosity [Pa.s] at T [K] of parameters oil.*, by full name; one left at its start is that of the two points."""
     oil, own = map(plain, (values, start))
     return float(oil.eta * oil_ratios(oil, T, own if oil.eta == own.eta else oil)[0])
 
@@ -73,10 +66,7 @@ def plain(values: dict[str, Any]) -> SimpleNamespace:
 
 
 def check_given(where: Any, given: Any, written: Any, values: Any) -> Any:
-    """UserError if one document gives the viscosity twice, and differently.
-
-    given: the document's parameters in SI; written: the same as it has them; values: all of oil.*, by full name.
-    """
+    """UserError if a document's parameters (given, SI; written) have the viscosity twice, and differently; values: all oil.*."""
     if not {*POINTS} <= given.keys():
         return
     try:
@@ -102,10 +92,8 @@ def check_pair(where, given, written):
 
 
 def merged(earlier: Any, given: Any, start: Any) -> Any:
-    """Parameters of a scene with those that a later document gives.
-
-    Two points replace an earlier viscosity, and the FMU's own (`start`: values of its oil.*) where it is not that of
-    the FMU's points.
+    """Parameters of a scene with those of a later document; its two points replace an earlier viscosity, and the FMU's own
+    (`start`: its oil.*) where that is not that of the FMU's points.
     """
     if not {*POINTS} <= given.keys():
         return earlier | given
@@ -125,10 +113,9 @@ def kinds():
 
 
 def named(where: Any, written: Any, given: Any, start: Any) -> Any:
-    """Name and parameters of the oil that a document names, without those that it gives itself; "" and none for None.
+    """Name and parameters of the oil that a document names, without those that it gives; "" and none for None.
 
-    written: the document's value of `oil`; given: its parameters in SI; start: all of oil.* without the document, by
-    full name.
+    written: the document's `oil`; given: its parameters in SI; start: all of oil.* without it, by full name.
     """
     if written is None:
         return "", {}
@@ -188,9 +175,7 @@ def grade_of(where, written, kind, text):
 
 
 def points_of(where, written, kind, grade, given, values):
-    """oil.nu_1 and oil.nu_2 of a kind's oil: of its grade, or with the slope of its kind through the one viscosity that
-    a document gives; nothing where it gives both points.
-    """
+    """oil.nu_1 and oil.nu_2 of a kind's oil: of its grade, or through the one viscosity given; none if both are."""
     table, known = kinds()[kind]["grades"], [name for name in (*POINTS, "oil.eta") if name in given]
     if {*POINTS} <= given.keys():
         check_grade(where, written, grade, float(Oil(*(values[f"oil.{name}"] for name in NEEDED[:4])).nu(T_40)))
@@ -250,9 +235,7 @@ def density_of(entry, T_0):
 
 
 def pressure_of(entry, values):
-    """oil.alpha [1/Pa] at oil.T_0 and oil.alpha_T [1/K]: as measured, or alpha = s nu^t with its mean fall from 40 to
-    100 degC.
-    """
+    """oil.alpha [1/Pa] at oil.T_0, oil.alpha_T [1/K]: measured, or s nu^t with its mean fall from 40 to 100 degC."""
     T_0 = values["oil.T_0"]
     if hasattr(entry, "alpha"):
         return {"oil.alpha": entry.alpha * math.exp(-entry.alpha_T * (T_0 - T_JONES)), "oil.alpha_T": entry.alpha_T}

@@ -7,9 +7,7 @@ EXAMPLE = "6207"  # whose values stand where no rule leads to another
 
 
 def not_given(origin: Any) -> Any:
-    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file, which gives all
-    that its bearing needs.
-    """
+    """What was not given, by what stands for it: {"by rule": names, ...}; nothing for a shipped file."""
     if "shipped" in origin.values():
         return {}
     sources = {"catalogue": f"from {SOURCE}", "rule": "by rule", EXAMPLE: f"of the {EXAMPLE}"}

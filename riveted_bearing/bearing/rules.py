@@ -100,8 +100,7 @@ def check_limits(
 ) -> None:
     """UserError for a bearing that cannot be built, by the first limit that does not hold and a key that the user gave.
 
-    parts: Z, given parameters, rivet, inputs and catalogue data, and the catalogue's Entry; names: how the file calls
-    a value, if otherwise than a bearing file does; inside: in_cage of a rivet's file.
+    parts: as of rules(); names: what the file calls a value; inside: in_cage of a rivet's file.
     """
     values = limited_values(*parts)
     broken = next((limit for limit in limits.limits_of(values) if not limits.holds(limit, values)), None)

@@ -66,11 +66,9 @@ def rounded(value):
 
 
 def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None, designation=""):
-    """Parameters by rule for Z balls of the diameter D on the pitch diameter d_m [m]; what `given` holds stands, and
-    others that follow from it do.
+    """Parameters by rule for Z balls D on the pitch diameter d_m [m], beside `given` and what follows from it.
 
-    rivet: dimensions by the names of rivet_model.geometry; bore, width [m]: the 6207's in ball diameters, if not known;
-    designation: whose series a ribbon's sheet goes by.
+    rivet: by the names of Geometry; bore, width [m]: None for the 6207's in balls; designation: for a ribbon's sheet.
     """
     r = D / start("bearing.D")
     values = {"bearing.D": D, "bearing.d_m": d_m}
@@ -97,9 +95,7 @@ def scaled_joint(rivet):
 
 
 def scaled_materials(given):
-    """Parameters that follow from given materials: balls are of the rings' steel, the S-N curve of a rivet's steel
-    keeps its ratios to the strength, the land's contact stiffness goes with cage and ring (Hertz: K ~ E*).
-    """
+    """What follows from given materials: balls of the rings' steel, S-N curve by strength, K_land ~ E* (Hertz)."""
     values = {"bearing.rho": given["ring.rho"]} if "ring.rho" in given else {}
     if given.keys() & {*LAND}:
         values["cage.K_land"] = rounded(compliance({}) / compliance(given) * start("cage.K_land"))
@@ -129,9 +125,7 @@ def parts_temperatures(inputs):
 
 
 def shape_of(values, rivet):
-    """What half_shape.py needs of a cage half: values by the names of a bearing file, the rivet's by those of
-    rivet_model.geometry.
-    """
+    """What half_shape.py needs of a cage half: values by names of a bearing file, rivet's by those of Geometry."""
     cage = {name: values[parameter] for name, parameter in SHAPE.items()}
     if ribbon.is_ribbon(values):
         cage |= {name: values[parameter] for name, parameter in RIBBON.items()}
@@ -139,10 +133,8 @@ def shape_of(values, rivet):
 
 
 def half_inertia(values, rivet):
-    """INERTIA of the half that follows from shape and density, and the density that a mass among the values means where
-    none is among them.
-
-    A mass beside a density scales the moments of inertia.  A shape that leaves no bars has none of these.
+    """INERTIA of a half by shape and density (none of a shape without bars), and the density that a mass alone means; a mass
+    beside a density scales the moments.
     """
     shape = shape_of({"cage.rho": start("cage.rho")} | values, rivet)
     if not half_shape.has_bridges(shape):
@@ -160,11 +152,8 @@ def half_inertia(values, rivet):
 
 
 def inner_ring(bore, width):
-    """Inertia, damping and support of the inner ring with its share of the shaft, for bore and width over those of the
-    6207.
-
-    The support is similar too: its angular stiffness grows with the third power of the size, as ring.m does, and
-    ring.c_tilt with the root of stiffness times inertia.
+    """Inertia, damping and support of the inner ring with its shaft, for bore and width over the 6207's: similar, angular
+    stiffness as ring.m, ring.c_tilt as the root of stiffness times inertia.
     """
     mass, inertia = bore**2 * width, bore**4 * width
     values = {name: mass * start(name) for name in ("ring.m", "ring.c", "ring.k_tilt")}
@@ -181,9 +170,7 @@ def cage_sizes(D, d_m):
 
 
 def scaled_rivet(Z, D, d_m, given, rivet, bore=None, designation=""):
-    """Lengths of the rivet and its seat by rule [m]; the seat's counterbore leaves metal around it, as far as the head
-    has room at all.  bore [m], designation: by which those of a ribbon cage go.
-    """
+    """Lengths of the rivet and its seat by rule [m], the counterbore with metal around it; bore, designation: for ribbons."""
     r = D / start("bearing.D")
     if ribbon.is_ribbon(given):
         bore = d_m - (start("bearing.d_m") - BORE) * r if bore is None else bore

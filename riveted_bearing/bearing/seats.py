@@ -47,9 +47,7 @@ def is_class(name, value):
 
 
 def interference(name, written, size):
-    """Interference [m] of a seat by the class of its counterpart and the ring's diameter [m]; UserError for a class that is
-    not known there.
-    """
+    """Interference [m] of a seat by its counterpart's class and the ring's diameter [m]; UserError if unknown."""
     letter, grade = CLASS.fullmatch(written.strip()).groups()
     which, fits = SEATS[name]
     if not fits(letter):

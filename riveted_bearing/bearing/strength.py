@@ -12,10 +12,10 @@ import numpy as np
 from pydantic import AfterValidator, Field
 
 from bearing_model.generated.variables import PARAMETERS, MeanStress
-from bearing_model.instance.fatigue import FatigueLaw, fully_reversed
+from bearing_model.instance.fatigue import FatigueLaw
 
 from ..base.errors import UserError, library, refusal
-from ..base.schema import Choice, Number, Section, checked
+from ..base.schema import Choice, Number, Section, checked, holds
 from ..base.tables import Table, Wanted
 from ..base.toml_files import read_toml
 
@@ -30,21 +30,14 @@ FKM_STEEL = "Steel"
 OF_PAPER = "that of 15CrMn"
 
 
-def strong(stress):
-    """A stress of a steel [Pa]; ValueError for one in MPa without its unit."""
-    if stress < LEAST:
-        raise UserError(f'{LEAST_ALLOWED}; a number without a unit is in Pa, "250 MPa" has its unit')
-    return stress
-
-
-Stress = Annotated[float | None, Number(PASCAL, above=0.0), AfterValidator(strong)]
+IN_PASCAL = f'{LEAST_ALLOWED}; a number without a unit is in Pa, "250 MPa" has its unit'
+STRONG = holds(lambda stress: stress >= LEAST, IN_PASCAL, AfterValidator)
+Stress = Annotated[float | None, Number(PASCAL, above=0.0), STRONG]
 Positive = Annotated[float | None, Number(above=0.0)]
 
 
 class StrengthFile(Section):
-    """Curve of strength of the rivets' steel, [sn] of a mission or its file; what is not given comes from the run's
-    parameters fatigue.*.
-    """
+    """Curve of strength of the rivets' steel, [sn] of a mission or its file; the rest is the run's fatigue.*."""
 
     file: Annotated[str | None, Field(strict=True)] = Field(
         None, description="these keys in a file, or a table with the columns amplitude [Pa, or unit] and cycles"
@@ -78,10 +71,8 @@ class StrengthFile(Section):
 
 @dataclass(frozen=True)
 class Strength:
-    """law: of the mean-stress correction and the curve before scatter and factors; rule: below the knee; T_S: scatter
-    of strength; survival; factor: of strength by surface and size; table: (amplitude [Pa], cycles) instead of the
-    curve, or None; given: names of what the section gives of the law, as parameters; rough: whether
-    the factor rests on the tensile strength.
+    """law: before scatter and factors; rule: below the knee; T_S: scatter; survival; factor: by surface and size; table:
+    (amplitude [Pa], cycles) or None; given: parameters that the section gives; rough: whether sigma_m made the factor.
     """
 
     law: FatigueLaw
@@ -95,9 +86,7 @@ class Strength:
 
 
 def read_strength(path: Path, section: Any, law: Any) -> Strength:
-    """The Strength of a mission's section [sn]; law: FatigueLaw that stands for what is not given.  Raises UserError
-    naming key and value.
-    """
+    """The Strength of a section [sn], over the FatigueLaw `law`; UserError naming key and value."""
     where = f"{path}: sn"
     section, table = with_file(path, where, dict(section))
     file = checked(StrengthFile, section, where)
@@ -139,11 +128,7 @@ def below(strength):
 
 
 def assumed(strength: Strength, given: Any = ()) -> str:
-    """What of an S-N curve nobody gave, to stand behind its words, "" for nothing: values of the 6207's rivets, and those
-    that follow from the strength.
-
-    given: names of parameters that a scene or the bearing's own file gives.
-    """
+    """What of an S-N curve nobody gave (given: parameters of scene and file), to stand behind its words, "" for nothing."""
     law, mean = strength.law, MeanStress(strength.law.mean_stress)
     used = {  # name: whether it makes a difference
         "sigma_D": strength.table is None,
@@ -220,9 +205,7 @@ def surface_factor(file, sigma_m):
 
 
 def size_factor(file):
-    """n_st = (A_90_specimen/A_90)^(1/k_st): the larger the stressed surface, the weaker its weakest place.  FKM
-    guideline (2012), 4.3.1.3.2.
-    """
+    """n_st = (A_90_specimen/A_90)^(1/k_st), of the weakest place.  FKM guideline (2012), 4.3.1.3.2."""
     if file.A_90 is None:
         return 1.0
     functions, steel = fkm()
@@ -243,9 +226,7 @@ def curve(strength):
 
 
 def cycles_to_failure(strength, amplitude):
-    """Cycles that each amplitude at zero mean stress [Pa] is borne; a table is a straight line between its points in
-    logarithms, and beyond its ends.
-    """
+    """Cycles that each amplitude [Pa] at no mean stress is borne; a table is straight in logarithms."""
     if strength.table is None:
         return curve(strength).cycles(amplitude)
     from scipy.interpolate import make_interp_spline
@@ -262,10 +243,22 @@ def quantile(strength):
     return float(norm.ppf(1.0 - strength.survival))
 
 
+@np.errstate(over="ignore")
+def reversed_amplitudes(law: Any, span: Any, mean: Any) -> np.ndarray:
+    """fully_reversed() of many cycles: amplitudes at zero mean stress of arrays of ranges and means [Pa]."""
+    half, mean = 0.5 * np.asarray(span, float), np.asarray(mean, float)
+    if law.mean_stress == MeanStress.SWT:
+        return np.sqrt(np.maximum(mean + half, 0.0) * half)
+    room = {
+        MeanStress.GOODMAN: 1.0 - np.maximum(mean, 0.0) / law.sigma_m,
+        MeanStress.MORROW: 1.0 - mean / law.sigma_f,
+    }.get(law.mean_stress, np.ones_like(half))
+    return np.where(room > 0.0, half / np.where(room > 0.0, room, 1.0), np.inf)
+
+
 def damage_of_cycles(strength: Strength, span: Any, mean: Any, count: Any) -> Any:
     """Miner's sum of the cycles of each range and mean [Pa]; a cycle breaks a part at most once."""
-    law = strength.law
-    amplitude = np.array([fully_reversed(law, 0.5 * s, m) for s, m in zip(span.tolist(), mean.tolist(), strict=True)])
+    amplitude = reversed_amplitudes(strength.law, span, mean)
     damage = np.where(np.isinf(amplitude), 1.0, 0.0)
     counts = np.isfinite(amplitude) & (amplitude > 0.0)
     damage[counts] = np.minimum(1.0 / cycles_to_failure(strength, amplitude[counts]), 1.0)

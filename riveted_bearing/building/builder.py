@@ -54,15 +54,9 @@ def build_fmu(
     modes: Any = None,
     cage: Any = None,
 ) -> Any:
-    """Build an FMU and return its path.
+    """Build an FMU and return its path, as riveted_bearing.build; UserError leaves `out` as it was.
 
-    bearing: bearing file or designation, None for the default one; rivet: rivet table (JSON) or geometry of the rivet
-    (TOML), None for the bearing's own rivet; out: the FMU to write, None for my.fmu here from my.toml,
-    RivetedBearing.fmu from the default (in a checkout: in fmus/); say: called with what is being done and the share
-    done; platforms: names of FMI's binary folders to cross-compile for (cmake/zig.cmake), none for this machine's
-    compiler alone; kind, modes: of the rivet table, see table_of; cage: machined or ribbon, None: the file's, else
-    machined. Raises UserError with the reason; `out` is then left
-    as it was.
+    say: called with what is being done and the share done; kind, modes: of the rivet table, see table_of.
     """
     sources = source_folder()
     out = Path(out) if out else default_out(sources, bearing or rivet, cage)
@@ -143,9 +137,7 @@ def cross_compile(sources, folder, options, platform, say):
 
 
 def start_document(case, path):
-    """A case with its rivet table as fmus/generate.py reads it: all start values in SI, and what an importer shows of
-    the FMU.
-    """
+    """A case with its table as fmus/generate.py reads it: start values in SI, and what importers show."""
     table, sections = read_table(path, case.Z), {"parameters": variables.PARAMETERS, "inputs": variables.INPUTS}
     values = case.values | cage_of(case, table)
     start = {section: {name: values[name] for name in known} for section, known in sections.items()}
@@ -161,9 +153,7 @@ def start_document(case, path):
 
 
 def cage_of(case, table):
-    """The start value of scene.cage: rigid halves where the table has no vibration modes, unless the bearing file asks
-    for elastic ones, a UserError.
-    """
+    """scene.cage: rigid halves where the table has no modes; UserError where the file asks for elastic ones."""
     if table.modes is not None or case.values["scene.cage"] != "elastic":
         return {}
     if "scene.cage" in case.origin:
@@ -198,9 +188,7 @@ def source_folder():
 
 
 def default_out(sources, source, cage=None):
-    """Default path of the FMU: my.fmu in the working directory for the bearing or rivet my.toml; that of the 6207 in
-    fmus/ of a checkout.
-    """
+    """Default path: my.fmu here for the bearing or rivet my.toml; that of the 6207 in fmus/ of a checkout."""
     if source:
         return Path.cwd() / f"{Path(source).stem}{of_cage(cage)}.fmu"
     return (sources / "fmus" if sources == PACKAGE.parent else Path.cwd()) / FMU_NAME
@@ -212,9 +200,7 @@ def of_cage(cage):
 
 
 def build_folder(sources, bearing, cage=None):
-    """Folder for intermediate files, one per bearing: in the build/ of a checkout that can be written to, else in the
-    user's cache.
-    """
+    """Folder for a bearing's intermediate files: in build/ of a writable checkout, else in the user's cache."""
     name = (Path(str(bearing)).stem if bearing else "default") + of_cage(cage)
     return made_folder(sources, "bearings", name)
 
@@ -237,9 +223,7 @@ def case_with(bearing: Any, rivet: Any, cage: Any = None) -> Case:
 
 
 def given_table(rivet, case, kind, say, modes=None, meanwhile=None):
-    """Absolute path of the rivet table: the user's, or one for the case's geometry; UserError if it cannot be had or is
-    for another cage.
-    """
+    """Absolute path of the rivet table, the user's or one for the case's geometry; UserError if it does not fit."""
     if kind is not None and kind not in TABLES:
         raise unknown("--table", "kind", kind, TABLES)
     if rivet is None or Path(rivet).suffix == ".toml":

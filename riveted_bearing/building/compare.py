@@ -9,7 +9,6 @@ parted (errors grow e-fold in 1.4 ... 2.7 ms), so statistics are compared: the r
 seeds.
 """
 
-import re
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
@@ -20,6 +19,7 @@ from bearing_model.generated import variables
 from bearing_model.solver import integrator
 
 from ..base.errors import UserError
+from ..base.variable_list import variable_of
 from ..running.fmu import Model
 from ..running.runner import simulate
 from ..running.scene import Scene
@@ -44,9 +44,7 @@ SEEDS = 8
 
 @dataclass(frozen=True)
 class Channel:
-    """One output, all its elements: values [points, elements] of the reference, scale [its unit], largest
-    |difference|/scale at each point by tolerance.
-    """
+    """An output: reference [points, elements], scale [its unit], error: largest difference/scale [tolerances, points]."""
 
     name: str
     unit: str
@@ -84,9 +82,7 @@ class Statistic:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What compare() found: channels over the times t [s] by tolerance, statistics from `settle` to `long` [s] (none if
-    long is 0), where the energy went.
-    """
+    """Channels over t [s] by tolerance; statistics from `settle` to `long` [s], none if that is 0; energies."""
 
     scene: str
     t: np.ndarray
@@ -108,13 +104,10 @@ def compare(
     method: str = "DOP853",
     progress: Any = None,
 ) -> Any:
-    """Run a Scene, checked against the Model, through FMU and reference as the head of this file says; returns a
-    Comparison.
+    """The Comparison of a Scene, checked against the Model, through FMU and reference; UserError where one cannot go on.
 
-    short, long: horizons [s], long = 0 for none; seeds: runs of the FMU over the long horizon; method: the reference's
-    method over the short horizon (Radau where films or joints are stiff; over the long horizon RK45, whose steps are as
-    dense as the FMU's); progress: called with the name of the present run and the share done.
-    Raises UserError if the FMU is of another bearing than the reference, or if FMU or reference refuse or cannot go on.
+    short, long: horizons [s], long = 0 for none; seeds: of the FMU; method: the reference's over the short one (Radau where
+    films or joints are stiff; RK45 over the long one, as dense as the FMU's); progress: called with run and share done.
     """
     progress = progress or (lambda what, share: None)
     check_same_bearing(model)
@@ -122,7 +115,7 @@ def compare(
         raise UserError(f"seeds = {seeds}: at least 2 are needed for a scatter")
     tolerance = scene.tolerance or scene.parameters.get("solver.tol") or model.default(model.parameters["solver.tol"])
     tolerances = tuple(tolerance * finer for finer in FINER)
-    names = [name for name in model.outputs if family(name) in variables.OUTPUTS]
+    names = [name for name in model.outputs if variable_of(name)]
     near = replace(scene, t_end=short, step=short / POINTS, output_interval=None, outputs=tuple(names))
     runs = [through_fmu(model, near, tol) for tol in tolerances]
     parameters, finer = runs[0].parameters, tolerance * REFERENCE_FINER
@@ -138,7 +131,7 @@ def check_same_bearing(model):
     if Z != variables.Z or not is_installed(model):
         own = f"bearing.Z = {Z}: the reference in use is that of a bearing with Z = {variables.Z}"
         raise UserError(f"{model.path}: {own}; `riveted-bearing compare --fmu {model.path}` takes this FMU's own one")
-    missing = sorted({family(name) for name in model.parameters} - set(variables.PARAMETERS))
+    missing = [name for name in model.parameters if variable_of(name) is None]
     if missing:
         raise UserError(f"{model.path}: parameter {missing[0]} is not known to the reference: build the FMU anew")
 
@@ -152,9 +145,7 @@ def through_fmu(model, scene, tolerance, **parameters):
 
 
 def through_reference(parameters, scene, tolerance, method, progress):
-    """The reference's Results of a scene with the FMU's own parameters; UserError if the reference refuses or cannot go
-    on.
-    """
+    """The reference's Results with the FMU's own parameters; UserError if it refuses or cannot go on."""
 
     def held(t):
         progress(t / scene.t_end)
@@ -171,11 +162,13 @@ def through_reference(parameters, scene, tolerance, method, progress):
 
 def channels(model, names, reference, runs):
     """A Channel for every output of an instant that the reference has and that is continuous."""
-    found = []
+    found, all_elements = [], {}
+    for element in names:
+        all_elements.setdefault(variable_of(element).name, []).append(element)
     for name, variable in variables.OUTPUTS.items():
         if name not in reference.outputs or variable.group in STEPS_COUNT or name in LEFT_OUT:
             continue
-        elements = [element for element in names if family(element) == name]
+        elements = all_elements.get(name, [])
         exact = reference.outputs[name].reshape(len(reference.t), -1)
         values = np.array([np.column_stack([run.data[element] for element in elements]) for run in runs])
         scale = scale_of(variable, exact, runs[0].parameters)
@@ -194,16 +187,8 @@ def scale_of(variable, values, parameters):
 
 
 def is_motion(channel: Any) -> bool:
-    """Whether a channel is a position, an angle or a speed of a body, whose differences are measured in parts of 10 um
-    and 0.1 m/s.
-    """
+    """Whether a channel is a body's position, angle or speed, measured in parts of 10 um and 0.1 m/s."""
     return channel.unit in ("m", "m/s", "rad", "rad/s", "1/s") and "alpha" not in channel.name
-
-
-def family(name):
-    """Name in the variable table: ball[3].Q_i is one of ball[j].Q_i."""
-    letters = {"rivet": "k", "outer": "n", "inner": "n"}
-    return re.sub(r"\[\d+\]", f"[{letters.get(name.partition('[')[0].partition('.')[0], 'j')}]", name)
 
 
 # --------------------------------------------------------------------------------------------------------- long horizon
@@ -233,9 +218,7 @@ def with_statistics(found, model, scene, tolerance, long, seeds, progress):
 
 
 def short_table(found: Any) -> Any:
-    """Heads and rows of the short horizon: size and largest difference of each output, worst first within motion, loads
-    and stresses.
-    """
+    """Heads and rows of the short horizon, the largest difference first within motion, loads and stresses."""
     heads = ("largest difference / scale", "scale", "", *(f"at {tolerance:.0e}" for tolerance in found.tolerances))
     ordered = sorted(found.channels, key=lambda channel: (not is_motion(channel), -channel.worst[0]))
     return heads, [(c.name, f"{c.scale:.4g}", c.unit, *(f"{value:.1e}" for value in c.worst)) for c in ordered]

@@ -1,6 +1,4 @@
-"""Compilers and CMake: which there are, build folders configured for them, targets compiled, and what went wrong in one
-line.
-"""
+"""Compilers and CMake: which there are, folders configured for them, targets compiled, what went wrong in one line."""
 
 from __future__ import annotations
 
@@ -46,9 +44,7 @@ def has_compiler() -> bool:
 
 
 def compiler_platforms() -> tuple[str, ...]:
-    """Platforms to compile for if the user names none: () with a C compiler of this machine, this machine's platform
-    with zig; UserError without either.
-    """
+    """Platforms if the user names none: () with a C compiler, this machine's with zig; else UserError."""
     if has_compiler():
         return ()
     if find_zig(needed=False):
@@ -74,9 +70,7 @@ def zig_version() -> str:
 
 
 def find_zig(needed: bool = True) -> Any:
-    """Path of zig: that of the Python package, else that on the search path; without it UserError, or None if it is not
-    needed.
-    """
+    """Path of zig: of the Python package, else on the search path; else UserError, or None if not needed."""
     package = importlib.util.find_spec("ziglang")
     places = package.submodule_search_locations if package else None
     found = (places and shutil.which("zig", path=places[0])) or shutil.which("zig")
@@ -102,8 +96,8 @@ def cmake() -> str:
 
 
 def configure(sources: Path, folder: Path, options: Sequence[str], platform: str | None, say: Any) -> None:
-    """Configure a build folder for a platform (None: this machine's compiler); from nothing if it was configured for
-    another compiler or with other options of it, which CMake would not notice.
+    """Configure a build folder for a platform (None: this machine's compiler); from nothing after another compiler or options
+    of it, which CMake would not notice.
     """
     say("configuring (the first time fetches SUNDIALS)")
     stamp, compiler = folder / "compiler.txt", identity(platform)

@@ -64,9 +64,7 @@ class Core:
 
     @contextlib.contextmanager
     def compiling(self, say: Any) -> Iterator[None]:
-        """The core is compiled beside what is done meanwhile, and is in the cache at the end; another build may have put
-        it there.  If what is done meanwhile fails, the compiler is stopped.
-        """
+        """Compiled beside what is done meanwhile, cached at the end; stopped if what is done meanwhile fails."""
         make_folder(self.folder)
         with alone_in(self.folder, say):
             if self.cached():

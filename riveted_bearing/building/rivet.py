@@ -1,6 +1,4 @@
-"""Stress of the rivets of a table or of a geometry: curves over preload, fit and transverse load, and pictures of the
-finite elements.
-"""
+"""Stress of the rivets of a table or of a geometry: curves over preload, fit and load, and pictures of the elements."""
 
 import contextlib
 import math
@@ -44,11 +42,9 @@ CAGE_NAMES = {  # key of a geometry file -> of a bearing file
 
 @threadpool_limits.wrap(limits=1)  # small matrices
 def rivet_curves(source: Any = None, bearing: Any = None) -> Any:
-    """Title, curves (see rivet_model.pictures.curves) and Joint of a rivet.
+    """Title, curves (rivet_model.pictures.curves) and Joint of a rivet; UserError naming file and fault.
 
-    source: rivet table (JSON) or geometry (TOML), None for the tracked table, or for the own rivet of the bearing
-    (designation or file) if there is one; for a geometry the finite elements are solved, in some 20 s. Raises UserError
-    naming file and fault.
+    source: table (JSON) or geometry (TOML, solved in some 20 s), None for the tracked table or the bearing's own rivet.
     """
     path = Path(source or bearing or rivet_table.DEFAULT_TABLE)
     if bearing is not None or path.suffix == ".toml":
@@ -83,10 +79,8 @@ def is_papers(geometry):
 
 
 def read_geometry(path, bearing=None):
-    """Geometry of a rivet file (TOML) in the cage of a bearing (file or designation); UserError if the file cannot be
-    used or its rivet cannot be made.
-
-    Without a bearing the cage is the 6207's, and the file may give sizes of its own by the names of Geometry.
+    """Geometry of a rivet file (TOML) in a bearing's cage, without one the 6207's, of which the file may give other sizes;
+    UserError if it cannot be made.
     """
     path = Path(path)
     case, document = rivet_case(path, bearing or "6207", fixed=bearing is not None), read_toml(path)
@@ -106,11 +100,7 @@ def read_geometry(path, bearing=None):
 
 
 def rivet_case(path, bearing, fixed=True):
-    """The Case of a bearing with the rivet of a file, whose keys are those of a section [rivet]; the file may repeat
-    the bearing's sizes.
-
-    fixed: whether the file may not change them.
-    """
+    """The Case of a bearing with the rivet of a file like a section [rivet]; fixed: it may not change the bearing's sizes."""
     document, case = read_toml(path), bearing_case(bearing)
     for name, value in cage_sizes(path, document):
         if fixed and not math.isclose(value, case.joint[name], rel_tol=1e-9):
@@ -173,14 +163,10 @@ def condensed(geometry, path):
 
 
 def table_of(where, geometry, kind=None, say=lambda text, share=None: None, modes=None, meanwhile=None):
-    """Path of the rivet table of a geometry: the shipped one, or one made in the user's cache folder, or found there
-    from an earlier time.
+    """Path of a geometry's rivet table: the shipped one, or one of the user's cache, made if need be; UserError leaves none.
 
-    where: whose geometry it is, for messages; kind: one of TABLES, None for the shipped table if it was made for this
-    geometry, else a coarse one; say: called with stage and share done; modes: of a cage half, None: as many as usual;
-    meanwhile: a context for the time in which finite elements are solved.
-    Raises UserError if the geometry cannot be meshed or solved, or for an impossible number of modes; then there is no
-    new file.
+    where: for messages; kind: of TABLES, None: shipped or coarse; say: called with stage and share; modes: of a half, None:
+    usual; meanwhile: a context for the time in which finite elements are solved.
     """
     if modes is not None and kind == "closed-form":
         raise UserError(f"--modes {modes}: a table of closed forms has none; allowed: coarse or full")
@@ -248,9 +234,7 @@ def curve_tables(curves: Any) -> Iterator[Any]:
 
 @threadpool_limits.wrap(limits=1)
 def write_pictures(folder: Path, title: str, curves: Any, joint: Any) -> Any:
-    """Write rivet_drawing.png, rivet_curves.png, rivet_section.png and cage_modes.png into a folder; returns their
-    paths.
-    """
+    """Write drawing, curves, section and cage modes as PNG into a folder; returns their paths."""
     figures = {
         "rivet_curves.png": pictures.plot_curves(curves, title),
         "rivet_section.png": pictures.plot_section(joint),
@@ -279,9 +263,7 @@ def given_geometry(rivet: Any, bearing: Any = None) -> Any:
 
 
 def seat_note(geometry: Any) -> str:
-    """A warning where the seat under the head is smaller than the shank's section, so that the head presses harder than
-    the shank is pulled; else "".
-    """
+    """A warning where the seat is smaller than the shank's section, so that the head presses harder; else ""."""
     if geometry.seat_share >= 1.0:
         return ""
     ring = f"{1e3 * geometry.seat_width:.2g} mm wide, {100.0 * geometry.seat_share:.0f} % of the shank's section"

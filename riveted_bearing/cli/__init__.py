@@ -39,9 +39,7 @@ COMMANDS = (
 
 
 class Commands(TyperGroup):
-    """The commands by name, each imported when it is asked for; a name that is none of them imports all, so that the
-    nearest one can be named.
-    """
+    """The commands by name, imported when asked for; an unknown name imports all, to name the nearest."""
 
     def list_commands(self, ctx):
         return [name.replace("_", "-") for name in COMMANDS]

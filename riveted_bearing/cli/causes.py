@@ -10,7 +10,7 @@ from ..base.errors import UserError
 from ..base.files import make_folder
 from ..base.toml_files import read_toml
 from .printing import print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
 @command
@@ -25,9 +25,7 @@ def causes(
         bool, typer.Option("--order", help="what breaks next, from the broken rivets on, and no causes")
     ] = False,
     fmu: FMU = None,
-    out: Annotated[
-        Path | None, typer.Option(help="folder of runs, causes.json and page; default: results/FINDINGS")
-    ] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):

@@ -7,7 +7,7 @@ import typer
 
 from ..base.files import make_folder
 from .printing import print_runs
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, design_runs
+from .terminal import FMU, OUT, SCHEDULER, STOPPED, WORKERS, command, design_runs
 
 
 @command
@@ -19,7 +19,7 @@ def dataset(
         ),
     ],
     fmu: FMU = None,
-    out: Annotated[Path | None, typer.Option(help="folder of the Parquet dataset; default: results/STUDY")] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):

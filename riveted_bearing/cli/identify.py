@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from ..base.files import make_folder
 from .printing import document_of, print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis
 
 
 @command
@@ -20,10 +20,7 @@ def identify(
         ),
     ],
     fmu: FMU = None,
-    out: Annotated[
-        Path | None,
-        typer.Option(help="folder of runs, identify.json, identified.toml and page; default: results/STUDY"),
-    ] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):

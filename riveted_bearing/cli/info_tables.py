@@ -120,9 +120,7 @@ def masses(case):
 
 
 def preload(case):
-    """Preload of the rivets as given and at the cage's temperature, the latter of a bearing by rule: an FMU's own table
-    has it exactly.
-    """
+    """Preload of the rivets as given and at the cage's temperature: by rule, exactly by an FMU's own table."""
     from ..running.preload import of_fmu, of_geometry
 
     given, T = case.values["joint.preload"], case.values["cage.T"]

@@ -10,6 +10,7 @@ from ..base.files import make_folder
 from .printing import print_budgets, print_paths, table
 from .terminal import (
     FMU,
+    OUT,
     SCHEDULER,
     WORKERS,
     command,
@@ -33,9 +34,7 @@ def life(
         ),
     ],
     fmu: FMU = None,
-    out: Annotated[
-        Path | None, typer.Option(help="folder of runs, life.json, page and picture; default: results/MISSION")
-    ] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):

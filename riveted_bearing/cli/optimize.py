@@ -8,7 +8,7 @@ from rich.markup import escape
 
 from ..base.files import make_folder
 from .printing import document_of, note, print_budgets, print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
+from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
 
 
 @command
@@ -18,9 +18,7 @@ def optimize(
         typer.Argument(help="study file (TOML): variables, limits, objectives; see docs/life.md", metavar="STUDY.toml"),
     ],
     fmu: FMU = None,
-    out: Annotated[
-        Path | None, typer.Option(help="folder of runs, optimize.json and picture; default: results/STUDY")
-    ] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):
@@ -61,9 +59,7 @@ def best_budgets(found, bench, model):
 
 
 def parts_of_stress(found, bench):
-    """Static stress and swing of the points simulated again and of the present design, means over the fresh seeds [n, 2]
-    [Pa]; None without statistics.  It needs no new runs.
-    """
+    """Static stress and swing of candidates and present design [n, 2] [Pa]; None without statistics."""
     import numpy as np
 
     from ..design.optimize import fresh_seeds
@@ -77,9 +73,7 @@ def parts_of_stress(found, bench):
 
 
 def print_optimum(found, present, parts=None):
-    """The points simulated again, the recommended one marked, the present design with its values, and the criterion;
-    parts: as of parts_of_stress.
-    """
+    """Candidates, the recommended one marked, the present design, and the criterion; parts: of parts_of_stress."""
     from ..design.optimize import criterion
     from ..running.responses import PARTS, shown, titled
 

@@ -171,24 +171,17 @@ def lean_format(out):
 
 
 def result_path(scene, out, kind):
-    """File of the results: --out itself if it has the suffix of a format, else named after the scene in the folder
-    --out.
-    """
+    """File of the results: --out itself if its suffix is a format, else named after the scene in --out."""
     suffix = out.suffix.removeprefix(".")
     if kind is not None and kind not in FORMATS:
         raise unknown("--format", "format", kind, FORMATS)
-    if suffix not in FORMATS and looks_like_a_file(out):
+    if suffix not in FORMATS and re.fullmatch(r"\.[A-Za-z]\w{1,5}", out.suffix) and not out.is_dir():  # xlsx, json
         raise UserError(f'--out {out}: unknown format "{suffix}"; allowed: {", ".join(FORMATS)}, or a folder')
     if suffix not in FORMATS:
         return out / f"{Path(scene).stem}.{kind or FORMATS[0]}"
     if kind not in (None, suffix):
         raise UserError(f"--out {out}: does not go with --format {kind}")
     return out
-
-
-def looks_like_a_file(path):
-    """Whether a path ends like a file of some format, xlsx or json, and is no folder."""
-    return re.fullmatch(r"\.[A-Za-z]\w{1,5}", path.suffix) is not None and not path.is_dir()
 
 
 def statistics_table(result):
@@ -208,30 +201,19 @@ def early_table(result):
     """What there is without statistics."""
     from ..running.summary import early_rows
 
-    rows = ((channel, unit, *map(three_digits, values)) for channel, unit, *values in early_rows(result))
+    rows = (
+        (channel, unit, *(f"{value if abs(value) > ROUNDING else 0.0:.3g}" for value in values))
+        for channel, unit, *values in early_rows(result)
+    )
     return table(("", "unit", "at the end", "largest since the start"), rows, left=2)
-
-
-def three_digits(value):
-    """A figure of the table."""
-    return f"{value if abs(value) > ROUNDING else 0.0:.3g}"
 
 
 def print_summary(result):
     """The figures of a run on the terminal."""
     from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
     from ..running.budget import computed_share, shown
-    from ..running.in_run import alone_note, change_lines
-    from ..running.summary import (
-        count_note,
-        flag_note,
-        has_statistics,
-        no_statistics,
-        rivet_rows,
-        settle_note,
-        speed_note,
-        table_note,
-    )
+    from ..running.in_run import change_lines, notes
+    from ..running.summary import flag_note, has_statistics, no_statistics, rivet_rows, table_note
 
     about, summary = result.about, result.summary
     console.print(f"[bold]{escape(about['scene'])}[/]  {escape(about['description'])}")
@@ -273,8 +255,7 @@ def print_summary(result):
         console.print(f"[dim]not given, {escape(source)}: {escape(names)}[/]")
     if names := assumed_as_bronze(result):
         console.print(f"[dim]assumed, as of a cage of bronze: {escape(names)}[/]")
-    kinds = (settle_note, count_note, speed_note, flag_note, table_note, alone_note)
-    for text in filter(None, (of(result) for of in kinds)):
+    for text in filter(None, [*notes(result), flag_note(result), table_note(result)]):
         note(text)
     for text in dict.fromkeys(about.get("messages", [])):
         if not result.stopped or text not in result.stopped:

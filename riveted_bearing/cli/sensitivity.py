@@ -10,7 +10,7 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import make_folder
 from .printing import document_of, print_paths, table
-from .terminal import FMU, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
+from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
 
 
 @command
@@ -30,9 +30,7 @@ def sensitivity(
             help="only the FMU's screening: each assumed value at both ends of its range, kept beside the FMU",
         ),
     ] = False,
-    out: Annotated[
-        Path | None, typer.Option(help="folder of runs, sensitivity.json and picture; default: results/STUDY")
-    ] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
 ):

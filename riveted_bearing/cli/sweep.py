@@ -8,7 +8,7 @@ import typer
 from ..base.files import make_folder
 from .printing import note, print_paths, print_runs
 from .printing import table as grid
-from .terminal import FMU, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
+from .terminal import FMU, OUT, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
 
 
 @command
@@ -20,7 +20,7 @@ def sweep(
         ),
     ],
     fmu: FMU = None,
-    out: Annotated[Path | None, typer.Option(help="folder of the Parquet dataset; default: results/STUDY")] = None,
+    out: OUT = None,
     scheduler: SCHEDULER = None,
     workers: WORKERS = None,
     report: Annotated[bool, typer.Option("--report", help="write a page with table and charts, sweep.html")] = False,

@@ -49,6 +49,10 @@ FMU = Annotated[
     Path | None,
     typer.Option("--fmu", help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed"),
 ]
+OUT = Annotated[
+    Path | None,
+    typer.Option("--out", help="folder of runs, results and page; default: results/ and the name of the file"),
+]
 SETTINGS = Annotated[
     list[str] | None,
     typer.Option(
@@ -118,9 +122,7 @@ def main(
 
 
 def guarded(function):
-    """The function of a command, whose UserError, and what the system refuses, becomes one line on stderr and exit code
-    2, Ctrl-C one and 130.
-    """
+    """A command whose UserErrors and the system's become one line and exit code 2, Ctrl-C one and 130."""
 
     @functools.wraps(function)
     def called(*arguments, **options):
@@ -155,18 +157,6 @@ def guarded(function):
 def command(function):
     """Add a function to the program as a guarded command."""
     return program.command()(guarded(function))
-
-
-@contextlib.contextmanager
-def resumable(folder):
-    """For work whose parts are kept in a folder one by one: Ctrl-C becomes one line that says so."""
-    try:
-        yield
-    except KeyboardInterrupt:
-        messages.print(
-            f"interrupted: finished runs are kept in {escape(str(folder))}; the same command does the others"
-        )
-        raise typer.Exit(INTERRUPTED) from None
 
 
 def changes(model, settings, seed, t_end, step, accuracy=None):
@@ -247,15 +237,18 @@ def print_warnings(texts):
 
 @contextlib.contextmanager
 def design_runs(name, folder, scheduler, workers):
-    """For a study that simulates as it goes: gives a function that starts the cluster when it is first called, and a
-    function for progress.
-    """
+    """For a study: a function that starts the cluster when it is first called, and one for progress."""
     from ..studies.sweep import cluster
 
-    with resumable(folder), contextlib.ExitStack() as stack:
-        progress = stack.enter_context(sweep_progress())
-        client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
-        yield client, functools.partial(progress, name)
+    try:
+        with contextlib.ExitStack() as stack:
+            progress = stack.enter_context(sweep_progress())
+            client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
+            yield client, functools.partial(progress, name)
+    except KeyboardInterrupt:
+        kept = f"finished runs are kept in {escape(str(folder))}; the same command does the others"
+        messages.print(f"interrupted: {kept}")
+        raise typer.Exit(INTERRUPTED) from None
 
 
 class RealTimeFactor(ProgressColumn):
@@ -283,9 +276,7 @@ def simulation_progress(scene):
 
 @contextlib.contextmanager
 def sweep_progress():
-    """Progress bars of sweeps: gives the function to call with a sweep's name and its numbers of runs done, failed and in
-    all.
-    """
+    """Progress bars: gives progress(sweep's name, runs done, failed, in all)."""
     columns = MofNCompleteColumn(), TextColumn("{task.fields[failed]}"), TimeRemainingColumn()
     with progress_bar(*columns, transient=True, speed_estimate_period=300.0) as bar:
         tasks = {}

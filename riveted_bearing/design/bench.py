@@ -1,28 +1,19 @@
-"""The bench of a study: points of a box of parameters, simulated with common seeds, and the responses that the study
-asks for.
-
-    scene = "demo"                       # as in a sweep (default: none, the FMU's own parameters and inputs), and so are [simulation], [parameters], [inputs]
-    seeds = 3                            # runs of each point, the same start.seed for all points
-    seed = 1                             # first start.seed, and seed of the study's own choices
-    [between]                            # lowest and highest value
-    joint.preload = ["5 N", "60 N"]
+"""The bench of a study: points of a box of parameters, simulated with common seeds, and the responses that it asks for.
 
 Responses: damage (log10 of Miner's sum per hour at the worst place), stress (99.9 % quantile of the worst head [Pa]),
 dislocation (largest between the halves [m]), friction (mean torque [N.m]), pocket_force (RMS [N]), or the name of any
-column of a sweep's rows; static and swing part the worst head's stress (summary.static_and_swing), the
-second of which does the damage.
+column of a sweep's rows; static and swing part the worst head's stress (summary.static_and_swing).
 """
 
-import hashlib
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
-from ..base.errors import UserError, refusal, unknown
-from ..base.schema import Count, Named, checked
+from ..base.errors import UserError, unknown
+from ..base.schema import Count, Named, checked, holds, is_list_of
 from ..base.toml_files import leaves
 from ..duty.mission import curves
 from ..running.basis import basis
@@ -30,7 +21,7 @@ from ..running.responses import COLUMNS, response, shown
 from ..running.scene import load_scene
 from ..studies.rows import of_keys
 from ..studies.sweep import run_sweep, schema_of
-from ..studies.sweep_file import Settings, Sweep, beside, bounds, key_of, known_names, sections_of
+from ..studies.sweep_file import Settings, Sweep, beside, box_of, key_of, known_names, sections_of
 
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
 
@@ -52,20 +43,8 @@ class Box:
     """Names of what varies with the lowest and highest SI values [d]."""
 
     def __init__(self, path, section, model, default=None):
-        found = dict(leaves(section, known_names(model))) or dict(default or {})
-        if not found:
-            raise UserError(f"{path}: between: name at least one parameter or input with its lowest and highest value")
-        pairs = []
-        for name, pair in found.items():
-            if name not in known_names(model) or name == "scene":
-                raise unknown(path, "parameter or input", name, known_names(model))
-            if not isinstance(pair, (list, tuple)) or len(pair) != 2:
-                raise refusal(path, f"between.{name}", pair, "[lowest, highest] is needed")
-            low, high = bounds(path, name, pair, model)
-            if not low < high:
-                raise refusal(path, f"between.{name}", list(pair), "the lowest value must be below the highest")
-            pairs.append((low, high))
-        self.names, (self.low, self.high) = list(found), np.array(pairs).T
+        found = box_of(path, "between", dict(leaves(section, known_names(model))) or dict(default or {}), model)
+        self.names, (self.low, self.high) = list(found), np.array(list(found.values())).T
 
     def problem(self):
         """The box as SALib has it."""
@@ -84,9 +63,10 @@ class Bench:
     """Simulates points of a box and returns responses; a call again for the same points reads them from the folder.
 
     client: function that gives the Dask client, called once something has to be simulated; progress: as of run_sweep.
+    further: columns of the rows beside a sweep's, as of Sweep.
     """
 
-    def __init__(self, path, document, model, folder, client, progress=None):
+    def __init__(self, path, document, model, folder, client, progress=None, further=()):
         self.path, self.document, self.model, self.folder = Path(path), document, model, Path(folder)
         self.client, self.progress = client, progress
         shared = {key: value for key, value in document.items() if key in Seeded.model_fields}
@@ -96,16 +76,15 @@ class Bench:
         self.common, self.source = common, beside(path, file.scene)
         self.scene = load_scene(self.source, model, (str(path), common))
         self.seeds, self.first = file.seeds, file.seed
-        self.description, self.fmu = file.description, model.path.read_bytes()
-        self.fingerprint = hashlib.sha256(self.fmu).hexdigest()
+        self.description, self.fingerprint, self.further = file.description, model.digest, further
         self.scenes, self.rows, self.known = {}, {}, set()  # rows: those read so far; known: their keys
         self.counts_damage = False
         self.label = "the scene"  # of a point without names, for messages
 
     def sweep(self, names, scenes):
         """The runs of scenes by key, in which the names vary."""
-        about = self.path.stem, self.description, self.model, self.fmu, self.document
-        return Sweep(*about, tuple(names), scenes, grows=True)
+        about = self.path.stem, self.description, self.model, self.document
+        return Sweep(*about, tuple(names), scenes, self.further, grows=True)
 
     def basis(self):
         """What the runs asked for so far rest on; of a damage also the S-N curve, of the scene without what varies."""
@@ -134,15 +113,16 @@ class Bench:
         return int(value) if whole else float(value)
 
     def __call__(self, names, points, responses, seeds=None):
-        """Responses of the points [n, d] with each seed, [n, seeds, m], NaN of runs that the FMU ended; seeds: start.seed of
-        the runs, None for those of the study.
-        """
-        seeds = list(range(self.first, self.first + self.seeds)) if seeds is None else list(seeds)
+        """Responses [n, seeds, m] of points [n, d], NaN of runs that the FMU ended; seeds: None, the study's."""
+        seeds = range(self.first, self.first + self.seeds) if seeds is None else seeds
+        return self.figures(names, [self.scene_at(names, point) for point in points], responses, seeds)
+
+    def figures(self, names, scenes, responses, seeds):
+        """Responses of scenes [n] in which the names vary, with each seed, [n, seeds, m]."""
         keys = []
-        for point in points:
-            scene = self.scene_at(names, point)
+        for scene in scenes:
             for seed in seeds:
-                run = replace(scene, parameters=scene.parameters | {"start.seed": seed})
+                run = replace(scene, parameters=scene.parameters | {"start.seed": int(seed)})
                 keys.append(key_of(run, self.fingerprint))
                 self.scenes[keys[-1]] = run
         if missing := list(dict.fromkeys(key for key in keys if key not in self.known)):
@@ -155,28 +135,21 @@ class Bench:
             raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")
         values = np.column_stack([response(self.path, rows, name) for name in responses])
         values[rows["status"] == "stopped"] = np.nan
-        return values.reshape(len(points), len(seeds), len(responses))
+        return values.reshape(len(scenes), len(seeds), len(responses))
 
     def point_text(self, names, rows, i):
         """A point in words."""
         return ", ".join(f"{name} = {shown(name, rows[name][i])}" for name in names if name in rows)
 
 
-def responses_of(value):
-    """A list of names of responses; ValueError for anything else."""
-    texts = isinstance(value, list) and all(isinstance(name, str) for name in value)
-    if not texts or not value or len(set(value)) != len(value):
-        raise UserError(f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}")
-    return value
-
-
-Responses = Annotated[list[str], BeforeValidator(responses_of)]
+DIFFERENT = f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}"
+Responses = Annotated[
+    list[str], holds(lambda names: is_list_of(names, str) and len(set(names)) == len(names) > 0, DIFFERENT)
+]
 
 
 def noise_variance(values):
-    """Variance that the seeds leave in the mean of a point, for each response [m]; values [n, seeds, m]; nan with one
-    seed.
-    """
+    """Variance that the seeds leave in a point's mean [m], of values [n, seeds, m]; nan with one seed."""
     if values.shape[1] < 2:
         return np.full(values.shape[2], np.nan)
     return values.var(axis=1, ddof=1).mean(axis=0) / values.shape[1]

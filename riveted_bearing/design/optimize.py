@@ -1,16 +1,8 @@
 """What to choose: the point of a box at which responses are smallest, found by Optuna under the noise of the seeds.
 
-    objectives = ["damage", "friction"]  # to be small; "-name" to be large
-    trials = 60
-    batch = 4                            # points simulated side by side
-    check_seeds = 8                      # fresh seeds of the points that look best
-    candidates = 5                       # how many of them
-    [limits]                             # responses that may not exceed a value
-    stress = "150 MPa"
-
 The search sees each point as a mean over common seeds (tree-structured Parzen estimator).  What looks best under noise
 is partly luck, so that the candidates, one of several objectives the ones of the Pareto front, are simulated again with
-fresh seeds, and the answer and its confidence come from these alone. The search repeats itself bit by bit from its
+fresh seeds, and the answer and its confidence come from these alone.  The search repeats itself bit by bit from its
 seed, so that a call after a stop reads the runs that are done and goes on from there.
 """
 
@@ -52,9 +44,7 @@ class OptimizeFile(BenchFile):
 
 @dataclass(frozen=True)
 class Study:
-    """An optimization that was checked; signs: 1 to make an objective small, -1 to make it large; limits: {response:
-    largest value}.
-    """
+    """A checked optimization; signs: 1 for small, -1 for large objectives; limits: {response: largest value}."""
 
     path: Path
     file: OptimizeFile
@@ -78,9 +68,8 @@ class Study:
 
 @dataclass(frozen=True)
 class Optimum:
-    """points [n, d] of the search in its order with their means over seeds [n, m]; candidates: numbers of those
-    simulated again, their means [c, m] and standard errors over fresh seeds; best: place among the candidates, None if
-    none keeps the limits; present: mean and standard error [2, m] of the design that nothing varies, over the same seeds.
+    """points [n, d] of the search, their means [n, m]; candidates: numbers, means [c, m] and errors over fresh seeds; best:
+    place among these, None if none keeps the limits; present: mean and error [2, m] of the design as it is.
     """
 
     study: Study
@@ -157,7 +146,10 @@ def criterion(study: Any) -> str:
 def explore(study, evaluate):
     """Points of the search [n, d] and their means over seeds [n, m]."""
     optuna, file = optuna_library(), study.file
-    sampler = optuna.samplers.TPESampler(seed=file.seed, n_startup_trials=max(8, file.trials // 5), **quiet(optuna))
+    # experimental: variables together, points of one batch apart from each other
+    warnings.filterwarnings("ignore", category=optuna.exceptions.ExperimentalWarning)
+    options = {"multivariate": True, "constant_liar": True, "n_startup_trials": max(8, file.trials // 5)}
+    sampler = optuna.samplers.TPESampler(seed=file.seed, **options)
     found = optuna.create_study(directions=["minimize"] * len(study.objectives), sampler=sampler)
     points, values = [], []
     while len(points) < file.trials:
@@ -171,14 +163,6 @@ def explore(study, evaluate):
             found.tell(trial, np.nan_to_num(study.signs * mean[: len(study.objectives)], nan=BAD).tolist())
         points, values = [*points, *batch], [*values, *means]
     return np.array(points), np.array(values)
-
-
-def quiet(optuna):
-    """Options of the sampler that Optuna calls experimental: variables together, and points of one batch apart from
-    each other.
-    """
-    warnings.filterwarnings("ignore", category=optuna.exceptions.ExperimentalWarning)
-    return {"multivariate": True, "constant_liar": True}
 
 
 def excess(study, values):
@@ -199,9 +183,7 @@ def front(study, values):
 
 
 def distance(study, values, allowed):
-    """Distance of points from the best of all objectives at once, each scaled by its range among the allowed points
-    [n]; the value itself for one objective.
-    """
+    """Distance from the best of all objectives, each over its range among allowed points [n]; of one its value."""
     costs = study.signs * values[:, : len(study.objectives)]
     low = costs[allowed].min(axis=0)
     width = np.ptp(costs[allowed], axis=0)
@@ -219,9 +201,7 @@ def most_promising(study, values):
 
 
 def write_optimum(found: Any, path: Path, basis: Any = (), budgets: Any = None) -> Path:
-    """Write the answer as JSON, whole or not at all; basis: what the runs rest on; budgets: records of the recommended point's
-    error budgets.  Returns the path.
-    """
+    """Write the answer as JSON, whole or not at all; budgets: records of the recommended point's errors."""
     study = found.study
 
     def figures(*pair):
@@ -246,9 +226,7 @@ def write_optimum(found: Any, path: Path, basis: Any = (), budgets: Any = None) 
 
 
 def write_picture(found: Any, path: Path) -> Path:
-    """Write the picture: two objectives against each other with the Pareto front, or the one objective over the first
-    two variables; returns the path.
-    """
+    """Write the picture: two objectives with their Pareto front, or the one over the first variable."""
     with picture(path, (6.6, 5.0), f"{found.study.path.stem}: {len(found.points)} points searched") as figure:
         (pareto_panel if len(found.study.objectives) > 1 else single_panel)(figure.subplots(), found)
         figure.legend(loc="outside lower center", ncols=3, fontsize=8)  # points lie anywhere on the panel

@@ -1,15 +1,5 @@
 """What decides: Morris' screening of all factors, then Sobol indices of those that are left, by SALib.
 
-    responses = ["damage", "stress"]
-    [morris]
-    trajectories = 8                     # (factors + 1) points each
-    levels = 4
-    [sobol]
-    factors = 3                          # the first of the screening, by their largest effect on any response; 0: no Sobol indices
-    count = 64                           # power of 2; (factors + 2) count points
-
-Without [between] the factors are the parameters that were assumed, each over its documented range.
-
 Morris: mu_star is the mean size of the change of a response when a factor crosses its range (elementary effects), sigma
 their scatter: interactions and curvature.  Sobol: S1 is the share of the variance that goes with a factor alone, ST
 that with all its interactions.  Seeds are noise: a factor without any effect has mu_star = 2 s/sqrt(pi)/delta, s^2 the
@@ -29,41 +19,30 @@ from pydantic import AfterValidator, Field
 from ..base.errors import UserError, library
 from ..base.file_kinds import check_keys
 from ..base.files import write_json
-from ..base.schema import Count, Section, checked
+from ..base.schema import Count, Section, checked, holds
 from ..running.fmu import Model
 from ..running.responses import display_of
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, picture
 from .bench import BenchFile, Box, Responses, noise_variance
 
-
-def even(value: Any) -> Any:
-    """An even number from 2 on; ValueError for anything else."""
-    if value < 2 or value % 2:
-        raise UserError("an even number is needed")
-    return value
-
-
-def power_of_two(value):
-    """A power of 2; ValueError for anything else."""
-    if value & (value - 1):
-        raise UserError("a Sobol sequence is balanced only for powers of 2")
-    return value
+EVEN = holds(lambda value: value > 1 and value % 2 == 0, "an even number is needed", AfterValidator)
+POWER_OF_2 = holds(
+    lambda value: not value & (value - 1), "a Sobol sequence is balanced only for powers of 2", AfterValidator
+)
 
 
 class Morris(Section):
     """The screening of all factors."""
 
     trajectories: Annotated[int, Count()] = Field(8, description="(factors + 1) points each")
-    levels: Annotated[int, Count(), AfterValidator(even)] = Field(4, description="even")
+    levels: Annotated[int, Count(), EVEN] = Field(4, description="even")
 
 
 class Sobol(Section):
     """The indices of the factors that are left."""
 
     factors: Annotated[int, Count(0)] = Field(3, description="the first of the screening; 0: no Sobol indices")
-    count: Annotated[int, Count(), AfterValidator(power_of_two)] = Field(
-        64, description="power of 2; (factors + 2) count points"
-    )
+    count: Annotated[int, Count(), POWER_OF_2] = Field(64, description="power of 2; (factors + 2) count points")
 
 
 class SensitivityFile(BenchFile):
@@ -76,9 +55,8 @@ class SensitivityFile(BenchFile):
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """For each response: factors with mu_star, its confidence, sigma and the mu_star of noise; those of Sobol with S1,
-    ST, their confidence (95 %), and the noise's share of the variance; basis: what the runs rest on; ranges: of the
-    factors, (lowest, highest) in SI.
+    """Of each response morris (mu_star, its confidence, sigma, noise) of factors and sobol (S1, ST, confidence 95 %, noise) of
+    the chosen ones; basis: of the runs; ranges: of the factors (SI).
     """
 
     name: str
@@ -113,18 +91,14 @@ class Study:
 
 
 def plan_sensitivity(path: str | Path, document: dict[str, Any], model: Model, assumed: Any = None) -> Any:
-    """The Study of a document; assumed: {name: (low, high)} if it names no factors.  Raises UserError naming what
-    cannot be used.
-    """
+    """The Study of a document; assumed: {name: (low, high)} if it names no factors; else UserError."""
     check_keys(path, document, SensitivityFile.model_fields, "sensitivity study")
     file = checked(SensitivityFile, document, path)
     return Study(Path(path), Box(path, file.between, model, assumed), file)
 
 
 def salib(command: str = "sensitivity") -> Any:
-    """SALib's modules (sample.morris, analyze.morris, sample.sobol, analyze.sobol); UserError if the library is
-    missing.
-    """
+    """SALib's modules, samples and analyses of Morris and Sobol; UserError if the library is missing."""
     return [
         library(f"SALib.{part}", command)
         for part in ("sample.morris", "analyze.morris", "sample.sobol", "analyze.sobol")

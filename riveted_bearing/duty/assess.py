@@ -1,6 +1,4 @@
-"""The life of a mission: runs on a cluster round by round, points left out by a bound, and what is written:
-runs.parquet and life.json.
-"""
+"""The life of a mission: runs on a cluster round by round, points left out by a bound, runs.parquet and life.json."""
 
 import json
 import math
@@ -37,10 +35,8 @@ FIGURES_KEPT = ("stat.sigma_head_p999", "rivet.table_kind", "solver.steps", "sol
 
 @dataclass(frozen=True)
 class Life:
-    """What was found: estimate of the parts kept; kept: their numbers; bounds: upper bound of the damage per hour of
-    each part left out, by number; counts: runs of each part; samples: damages of each part's runs [n, Z, 2], None for a
-    part left out or interpolated; rates: mean damages of the parts at the start of the mission, per hour (point) or per
-    event [I, Z, 2].
+    """estimate of the parts kept; kept: numbers; bounds: of the damage per hour of those left out; counts: runs of each part;
+    samples: their damages [n, Z, 2] or None; rates: means at the start, per hour or per event [I, Z, 2].
     """
 
     mission: Mission
@@ -67,9 +63,7 @@ class Runs:
     """The runs of a mission in a folder: damages by case and seed, simulated when they are asked for."""
 
     def __init__(self, mission, model, folder, client, progress=None):
-        """client: function that gives the Dask client, called once something has to be simulated; progress: as of
-        run_sweep.
-        """
+        """client: function that gives the Dask client, called when it is needed; progress: as of run_sweep."""
         self.mission, self.folder, self.client, self.progress = mission, folder, client, progress
         self.model, self.keys, scenes = model, {}, {}
         outputs = outputs_of(model)
@@ -78,15 +72,13 @@ class Runs:
                 scene = started(replace(case.scene, outputs=outputs), model, mission.settings["seed"], s)
                 self.keys[c, s] = key_of(scene, model.digest)
                 scenes[self.keys[c, s]] = scene
-        about = mission.name, mission.description, model, model.path.read_bytes(), mission.document
+        about = mission.name, mission.description, model, mission.document
         self.sweep = Sweep(*about, ("start.seed",), scenes, (rainflow_columns, rainflow_fields))
         self.strengths, self.damages, self.matrices, self.cost, self.figures = {}, {}, {}, {}, {}
         self.per = {}  # of each run: what makes its damage one per hour of a point, or per event
 
     def __call__(self, counts):
-        """Damages per hour (point) or per event of the first counts[c] runs of each case, [n, Z, 2] each; no case
-        without runs is asked for.
-        """
+        """Damages [n, Z, 2] of the first counts[c] runs of each case that has some, per hour or per event."""
         self.simulate({(c, s): self.keys[c, s] for c, n in enumerate(counts) for s in range(n)})
         return [np.array([self.damages[self.keys[c, s]] for s in range(n)]) for c, n in enumerate(counts)]
 
@@ -156,9 +148,7 @@ class Runs:
         self.figures[key] = {name: float(rows[name][i]) for name in (*FIGURES_KEPT, *BLOCK_COLUMNS) if name in rows}
 
     def counted(self):
-        """Damage of all matrices over the FMU's own count, with the FMU's law, at the place of each run with the most
-        damage; runs count by their damage in the mission.
-        """
+        """Damage of all matrices over the FMU's own count at each run's worst place, weighted by the mission."""
         found, own = 0.0, 0.0
         for c, case in enumerate(self.mission.cases):
             keys = self.keys_of(c)
@@ -185,10 +175,7 @@ def place_text(place, rivets):
 
 
 def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: None) -> Life:
-    """The Life of a mission from runs(counts), which returns for each case its damages [n, Z, 2].
-
-    Points that are rare are not simulated if a bound on their damage shows that they cannot matter.
-    """
+    """The Life of a mission from runs(counts), damages [n, Z, 2] of each case; points that cannot matter are left out."""
     settings, duty = mission.settings, mission.duty
     target = math.log1p(settings["half_width"])
     rare = rare_parts(mission)
@@ -203,15 +190,11 @@ def assess(mission: Mission, runs: Runs, progress: Any = lambda found, target: N
     rates = np.zeros((len(mission.parts), *means.shape[1:]))
     at_start = part_rates(part_duty(duty, kept), means.reshape(len(means), -1))[0]
     rates[kept] = at_start.reshape(len(kept), *means.shape[1:])
-    own = [[used.index(c) for c in own_cases(mission, i) if c in used] for i in range(len(mission.parts))]
+    simulated = [duty.blends[:, i].any(axis=0) & (part.scene is not None) for i, part in enumerate(mission.parts)]
+    own = [[used.index(c) for c in np.flatnonzero(cases).tolist() if c in used] for cases in simulated]
     runs_of = tuple(int(sum(counts[place] for place in places)) for places in own)
     damages_of = tuple(samples[places[0]] if places else None for places in own)
     return Life(mission, found, tuple(kept), bounds, runs_of, damages_of, rates)
-
-
-def own_cases(mission, i):
-    """Numbers of the cases that are part i itself, at all factors of preload; none if it is interpolated."""
-    return [] if mission.parts[i].scene is None else np.flatnonzero(mission.duty.blends[:, i].any(axis=0)).tolist()
 
 
 def used_cases(duty, kept):
@@ -245,9 +228,7 @@ def solve(duty, kept, runs, settings, progress):
 
 
 def places(damages, rivets):
-    """Damages [n, K] at the places that can fail: each rivet's head and middle, or, if all rivets take all places in
-    turn, their means.
-    """
+    """Damages [n, K] at the places that can fail: each head and middle, or their means if rivets change places."""
     return damages.reshape(len(damages), -1) if rivets == "each" else damages.mean(axis=1)
 
 
@@ -255,9 +236,7 @@ def places(damages, rivets):
 
 
 def rare_parts(mission):
-    """Numbers of the rarest points, which together have less than the share `skip` of the hours and no interpolation
-    rests on.
-    """
+    """Numbers of the rarest points, together less than the share `skip` of the hours, on which no interpolation rests."""
     needed = {
         mission.cases[c].part
         for i, part in enumerate(mission.parts)
@@ -275,14 +254,10 @@ def rare_parts(mission):
 
 
 def bounded(mission, found, kept, rare):
-    """Bounds of the damage per hour of the mission of those rare points that all together cannot have more than the
-    share `skip` of it.
+    """Bounds of the damage per hour of rare points that together cannot have more than the share `skip` of it.
 
-    The damage of a point is at most that of a simulated point q times the ratio of their loads and of the square of
-    their speeds, the larger over the smaller, to the power of the steeper slope of the S-N curve, times a safety of 10.
-    It rests on the assumption that stress changes no faster than loads and centrifugal forces; less load may well do
-    more damage, because the balls skid.  Points that hardly do damage break the assumption (their cycles grow from
-    nearly nothing), so that the largest of the bounds by all simulated points counts.
+    By the ratio of loads and of squared speeds to any simulated point, to the steeper slope of the S-N curve, times 10: stress
+    changes no faster.  Less load may do more damage, as balls skid, so the largest bound by all simulated points counts.
     """
     duty, total = mission.duty, 1.0 / found.life if found.life > 0.0 else math.inf
     rate_of = dict(zip(kept, found.shares * total / np.maximum(duty.weights[list(kept)], 1e-300), strict=True))
@@ -319,9 +294,7 @@ def bound(mission, rate, q, i):
 
 
 def record(life):
-    """life.json's content: what it rests on, hours, damages per hour, shares; None where nothing is known (a point left
-    out) or never (no damage).
-    """
+    """life.json's content; None where nothing is known (a point left out) or never (no damage)."""
     mission, found = life.mission, life.estimate
     share = dict(zip(life.kept, found.shares, strict=True))
     k, place = divmod(found.place, 2) if mission.settings["rivets"] == "each" else (slice(None), found.place)

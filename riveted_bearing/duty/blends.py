@@ -41,9 +41,7 @@ def cases_of(path, parts, factors, model):
 
 
 def slopes_of(parts, blends):
-    """Duty.slopes: difference quotients between the neighbours of a class along each axis, times the spread of its
-    values; None without a record.
-    """
+    """Duty.slopes: difference quotients between neighbouring classes times their spread; None without a record."""
     classes = {part.cell: i for i, part in enumerate(parts) if part.cell}
     if not classes:
         return None
@@ -70,10 +68,8 @@ def loosened(scene, factor, model):
 
 
 def mixture(path, parts, i, simulated):
-    """Shares {part: weight} with which the logarithms of the rates of simulated points make that of point i: linear
-    between the points around it.
-
-    The points that count differ from point i in numbers alone; raises UserError if point i is not between them.
+    """Shares {part: weight} of simulated points around point i, which differ in numbers alone, whose logarithms of rates make
+    that of point i; UserError if it is not between them.
     """
     from scipy.interpolate import griddata
     from scipy.spatial import QhullError

@@ -32,9 +32,8 @@ EQUAL = 1e-12  # standard error of ln(L_b/L_a) that is rounding
 
 @dataclass(frozen=True)
 class Estimate:
-    """life, low, high [h]; half_width of ln life; place: index of the place that fails first; shares: of the parts [I];
-    case_shares [C]; error: standard error of ln r of each case [C]; spread, freedom: standard error of ln life and its
-    degrees of freedom; rates: mean damage of the cases [C, K].
+    """life, low, high [h]; half_width of ln life; place that fails first; shares [I]; case_shares [C]; error of ln r [C];
+    spread, freedom: of ln life; rates: mean damage [C, K].
     """
 
     life: float
@@ -65,9 +64,7 @@ def estimate(duty, samples, confidence):
 
 
 def variance(weights, runs):
-    """Variance of the sum of weight x ln(mean of runs) over arrays of runs with common seeds, each [n]; the larger one of
-    that of the runs and that of the log-normal law.
-    """
+    """Variance of sum weight x ln(mean of runs [n]) with common seeds: that of the runs or of the law, the larger."""
     n, means = len(runs[0]), [max(x.mean(), NO_DAMAGE) for x in runs]
     own = np.var(sum(w * x / mean for w, x, mean in zip(weights, runs, means, strict=True)), ddof=1) / n
     if min(x.min() for x in runs) <= NO_DAMAGE:  # no logarithm
@@ -78,9 +75,7 @@ def variance(weights, runs):
 
 
 def combined(variances, counts):
-    """Standard error of a sum over independent cases and its degrees of freedom, from the variances and numbers of runs
-    of the cases.
-    """
+    """Standard error and degrees of freedom of a sum, from the variances and runs of independent cases."""
     total = np.sum(variances)
     of_cases = np.sum(np.square(variances) / (np.asarray(counts) - 1))
     return math.sqrt(total), total**2 / of_cases if of_cases > 0.0 else math.inf
@@ -92,10 +87,8 @@ def half_width(s, freedom, confidence):
 
 
 def ratio_interval(samples, found, confidence):
-    """Ends of the interval of ln(L_b/L_a) and the correlation of both over the common seeds, from two designs' damages
-    [n, K] of each case with equal numbers of runs, and Estimates.
-
-    As above, with the variances of the differences: -share_b ln r_b + share_a ln r_a of each case.
+    """Ends of the interval of ln(L_b/L_a) and the correlation of both, from two designs' damages [n, K] of each case with common
+    seeds and Estimates: with the variances of -share_b ln r_b + share_a ln r_a.
     """
     middle = math.log(found[1].life / found[0].life)
     pairs = [[one[c][:, e.place] for one, e in zip(samples, found, strict=True)] for c in range(len(samples[0]))]
@@ -119,11 +112,8 @@ def correlation(weights, pairs):
 
 
 def further_runs(found, counts, target, most):
-    """How many runs each case needs [C], none if the half-width of ln life is at most `target` or every case that
-    counts has `most`.
-
-    Runs are spent where share times scatter is large, so that the sum of the variances share^2 v/n falls fastest
-    (Neyman's allocation).
+    """How many runs each case needs [C], the same if the half-width is at most `target` or every case that counts has `most`;
+    share^2 v/n falls fastest where share times scatter is large (Neyman's allocation).
     """
     if found.half_width <= target:
         return counts.copy()
@@ -139,11 +129,9 @@ def further_runs(found, counts, target, most):
 
 
 def until_sure(duty, run, settings, most, progress=lambda found: None):
-    """Rounds of runs until the half-width of ln life is small enough or no case may have more runs.
+    """(Estimate, damages, numbers of runs) after rounds until ln life is narrow enough or no case may have more runs.
 
-    run: called with the numbers of runs of the cases [C], returns their damages, for each case [n, K], the first ones
-    always the same, so that a repeated call goes through the same rounds; settings: of [life]; most: runs of a case;
-    progress: called with the Estimate after each round. Returns (Estimate, damages, numbers of runs).
+    run(counts [C]): damages [n, K] of each case, the first ones always the same; settings: of [life]; most: runs of a case.
     """
     counts = np.full(duty.blends.shape[2], min(settings["min_seeds"], most))
     while True:

@@ -1,9 +1,8 @@
-"""Rainflow matrices of a run: how often which range and mean of stress occurred, at the head and the middle of each
-rivet.
+"""Rainflow matrices of a run: how often which range and mean of stress occurred at each rivet's head and middle.
 
 Cycles of nearly equal range and mean share a class, which keeps its count, mean range and mean mean, so that damage
 computed later with another S-N curve is that of the cycles: classes of 2 % of range leave 15^2/2 0.02^2/12 = 0.4 % at a
-slope of 15, and nothing where all cycles of a class are equal. A matrix is four columns of one length: channel (2 k for
+slope of 15, and nothing where all cycles of a class are equal.  A matrix is four columns of one length: channel (2 k for
 the head, 2 k + 1 for the middle of rivet k + 1), range and mean [Pa], count.
 """
 

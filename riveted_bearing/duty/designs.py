@@ -1,5 +1,4 @@
-"""Designs side by side under one mission: the same points, events and seeds for all, ratios of lives and stresses with
-intervals, and what differs between them.
+"""Designs side by side under one mission: ratios of lives and stresses with intervals, and what differs.
 
 A design is an FMU, or an FMU with parameters of its own.  All designs have the same number of runs of each case, and
 run s of each has the same start.seed (common random numbers).  The interval of a ratio of lives is that of
@@ -60,9 +59,7 @@ class Design:
 
 @dataclass(frozen=True)
 class Ratio:
-    """Value of a design over that of the first one: ratio, ends of its interval, and the correlation of the logarithms
-    over the common seeds (nan without scatter).
-    """
+    """A value over the first design's, its interval, and the correlation of logarithms (nan without scatter)."""
 
     ratio: float
     low: float
@@ -77,9 +74,8 @@ class Ratio:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was found for one design: estimate of its life, place that fails first in words, Ratio of life to the first
-    design's (None for it), and of each part means of RESPONSES with their Ratios: {part: {response: (mean, Ratio)}};
-    deciding: the part with the most damage; raceways: its Raceways; budgets: of its errors, by figure.
+    """One design: estimate, place that fails first, Ratio of life to the first design's (or None), {part: {response: (mean,
+    Ratio)}}, deciding part, Raceways, budgets by figure.
     """
 
     design: Design
@@ -94,9 +90,7 @@ class Outcome:
 
 @dataclass(frozen=True)
 class Comparison:
-    """Outcomes in the order of the designs; counts: runs of each case; differences: (name, [text of each design]);
-    basis: lines that all designs share; warnings: sentences on events and matrices.
-    """
+    """Outcomes of the designs; counts: runs of each case; differences: (name, [texts]); basis: shared lines."""
 
     name: str
     description: str
@@ -270,9 +264,7 @@ def responses_of(runs, counts):
 
 
 def differences(designs, common):
-    """(name, [text of each design]) of all that differs: the bearing's description, parameters, the rivet table, the
-    modes of a half; common: parameters that the mission sets for all.
-    """
+    """(name, [text of each design]) of all that differs; common: parameters that the mission sets for all."""
     models = [design.model for design in designs]
     yield from differing("bearing", [model.bearing for model in models])
     names = dict.fromkeys(name for model in models for name in model.parameters)

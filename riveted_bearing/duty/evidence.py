@@ -7,10 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from bearing_model.instance.fatigue import fully_reversed
-
 from ..base.errors import UserError
-from ..bearing.strength import damage_of_matrix
+from ..bearing.strength import damage_of_matrix, reversed_amplitudes
 from ..running.budget import digits
 from ..running.budget import of_result as of_run
 from ..running.fmu import Model
@@ -27,12 +25,8 @@ from .raceways import Raceways
 
 @dataclass(frozen=True)
 class Evidence:
-    """What a sheet judges.
-
-    life, low, high [h], None where nothing is known (untold: why not), with place and interval in words; scaled(x): shortest lives [h] of
-    heads and of middles with all stresses x times as large; amplitudes: largest fully reversed ones of head and middle
-    [Pa]; knees: of their S-N curves [Pa], None for a table; results: runs by the name of point or event; worst: name of the
-    one that decides; rivet: number of the one that fails first; raceways: their Raceways.
+    """What a sheet judges: life, low, high [h] (None, and why untold), scaled(x): shortest lives [h] of heads and middles at x
+    times the stress; amplitudes [Pa]; knees [Pa], None for a table; results by part; worst: the part that decides; rivet.
     """
 
     life: float | None
@@ -112,9 +106,7 @@ def first_case(mission, i):
 
 
 def scaled_lives(life, runs, used, x):
-    """Shortest lives [h] of head and middle with all stresses x times as large: cycles of the rainflow matrices, scaled
-    so that they give the counted damage at x = 1.
-    """
+    """Shortest lives [h] of head and middle with all stresses x times as large, the counted ones at x = 1."""
     mission, means = life.mission, []
     for c in used:
         damages = np.array([scaled_damage(runs, key, x) for key in runs.keys_of(c)])
@@ -135,9 +127,7 @@ def scaled_damage(runs, key, x):
 
 
 def damage_by(strength, laws, matrix, scale):
-    """Miner's sum of each channel of a matrix at a scale of its stresses; strength: of [sn], None for the FMU's laws of
-    the channels.
-    """
+    """Miner's sum of each channel of a scaled matrix; strength: of [sn], None for the laws of the channels."""
     channel, span, mean, count = matrix
     span, mean = scale * span, scale * mean
     if strength is not None:
@@ -156,10 +146,8 @@ def largest_amplitudes(pairs):
     for (channel, span, mean, _), laws in pairs:
         for place in (0, 1):
             mine = channel % 2 == place
-            cycles = zip(span[mine].tolist(), mean[mine].tolist())
-            largest[place] = max(
-                largest[place], max((fully_reversed(laws[place], 0.5 * s, m) for s, m in cycles), default=0.0)
-            )
+            amplitudes = reversed_amplitudes(laws[place], span[mine], mean[mine])
+            largest[place] = max(largest[place], float(amplitudes.max(initial=0.0)))
     return tuple(largest)
 
 

@@ -22,13 +22,10 @@ def edges_of(low, high, bins):
 
 
 def binned(path, time, columns, bins, gap=None):
-    """Operating points of a measured record: each sample holds until the next one, and each class of values with
-    samples becomes a point.
+    """Time [s] in the classes [P] of a record, their numbers [P, columns], means and standard deviations [P, columns] in SI.
 
-    time, columns: Wanted; bins: of each column the number of classes between its extremes, see edges_of; gap: longest interval
-    [s] that a sample may hold, None: ten usual ones.  Returns the time spent in the classes [P] in s, their numbers along
-    each column [P, columns], and the means and standard deviations of the values in them [P, columns] in SI.  The file is
-    read twice, in pieces.
+    Each sample holds until the next one, at most for `gap` [s] (None: ten usual intervals).  time, columns: Wanted; bins: of
+    each column, see edges_of.  The file is read twice, in pieces.
     """
     table = Table(path)
     clock = table.clock(time, gap)

@@ -4,11 +4,9 @@ The step's bias is that of finer runs of the deciding case, the seeds' interval 
 seeds of the case fall on one motion; table, assumed values and model as in running/budget.py.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -16,10 +14,7 @@ from ..bearing.assumed import all_assumed
 from ..running.accuracy import DECADES, FIGURES, accurate, found_of, with_settings
 from ..running.budget import Budget, budget_of
 from ..running.runner import origin_of
-from .assess import places, used_cases
-
-if TYPE_CHECKING:
-    from .assess import Life, Runs
+from .assess import Life, Runs, places, used_cases
 
 STRESS = "stat.sigma_head_p999"
 
@@ -61,9 +56,7 @@ def budgets_of(mission: Any, found: Any, kept: Any, runs: Runs) -> dict[str, Bud
 
 
 def to_accuracy(mission: Any, model: Any) -> tuple[Any, list[str]]:
-    """The Mission with the steps that its simulation.accuracy needs, and a sentence on each case whose figures are not within
-    it; the seeds are those of the life's interval.
-    """
+    """The Mission with the steps that its accuracy needs, and a sentence on each case that is not within it."""
     cases, told, chosen = [], [], {}
     for case in mission.cases:
         asked = case.scene.accuracy

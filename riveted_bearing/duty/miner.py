@@ -35,11 +35,8 @@ BISECTIONS = 60  # halve the interval to the last digit
 
 @dataclass(frozen=True)
 class Duty:
-    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C]; hours: at which the blends
-    hold [J], the first 0.
-
-    slopes: of classes of a record, what makes g s of the logarithms along each axis [A, J, I, C], zero for other parts;
-    None: there is no record.
+    """weights: of the parts [I]; blends: of the logarithms of the cases' rates [J, I, C] at hours [J], the first 0; slopes: g s
+    of classes of a record along each axis [A, J, I, C], zero for other parts, or None.
     """
 
     weights: np.ndarray
@@ -55,9 +52,7 @@ def part_rates(duty, rates):
 
 
 def class_factors(duty, logs):
-    """Mean rate over a class of a record over the rate at its mean values [..., J, I, K], MOST at most; 1 for other
-    parts.  logs: of the cases' rates.
-    """
+    """Mean rate over a class over that at its mean values [..., J, I, K], MOST at most; logs: of the cases."""
     if duty.slopes is None:
         return 1.0
     across = np.einsum("ajic,...ck->...ajik", duty.slopes, logs)
@@ -65,9 +60,7 @@ def class_factors(duty, logs):
 
 
 def lives(duty, rates):
-    """Life at each place [h], inf without damage [..., K]: the time at which Miner's sum is 1, and the damage of each
-    part by then [..., J, I, K], each stretch of hours counted half to either of its ends.
-    """
+    """Life at each place [h] (inf without damage) [..., K], and each part's damage by then [..., J, I, K]."""
     parts = duty.weights[:, None] * part_rates(duty, rates)
     if len(duty.hours) == 1:
         total = parts.sum(axis=-2)[..., 0, :]
@@ -102,9 +95,7 @@ def endless(life):
 
 
 def stretch_damage(first, grows, length, share):
-    """Damage over a share of a stretch in which a rate starts at `first` and grows by the factor exp(grows): integral
-    of first exp(grows x) length dx.
-    """
+    """Damage over a share of a stretch: integral of first exp(grows x) length dx."""
     length = np.broadcast_to(length, first.shape[:-2] + first.shape[-1:])[..., None, :]
     return first * length * share * exprel(grows * share)
 

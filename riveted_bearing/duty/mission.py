@@ -1,6 +1,4 @@
-"""Missions: operating points with their hours and events with their counts, checked against the FMU; mission_file.py has
-the keys of the file, docs/life.md an example.
-"""
+"""Missions: operating points with hours and events with counts, checked against the FMU (mission_file.py, docs/life.md)."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -10,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..base.errors import UserError, refusal
+from ..base.errors import UserError, refusal, shortlist
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
 from ..base.toml_files import read_toml
@@ -20,27 +18,29 @@ from ..running.basis import basis, fast_speeds
 from ..running.effects import acts, without_effect
 from ..running.fmu import Model
 from ..running.rainflow import fatigue_law
+from ..running.runner import turns
 from ..running.scene import own_names
 from ..running.scene_case import case_at
+from ..running.summary import COUNTED, SETTLED, fewer
 from .blends import cases_of, slopes_of
 from .cycles import outputs_of
-from .events import events
 from .miner import Duty
 from .mission_file import FEWEST, MissionFile
-from .parts import FORCED
+from .parts import FORCED, events
 from .points import points
 from .raceways import Raceways, of_parts, rated, slip_warning, why_unrated
-from .slow import slow_warnings
 
 MOST_TRIED = 8  # parts in which a setting without effect in one is tried
+TURNS = {  # of turns(): revolutions wanted, what happens with fewer, and the key that makes more
+    "settle_turns": (SETTLED, "damage begins to count after", "parameters.start.settle"),
+    "count_turns": (COUNTED, "damage of a run rests on", "simulation.t_end"),
+}
 
 
 @dataclass(frozen=True)
 class Mission:
-    """A mission checked against its Model; hours: of all points together; basis: what all of it rests on; shares:
-    whether its points have shares of a time that is not given; fmu, fmu_sha256: path and digest of the Model's file;
-    slow: sentences on points at which the shaft turns too few times; raceways(): the Raceways; idle(): names of settings
-    without effect.
+    """A mission checked against its Model; hours: of all points; basis: of all; shares: whether of a time that is not given;
+    slow: sentences; raceways(): the Raceways; idle(): names of settings without effect.
     """
 
     name: str
@@ -115,9 +115,7 @@ def plan_mission(name, document, model, path):
 
 
 def idle_settings(model, parts):
-    """Names of what the scenes of simulated parts set without effect on stress, damage and raceways in any of them; of many
-    parts the MOST_TRIED with the most hours or counts.
-    """
+    """Names that the MOST_TRIED longest parts set without effect on stress, damage and raceways."""
     tried = sorted((part for part in parts if part.scene is not None), key=lambda part: -part.weight)[:MOST_TRIED]
     idle = {name: True for part in tried for name in own_names(part.scene, model) if name not in FORCED}
 
@@ -155,6 +153,23 @@ def curves(path: Path, section: Any, scenes: Any, model: Model) -> Any:
         found[fatigue_law(law), given] = None
     strengths = ((read_strength(path, section, law), given) for law, given in found)
     return "; ".join(dict.fromkeys(f"{in_words(strength)}{assumed(strength, given)}" for strength, given in strengths))
+
+
+def slow_warnings(parts, model):
+    """Sentences on simulated points with few revolutions, where the start or chance counts; not at rest."""
+    found = {
+        part.name: turns(model, part.scene, part.scene.t_end)
+        for part in parts
+        if part.scene is not None and not part.event
+    }
+    for kind, (wanted, words, key) in TURNS.items():
+        slow = {name: of[kind] for name, of in found.items() if fewer(of[kind], wanted)}
+        if slow:
+            least = min(slow.values())
+            yield (
+                f"{'points' if len(slow) > 1 else 'point'} {shortlist(slow, 4)}: {words} {least:.2g} revolutions of the shaft"
+                f"{' or more' if len(slow) > 1 else ''}; from {wanted:g} on it is steady enough to compare ({key})"
+            )
 
 
 def life_settings(path, life):

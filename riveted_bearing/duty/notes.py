@@ -1,6 +1,4 @@
-"""What a reader of a mission's life has to know: which points were simulated, which were left out and why, and
-which effects the life does not contain.
-"""
+"""What a reader of a mission's life has to know: what was simulated and what left out, and which effects are not in it."""
 
 import math
 from typing import Any
@@ -33,9 +31,7 @@ def wide_classes(life):
 
 
 def matrix_warnings(runs: Runs) -> Any:
-    """Sentences on a mission with its own S-N curve whose matrices miss damage, because stress between the communication
-    points is not in them.
-    """
+    """Sentences on matrices of [sn] that miss damage, because stress between the points is not in them."""
     if "sn" not in runs.mission.document or (found := runs.counted()) >= ENOUGH:
         return []
     step = max(case.scene.step for case in runs.mission.cases)

@@ -26,9 +26,7 @@ WIDE, TALL = (4.9, 2.9), (4.9, 3.6)  # inches
 
 
 def write_page(life: Life, path: Path, notes: Any, warnings: Any = ()) -> Path:
-    """Write the page of a Life, whole or not at all; notes: sentences on what was simulated and left out; warnings:
-    beside those of the mission.  Returns the path.
-    """
+    """Write a Life's page with sentences (notes) and further warnings, whole or not at all; returns the path."""
     return save_page(
         path,
         "life.html",
@@ -262,17 +260,16 @@ def condition(values):
     return 1e-3 * math.hypot(*loads), RPM * (values.get("shaft.omega") or 0.0)
 
 
-def wrong_chart(fig, life):
-    """What the life's error is made of."""
-    tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades")
-
-
 CHARTS = {
     "life": (life_chart, WIDE, "Life and its confidence"),
     "shares": (share_chart, TALL, "Share of each point and event in the damage"),
     "rivets": (rivet_chart, WIDE, "Damage of each rivet"),
     "conditions": (load_and_speed_chart, TALL, "Damage against load and speed"),
-    "wrong": (wrong_chart, TALL, "How wrong the life may be, by parts"),
+    "wrong": (
+        lambda fig, life: tornado(fig, life.budgets[DECADES], -1.0, "true life over the number, decades"),
+        TALL,
+        "How wrong the life may be, by parts",
+    ),
 }
 
 

@@ -1,6 +1,8 @@
-"""Parts of a mission: an operating point or an event with its scene."""
+"""Parts of a mission: operating points, and events such as shocks and landings, each with its scene."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+
+import numpy as np
 
 from ..base.errors import UserError, refusal
 from ..base.toml_files import leaves
@@ -13,9 +15,8 @@ FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage":
 
 @dataclass(frozen=True)
 class Part:
-    """An operating point (weight: hours) or an event (weight: count); scene: None if it is interpolated; values: of all
-    inputs, None for those that vary, and of the parameters that it sets, SI; load, speed: in words; warnings: sentences.
-    Of a class of a record: cell, its number along each axis; means and spreads, of the record's values in it.
+    """An operating point (weight: hours) or an event (weight: count); scene: None if interpolated; values: inputs (None if
+    varying) and own parameters, SI; cell, means, spreads: of a class of a record along each axis.
     """
 
     name: str
@@ -61,9 +62,45 @@ def settings_of(block):
 
 
 def values_of(scene, model):
-    """What of a scene can be compared and interpolated: constant inputs, its own or the FMU's, and its parameters, SI;
-    None for inputs that vary.
-    """
+    """What can be compared and interpolated: inputs (None for varying ones) and the scene's parameters, SI."""
     varying = {name for name, history in scene.inputs.items() if len(history.t) > 1}
     inputs = {name: None if name in varying else scene.value(name, model) for name in model.inputs}
     return inputs | {name: value for name, value in scene.parameters.items() if not isinstance(value, bool)}
+
+
+# Events ----------------------------------------------------------------------------------------------------------------
+
+
+def events(path, file, model):
+    """The Parts of a MissionFile's [[event]]."""
+    for i, block in enumerate(file.event, 1):
+        label, name = f"event {block.name or i}", block.name or f"event {i}"
+        part = part_of(path, file, model, label, name, block, block.count)
+        own = {name for name, _ in leaves(block.inputs, model.inputs)}
+        names = own | (set(part.scene.inputs) if block.scene is not None else set())
+        settle = part.scene.value("start.settle", model)
+        scene, warnings = event_in_time(path, label, block.after_settle, part.scene, settle, sorted(names))
+        yield replace(part, event=True, scene=scene, warnings=warnings)
+
+
+def event_in_time(path, label, moved, scene, settle, names):
+    """The scene of an event, its times from settle on if moved, and warnings; names: of its own inputs.  UserError for an input
+    whose changes are all outside the counted time.
+    """
+    varying = {name: scene.inputs[name] for name in names if np.ptp(scene.inputs[name].value) > 0.0}
+    if moved:
+        varying = {name: replace(history, t=history.t + settle) for name, history in varying.items()}
+        scene = replace(scene, inputs=scene.inputs | varying)
+    counted = f"damage counts from start.settle = {settle:g} s to t_end = {scene.t_end:g} s"
+    warnings = []
+    for name, history in varying.items():
+        begin, end = history.changing_time()
+        told = f"{label}: inputs.{name} changes from {begin:g} s to {end:g} s"
+        over = end <= settle and history.value[0] == history.value[-1]
+        if over or begin >= scene.t_end:
+            later = "set later times, or after_settle = true, from which they count"
+            remedy = later if over else "set a longer t_end"
+            raise UserError(f"{path}: {told}, but {counted}: {remedy}")
+        if begin < settle or end > scene.t_end:
+            warnings.append(f"{told}, but {counted}: a part of the event does not count")
+    return scene, tuple(warnings)

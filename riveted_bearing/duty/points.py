@@ -149,9 +149,7 @@ def history_points(path, file, model):
 
 
 def wide_classes(columns, spent, means, spreads):
-    """Sentences on columns of forces whose classes are too wide for the raceways' lives, which go with the third power of
-    the load and take the mean of each class: mean of F^3 = mu^3 + 3 mu sigma^2.
-    """
+    """Sentences on forces in classes too wide for the raceways: mean of F^3 = mu^3 + 3 mu sigma^2."""
     found = []
     for name, mean, spread in zip(columns, np.abs(means.T), spreads.T, strict=True):
         cubes = spent @ mean**3

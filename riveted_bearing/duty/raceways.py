@@ -30,9 +30,7 @@ CODE = re.compile(r"(?:[\d-]+/)?(\d+)/\d+( filtered)?")  # of ISO 4406: particle
 
 @dataclass(frozen=True)
 class Rated:
-    """The raceways at an operating point: turns of the rings against each other [1/h], load [N], minimum load [N], kappa (nan at
-    rest), and lives [10^6 revolutions] by the names of KINDS.
-    """
+    """At an operating point: turns of the rings [1/h], load, least load [N], kappa (nan at rest), lives [10^6] by KINDS."""
 
     turns: float
     load: float
@@ -95,9 +93,7 @@ def too_little_load(case: Case) -> Iterator[Any]:
 
 
 def cleanliness_of(value: Any) -> Any:
-    """A name of load_ratings.CLEANLINESS, or a contamination factor e_C, from what the user wrote: "normal", "20/17/14",
-    "-/15/12 filtered", 0.4.
-    """
+    """A name of load_ratings.CLEANLINESS, or e_C, from "normal", "20/17/14", "-/15/12 filtered", 0.4."""
     from bearing_model.load_ratings import CLEANLINESS
 
     try:
@@ -137,9 +133,7 @@ def in_words(cleanliness: Any) -> str:
 
 @dataclass(frozen=True)
 class Raceways:
-    """Raceways under points with their hours: (name, hours, tuple of Rated over a varying point); cleanliness: as of
-    cleanliness_of, None if nobody gave one; untold: why nothing is known, "" if all is.
-    """
+    """(name, hours, Rated over a varying point) of points; cleanliness: None if nobody gave one; untold: why nothing is known."""
 
     points: tuple = ()
     cleanliness: object = None
@@ -176,9 +170,7 @@ class Raceways:
 
 
 def of_points(model, points, cleanliness=None):
-    """The Raceways of points (name, hours, values, histories, (begin, end)) of a Model: SI values by full name, functions
-    of time for those that vary between two times [s]; cleanliness: as of cleanliness_of, None if nobody gave one.
-    """
+    """Raceways of a Model's points (name, hours, SI values by full name, histories that vary, (begin, end) [s])."""
     own, known, found = replace(scene_case(None, model), cleanliness=cleanliness), {}, []
     try:
         for name, hours, values, histories, (begin, end) in points:

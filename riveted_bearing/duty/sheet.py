@@ -63,9 +63,7 @@ class Sheet:
 
 
 def assumptions(result, figure, decides=None):
-    """The assumptions that move the figure of the verdict most with their range and effect, and where that is from; decides: a
-    Sensitivity.
-    """
+    """What moves the figure most, with range and effect, and where that is from; decides: a Sensitivity."""
     if decides:
         name = decides.responses[0]
         unit, factor, _ = display_of(name)
@@ -158,9 +156,7 @@ def fitted(texts, more=0):
 
 
 def rivets_chart(fig, damage, rivet):
-    """The circle of rivets at the start, seen from +X, coloured by their damage against the largest, the one that
-    fails first marked.
-    """
+    """The rivets at the start, seen from +X, coloured by damage over the largest; the first to fail marked."""
     ax = fig.subplots()
     share = np.array(damage) / (max(damage) or 1.0)
     angle = 2.0 * np.pi * (np.arange(len(share)) + 0.5) / len(share)

@@ -1,14 +1,6 @@
 """No two bearings alike: tolerances as distributions, and the scatter of life over bearings that are drawn from them.
 
-[tolerance]
-bearings = 30                        # how many are drawn
-seeds = 2                            # runs of each bearing at each point
-share = 0.95                         # simulate the points and events that have this share of the damage; the rest keeps its damage
-[tolerance.parameters]
-joint.preload = { distribution = "normal", mean = "20 N", sd = "2 N" }
-joint.fit = { distribution = "uniform", low = "-20 um", high = "0 um" }
-cage.guide_clearance = { distribution = "triangular", low = "0.15 mm", mode = "0.2 mm", high = "0.3 mm" }
-joint.mu = { distribution = "lognormal", median = 0.15, factor = 1.2 }      # 68 % within median/factor ... median factor
+Of a lognormal one 68 % lie within median/factor ... median factor.
 """
 
 import math
@@ -21,7 +13,7 @@ import numpy as np
 from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.files import write_json
 from ..base.toml_files import leaves
-from ..base.units import check_alike, to_si
+from ..base.units import check_alike, differences, to_si
 from ..running.fmu import Model
 from .assess import Life, Runs, places
 from .blends import Case, loosened
@@ -39,9 +31,7 @@ RECORD = "bearings.json"
 
 @dataclass(frozen=True)
 class Tolerances:
-    """How many bearings with how many seeds at which share of the damage, and the frozen distributions of scipy.stats
-    by parameter (SI).
-    """
+    """Numbers of bearings and seeds, share of the damage, and distributions of scipy.stats by parameter (SI)."""
 
     bearings: int
     seeds: int
@@ -51,9 +41,7 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class Scatter:
-    """lives of the bearings [h]; draws: {parameter: values}; noise: share of the variance of ln life that the seeds
-    have; law: of Weibull.
-    """
+    """lives [h]; draws: {parameter: values}; noise: share of the seeds in the variance of ln life; law: Weibull."""
 
     lives: np.ndarray
     draws: dict = field(repr=False)
@@ -108,11 +96,6 @@ def distribution(path, name, entry, model):
     raise refusal(path, where, entry, reason)
 
 
-def differences(scales):
-    """Scales of a difference: without the offset of degrees Celsius."""
-    return {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
-
-
 def drawn(tolerances, seed):
     """Values of the parameters of all bearings: {name: [bearings]}."""
     rng = np.random.default_rng(seed)
@@ -128,11 +111,8 @@ def scatter(
     progress: Any = None,
     runs_of: Any = None,
 ) -> Any:
-    """The Scatter of life over bearings drawn from the tolerances, for the mission of a Life.
-
-    Points and events that have the share asked for are simulated for each bearing with common seeds, at the preload of
-    the mission's start. runs_of: function of the mission of bearings that gives its runs(counts), None for the FMU's in
-    a folder of their own.
+    """The Scatter of life over bearings drawn from the tolerances: parts with the share asked for run for each, common seeds, at
+    the start's preload.  runs_of(mission): its runs(counts), None for the FMU's in a folder.
     """
     mission, settings = life.mission, life.mission.settings
     draws = drawn(tolerances, settings["seed"])
@@ -158,17 +138,11 @@ def scatter(
         if tolerances.seeds > 1:
             spread = np.array([np.log(np.maximum(runs, 1e-300)).std(ddof=1) for runs in at_place])
             shares = np.array([runs.mean() for runs in at_place]) / damage[place]
-            noise.append(np.sum((shares * relative_error(spread, tolerances.seeds)) ** 2))
+            error = np.expm1(np.minimum(spread, 5.0) ** 2) / tolerances.seeds  # of the mean of log-normal runs, squared
+            noise.append(np.sum(shares**2 * error))
     lives = np.array(lives)
     share = float(np.mean(noise) / np.log(lives).var(ddof=1)) if noise else math.nan
     return Scatter(lives, draws, share, fit_weibull(lives, confidence=settings["confidence"]))
-
-
-def relative_error(spread, count):
-    """Standard error of ln of the mean of n runs whose logarithms have the standard deviation `spread` (log-normal
-    law).
-    """
-    return np.sqrt(np.expm1(np.minimum(spread, 5.0) ** 2) / count)
 
 
 def decisive_parts(life, share):
@@ -198,9 +172,7 @@ def changed(mission, model, i, values):
 
 
 def write_scatter(found: Any, path: Path) -> Path:
-    """Write bearings.json: the Weibull law, the seeds' share of the scatter, lives and what was drawn; returns the
-    path.
-    """
+    """Write bearings.json: Weibull law, the seeds' share, lives and what was drawn; returns the path."""
     document = found.law.record() | {
         "confidence": found.law.confidence,
         "seeds_share": found.noise if math.isfinite(found.noise) else None,

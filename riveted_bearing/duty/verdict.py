@@ -88,9 +88,7 @@ def raceways_judged(found, target):
 
 
 def reserve(evidence, place, target):
-    """Factor of all stresses at which the head (0) or the middle (1) just reaches the target; an end of SCALES if it is
-    beyond.
-    """
+    """Factor of all stresses at which head (0) or middle (1) just reaches the target; an end of SCALES beyond."""
     low, high = SCALES
     for _ in range(HALVINGS):
         middle = math.sqrt(low * high)

@@ -16,9 +16,7 @@ from ..show.style import FORCE, HEAD, MIDDLE, few_ticks, picture
 
 @dataclass(frozen=True)
 class Weibull:
-    """beta, eta [h], b10 [h], each with its interval (low, high) at `confidence`; failures: lives [h] with their median
-    ranks.
-    """
+    """beta, eta, b10 [h] with intervals at `confidence`; failures: lives [h] with their median ranks."""
 
     beta: float
     eta: float
@@ -40,10 +38,8 @@ class Weibull:
 
 
 def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):
-    """The Weibull law of lives [h] and of running times of those that have not failed [h]; counts: units at each time,
-    lives first, None for one each.
-
-    Raises UserError with fewer than three failures, times that are not positive, or if surpyval is missing.
+    """The Weibull law of lives [h] and running times of survivors [h]; counts: units at each time, lives first, None: one each.
+    UserError with fewer than three failures, times not positive, or without surpyval.
     """
     surpyval = library("surpyval", "a Weibull law")
     lives, suspended = np.asarray(lives, float), np.asarray(suspended, float)

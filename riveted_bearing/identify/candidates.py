@@ -195,9 +195,8 @@ def scales_at(name, model):
 
 
 def designs(cause: Cause, count: int, seed: Any, model: Model) -> list[dict[str, Any]]:
-    """Values by name of so many designs: Latin hypercubes over the ranges, that of the sound ones the same for all causes,
-    so that causes differ in nothing but their own; names with [*] have one value for each rivet or ball, about the
-    middle of the range, over a part of the range that is drawn too.
+    """Values by name of so many designs: Latin hypercubes, the sound ones' the same for all causes; names with [*] have a value
+    each, about the middle of the range over a part of it that is drawn too.
     """
     single = [name for name in cause.ranges if "[*]" not in name]
     shared = [name for name in single if name in cause.sound]

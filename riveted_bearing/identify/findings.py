@@ -1,19 +1,4 @@
-"""Findings of a failure analyst, and the causes that may explain them.
-
-    scene = "demo"                       # the mission's point that matters: scene, [simulation], [parameters], [inputs] as in a sweep
-    hours = "about 900 h"                # until the rivets were found broken
-    loose = [7]                          # rivets that hold but rattle
-    missing = []                         # rivets that were never set
-    [broken]                             # numbers of rivets, or how many where the numbers are not known
-    head = [1, 2, 3]
-    middle = [4]
-    order = [2, 3, 1]                    # as far as known, first to last
-    [marks]
-    pocket = "heavy"                     # or "none"
-    [measured]
-    fit = "about -60 um"                 # [[inspection]] of data/causes.toml, or of this file
-    [prior]
-    misalignment = 2                     # against 1 of the others
+"""Findings of a failure analyst, and the causes that may explain them; docs/failure.md has an example.
 
 What is missing is not known.  "about" makes an uncertainty three times as large, that of the hours a factor of two.
 """
@@ -25,11 +10,11 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
-from ..base.schema import Choice, Count, Named, Number, Section, checked
+from ..base.schema import Choice, Count, Named, Number, Section, checked, holds, is_list_of
 from ..base.units import to_si
 from ..design.bench import Seeded
 from ..running.fmu import Model
@@ -46,17 +31,12 @@ CASCADE = {  # keys of the cascade files of earlier versions, which `causes --or
 NONE = "none of these"
 
 
-def numbers_or_count(value: Any) -> Any:
-    """A list of different rivets' numbers, or how many there are."""
-    if isinstance(value, int) and not isinstance(value, bool) and value >= 0:
-        return value
-    whole = isinstance(value, list) and all(isinstance(k, int) and not isinstance(k, bool) for k in value)
-    if not whole or len(set(value)) < len(value):
-        raise UserError("a list of different rivets' numbers, or how many there are, is needed")
-    return value
+def is_of_rivets(value: Any) -> bool:
+    """Whether a value is a list of different numbers, or a number of rivets."""
+    return (is_list_of([value], int) and value >= 0) or (is_list_of(value, int) and len(set(value)) == len(value))
 
 
-Rivets = Annotated[Any, BeforeValidator(numbers_or_count)]
+Rivets = Annotated[Any, holds(is_of_rivets, "a list of different rivets' numbers, or how many there are, is needed")]
 Mark = Annotated[str, Choice(("none", "heavy"))]
 
 
@@ -107,10 +87,8 @@ class FindingsFile(Seeded):
 
 @dataclass(frozen=True)
 class Findings:
-    """What was found, checked: numbers of rivets, None for a place whose numbers are not known, in `counts`.
-
-    looked: for loose and missing rivets; measured: (value, standard deviation) by name; hours: (log10, its standard
-    deviation) or None.
+    """Checked findings: numbers of rivets by place, None where unknown, and counts; looked: for loose and missing ones; hours:
+    (log10, standard deviation) or None; measured: (value, standard deviation).
     """
 
     looked: frozenset

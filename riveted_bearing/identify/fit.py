@@ -45,8 +45,8 @@ class Interval:
 
 @dataclass(frozen=True)
 class Check:
-    """Figures of the targets at parameter values with fresh seeds: mean and standard error [targets], and the RMS of the
-    deviations in units of their uncertainty, over fitted and held-out targets, each with its scatter by the seeds.
+    """Mean and standard error [targets] with fresh seeds at parameter values, and RMS deviations in uncertainties of fitted and
+    held-out targets with their scatter.
     """
 
     values: list
@@ -59,10 +59,8 @@ class Check:
 
 @dataclass(frozen=True)
 class Found:
-    """An identification: parameter values with intervals and correlations; widened: factor on the intervals' quantile;
-    effects [parameters, targets]: change over the parameter's range at the answer, in uncertainties; screen: mean
-    elementary effects by SALib of a Morris design; checks: of the answer and of the values before; misfit: least J's
-    squares and degrees of freedom; notes: sentences.
+    """Intervals and correlations; widened: factor on the quantile; effects [parameters, targets] over the range, in
+    uncertainties; screen: Morris; answer, before: Checks; misfit: squares and degrees of freedom; notes.
     """
 
     study: object
@@ -161,9 +159,7 @@ def identify(study: Any, evaluate: Any, start: Any) -> Any:
 
 
 def found_by(study, evaluate, start):
-    """The Found of a Study; evaluate(points [n, d] in SI, seeds) returns [n, seeds, targets]; start: SI values before
-    the fit [d].
-    """
+    """The Found; evaluate(points [n, d], seeds) gives [n, seeds, targets]; start: SI values before the fit [d]."""
     seeds = range(study.settings["seed"], study.settings["seed"] + study.settings["seeds"])
     rng = np.random.default_rng(study.settings["seed"])
     u = screen_points(study)
@@ -293,9 +289,7 @@ def profiles(study, objective, best, J):
 
 
 def crossing(grid, rise, best, limit):
-    """Ends of the set around `best` where a profile stays within the limit, by straight lines between its points; the
-    outermost ones, if the profile has more than one valley.
-    """
+    """Outermost ends around `best` where a profile stays within the limit, straight between its points."""
     inside = np.flatnonzero(rise <= limit)
     if not len(inside):
         return best, best
@@ -390,11 +384,9 @@ def notes(found, objective, best):
 
 
 def prediction(after, before, *scatter):
-    """What the fit is worth on targets that it has not seen, from their deviations after and before it, in
-    uncertainties; scatter: of both RMS by the seeds.
+    """What the fit is worth on unseen targets, from their deviations after and before; scatter: of both RMS by the seeds.
 
-    The sum of squares falls by D.  The targets' own uncertainty scatters D by 2 |after - before|, because their error
-    shifts both deviations alike; the seeds add theirs.
+    Squares fall by D, which the targets' uncertainty scatters by 2 |after - before|, as it shifts both alike.
     """
     n, errors = len(after), [float(np.sqrt(np.mean(z**2))) for z in (after, before)]
     D = n * (errors[1] ** 2 - errors[0] ** 2)

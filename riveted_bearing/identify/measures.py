@@ -48,11 +48,8 @@ class Measure:
 
 
 def amplitude_between(t, values, low, high):
-    """RMS amplitude of a series between two frequencies [Hz], by Welch's density with Hann windows.
-
-    A sine of amplitude A inside the band gives A/sqrt(2).  The windows' length depends on the band alone, so that run and
-    measurement blur it alike.  nan if the times are not equally spaced or a window is too
-    short to tell the band from its neighbours.
+    """RMS amplitude between two frequencies [Hz], by Welch with Hann windows whose length depends on the band alone; A/sqrt(2)
+    of a sine.  nan if times are not equally spaced or windows too short.
     """
     steps = np.diff(t)
     if len(t) < 16 or np.abs(steps / steps.mean() - 1.0).max() > UNEVEN:

@@ -26,12 +26,9 @@ RESAMPLES = 2000
 
 @dataclass(frozen=True)
 class State:
-    """A state of the cage: rivets gone before (numbers from 1), its damage rates [Z, 2] of heads and middles per hour,
-    mean over seeds, and loads.
+    """A state of the cage: rivets gone, mean damage rates [Z, 2] per hour, 99.9 % stress [Z] [Pa], dislocation [m], open joints.
 
-    hours: how long it lasts; rivet, place: what breaks at its end, None if nothing does; sure: share of the resamples
-    that agree; end: why nothing is followed any more. stress [Z]: 99.9 % quantile of the heads [Pa]; dislocation: largest
-    between the halves [m]; open: most joints that were open at once.
+    hours: its length; rivet, place: what breaks, or None; sure: share of resamples that agree; end: why none follows.
     """
 
     gone: tuple
@@ -82,9 +79,7 @@ def state_of(bench, rivets, gone):
 
 
 def follow(state_at, breaks, seed=1, missing=(), within=np.inf):
-    """States in order; state_at(gone) gives a State and its rates with each seed.  missing: gone from the start; within:
-    hours that are followed.
-    """
+    """States in order; state_at(gone): a State and its rates with each seed; missing: at the start; within: hours."""
     damage, gone, states, rng = None, list(missing), [], np.random.default_rng(seed)
     while True:
         state, rates = state_at(gone)

@@ -83,9 +83,7 @@ def perform_history(scene, fmu, _=None):
 
 
 def history_of(model: Model, scene: Followed) -> dict[str, Any]:
-    """States of the cage, each with the rivets that are gone, damage rates per hour as they are simulated [Z][2], and
-    what breaks next after how many hours; responses of the whole cage; end: why no state follows.
-    """
+    """States with who is gone, rates [Z][2] per hour and the next break; responses; end: why none follows."""
     with Instance(model) as instance:
         instance.initialize(scene)
         cage = Cage(instance, scene)
@@ -207,7 +205,7 @@ def run_pool(
     planned = sampled(study, model, document, **of)
     keys = [key_of(scene, model.digest) for *_, scene in planned]
     scenes = {key: scene for key, (*_, scene) in zip(keys, planned, strict=True)}
-    about = study.path.stem, study.file.description, model, model.path.read_bytes(), document
+    about = study.path.stem, study.file.description, model, document
     sweep = Sweep(*about, (), scenes, (None, history_field), grows=True, perform=perform_history)
     rows = run_sweep(sweep, folder, client, progress, keys)
     samples = []

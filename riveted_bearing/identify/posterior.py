@@ -47,8 +47,8 @@ GRID = 400
 
 @dataclass(frozen=True)
 class Predicted:
-    """What a design predicts: log10 of the hours of its breaks; probability of a middle and of a neighbour in each state;
-    rivets in the order of their breaks; share of loose rivets; probability of each heavy mark; values of the quantities.
+    """log10 of the hours of breaks; probability of a middle and of a neighbour in each state; order; missing; share of loose
+    ones; probability of marks; values of quantities.
     """
 
     cause: int
@@ -199,8 +199,8 @@ def pattern(found, pool, Z):
 
 @dataclass(frozen=True)
 class Answer:
-    """The posterior [causes + none], its bootstrap [RESAMPLES, causes + none]; single: likelihood of each finding alone,
-    over its mean by the prior; effective: designs that bear a cause; weights: of the designs; inspections: (name, bits).
+    """posterior [causes + none] and its bootstrap; single: likelihood of each finding over its mean; effective: designs of a
+    cause; weights: of designs; inspections: (name, text, bits).
     """
 
     names: list
@@ -277,9 +277,7 @@ def normalized(values):
 
 
 def measured(study, pool, of):
-    """Kernel of each design [designs], and for each measured quantity its density under each cause [q, causes] and evenly
-    over all values [q].
-    """
+    """Kernel of each design, density of each measured quantity under each cause [q, causes] and evenly [q]."""
     kernel = np.ones(len(pool))
     density, even = np.ones((len(study.findings.measured), len(study.causes))), []
     for q, (name, (value, sd)) in enumerate(study.findings.measured.items()):

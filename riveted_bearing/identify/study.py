@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic import AfterValidator, Field
 from scipy.stats import norm
 
 from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
-from ..base.schema import Choice, Count, Named, Number, Section, checked
+from ..base.schema import Choice, Count, Named, Number, Section, checked, holds
 from ..base.toml_files import leaves
-from ..design.sensitivity import even
+from ..design.sensitivity import EVEN
 from ..running.fmu import Model
 from ..running.scene import load_scene
 from ..studies.sweep_file import Settings, beside, bounds, known_names
@@ -25,11 +25,7 @@ PARAMETER = ("low", "high", "scale", "mean", "sd")
 NOT_FOUND = ("simulation.", "start.", "solver.", "scene")  # begin of names that say how to simulate
 
 
-def so_many(value):
-    """0, or a whole number from 2 on; ValueError for anything else."""
-    if isinstance(value, bool) or not isinstance(value, int) or value < 0 or value == 1:
-        raise UserError("0 (none), or from 2 on (each so many-th), is allowed")
-    return value
+SO_MANY = "0 (none), or from 2 on (each so many-th), is allowed"
 
 
 class Screen(Section):
@@ -38,7 +34,7 @@ class Screen(Section):
     method: Annotated[str, Choice(("latin_hypercube", "morris"))] = "latin_hypercube"
     count: Annotated[int, Count()] = Field(40, description="points of latin_hypercube")
     trajectories: Annotated[int, Count()] = Field(6, description="of morris")
-    levels: Annotated[int, Count(), AfterValidator(even)] = Field(4, description="of morris, even")
+    levels: Annotated[int, Count(), EVEN] = Field(4, description="of morris, even")
 
 
 class Search(Section):
@@ -65,7 +61,7 @@ class IdentifyFile(Settings):
     check_seeds: Annotated[int, Count(2, "from 2 on, which show scatter, is allowed")] = Field(
         8, description="fresh seeds of the answer"
     )
-    held_out: Annotated[int, BeforeValidator(so_many)] = Field(
+    held_out: Annotated[int, Count(0, SO_MANY), holds(lambda n: n != 1, SO_MANY, AfterValidator)] = Field(
         3, description="each so many-th target is kept from the fit; 0: none"
     )
     confidence: Annotated[float, Number(above=0.0, below=1.0, words="a number between 0 and 1 is needed")] = 0.95
@@ -81,9 +77,7 @@ class IdentifyFile(Settings):
 
 @dataclass(frozen=True)
 class Parameter:
-    """A value to be found between low and high (SI); log: searched by ratios; mean, sd: of a normal prior, None: the
-    whole range is equally likely.
-    """
+    """A value to be found in low ... high (SI); log: by ratios; mean, sd: of a normal prior, None: none."""
 
     name: str
     low: float
@@ -120,9 +114,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Study:
-    """An identification that was checked; points: names and documents of the operating points; measures: of channels,
-    computed by the workers.
-    """
+    """A checked identification; points: names and documents; measures: of channels, computed by workers."""
 
     path: Path
     description: str

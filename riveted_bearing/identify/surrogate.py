@@ -20,10 +20,7 @@ CLEAR = 6.0  # standard deviations of a point's noise: an effect beyond needs no
 
 
 def noise_parts(values):
-    """Variance of a point's mean that the seeds leave, own to the point and common to all points; values [n, seeds].
-
-    nan, 0 with one seed, whose noise the likelihood has to find.
-    """
+    """Variance that the seeds leave in a point's mean, own and common, of [n, seeds]; nan, 0 with one seed."""
     n, seeds = values.shape
     if seeds < 2 or n < 2:
         return np.nan, 0.0
@@ -91,9 +88,7 @@ class Surrogate:
 
 
 def pruned(u, values):
-    """The Surrogate without the parameters of which the runs show no influence: leaving them out costs less than
-    EVIDENCE of the likelihood's logarithm.  Noise else makes them look as if they had some.
-    """
+    """The Surrogate without parameters whose loss costs less than EVIDENCE of ln likelihood."""
     found = Surrogate(u, values)
     line = np.full((11, u.shape[1]), 0.5)
     effects = []

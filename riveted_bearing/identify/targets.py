@@ -11,7 +11,7 @@ from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.schema import Count, Named, Number, Section, Truth
 from ..base.tables import Table, Wanted
 from ..base.toml_files import leaves
-from ..base.units import SECONDS, scales_of, to_si
+from ..base.units import SECONDS, differences, scales_of, to_si
 from ..running.responses import COLUMNS as RESPONSES
 from ..studies.sweep import KINDS
 from .measures import FEWEST, SEGMENTS, STATISTICS, Measure, bands, of_series, parsed
@@ -53,9 +53,8 @@ class SeriesBlock(Common):
 
 @dataclass(frozen=True)
 class Target:
-    """A measured figure: of an operating point, as its ratio or difference ("over", "minus") to another, or of it alone.
-
-    column: of a row; value, uncertainty: in SI, the latter one standard deviation; origin: where the value is from.
+    """A measured figure of an operating point, or its ratio or difference to another; column: of a row; value, uncertainty: SI,
+    one standard deviation; origin: of the value.
     """
 
     name: str
@@ -87,7 +86,7 @@ def spread(path, key, value, scales, mean):
     if relative:
         found = abs(mean) * quantity(path, key, value, scales_of("1", {}))
     else:
-        found = quantity(path, key, value, {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()})
+        found = quantity(path, key, value, differences(scales))
     if not found > 0.0:
         zero = f"{value} of {mean:g} is 0" if relative and found == 0.0 else "one standard deviation"
         raise refusal(path, key, value, f"{zero}: greater than 0 is needed")
@@ -114,7 +113,7 @@ class Reader:
         if operation == "over":
             unit, scales = "1", scales_of("1", {})
         elif operation == "minus":
-            scales = {symbol: (factor, 0.0) for symbol, (factor, _) in scales.items()}
+            scales = differences(scales)
         for key in ("value", "uncertainty"):
             if getattr(block, key) is None:
                 raise UserError(f"{where}: {key} is missing: its weight follows from value and uncertainty")

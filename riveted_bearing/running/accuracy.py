@@ -18,23 +18,19 @@ V^2 [2/(n-1) + K/n] with the excess kurtosis K, that of 2/[2/(n-1) + K/n] degree
 benchmarks/coverage.py measures how often the interval holds a reference.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..base.errors import UserError
+from .fmu import Model
+from .results import Result
 from .runner import simulate
+from .scene import Scene
 from .seeds import seeded
 from .summary import columns, has_statistics, settled
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .results import Result
-    from .scene import Scene
 
 # name -> in words, unit, factor from SI; DECADES is a logarithm, the others are judged relative to their value
 FIGURES = {
@@ -81,9 +77,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class Found:
-    """A figure's value corrected by its bias, the plain mean, the bias's share (shift), half-widths of seeds and step, and
-    whether all seeds fall on one motion.
-    """
+    """Value corrected by its bias, plain mean, shift, half-widths of seeds and step, whether one motion only."""
 
     value: float
     plain: float
@@ -108,11 +102,6 @@ class Found:
 
 
 # One run --------------------------------------------------------------------------------------------------------------
-
-
-def tolerance_of(model: Model, scene: Scene) -> float:
-    """The tolerance at which a scene runs."""
-    return float(scene.tolerance or scene.value("solver.tol", model))
 
 
 def sample(model: Model, scene: Scene, whole: bool = False) -> Sample:
@@ -157,10 +146,8 @@ def steps_of(summary: Any) -> tuple[float, float]:
 
 
 def block_variances(result: Result, values: dict[str, float]) -> dict[str, float]:
-    """Variance of each figure of a run by its BLOCKS: that of the blocks' own figures over their number.
-
-    values: of the whole run, to which those of blocks are scaled, because a quantile of a short block lies lower and largest forces
-    of all balls lie higher.
+    """Variance of each figure by a run's BLOCKS; values: of the whole run, to which blocks' are scaled, as their quantiles lie
+    lower and largest forces of all balls higher.
     """
     late, slope = settled(result), result.parameters["fatigue.k_2"]
     heads = [CHANNELS[0]] if CHANNELS[0] in result.data else columns(result, "rivet[", "].sigma_head_peak")
@@ -211,9 +198,7 @@ def spread_of(values: Any, blocks: Any, kurtosis: float = 0.0) -> tuple[float, f
 
 
 def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confidence: float = CONFIDENCE) -> Found:
-    """The Found of a figure from values of plain runs [n], of finer ones on the first seeds [m], and the plain runs' block
-    variances.
-    """
+    """The Found of a figure: plain runs [n], finer ones on the first seeds [m], block variances of the plain."""
     from scipy import stats
 
     x, y = np.asarray(plain, float), np.asarray(fine, float)
@@ -263,8 +248,8 @@ FALLS = 0.8  # largest share of a bias that shorter steps may leave, else it doe
 
 @dataclass(frozen=True)
 class Reached:
-    """What an accuracy took: the parameters of its steps and their mean length [s], the runs' Found by figure, why a figure is not within
-    it, the plain run, the Result and Samples (plain, finer) with these steps, and the processor time [s].
+    """Target, settings and mean length [s] of the steps, Found by figure, why some missed, the plain run, Result, Samples
+    (plain, finer) and processor time [s].
     """
 
     target: float
@@ -342,9 +327,7 @@ def with_settings(scene: Scene, settings: dict[str, Any]) -> Scene:
 
 
 def finer_settings(model: Model, scene: Scene, above: Sample, run: Any) -> tuple[dict[str, Any], Sample]:
-    """The parameters of the first steps that prove to be finer than those of the scene, and the Sample run(parameters) with them; above:
-    the scene's own Sample.
-    """
+    """Parameters of the first finer steps than the scene's, and run(them); above: the scene's own Sample."""
     for settings in shorter_steps(model, scene, above):
         found = run(settings)
         limited = found.failed > max(above.failed, FEW)
@@ -355,7 +338,7 @@ def finer_settings(model: Model, scene: Scene, above: Sample, run: Any) -> tuple
 
 def shorter_steps(model, scene, above):
     """Parameters with which steps may be shorter than those of a scene's Sample."""
-    tolerance = tolerance_of(model, scene)
+    tolerance = float(scene.tolerance or scene.value("solver.tol", model))
     if above.failed > FEW and tolerance * FINER >= FINEST:
         yield {"solver.tol": tolerance * FINER}
     for shorter in range(1, SHORTEST + 1):
@@ -365,10 +348,8 @@ def shorter_steps(model, scene, above):
 def accurate(
     model: Model, scene: Scene, target: float, within: float = WITHIN, progress: Any = lambda runs: None
 ) -> Reached:
-    """Run a scene until its NAMED figures are within `target` of their values, or until more runs do not help; UserError where it
-    would take longer than `within` [s of processor time].
-
-    Two runs and a finer one, then more of both, or shorter steps where the bias decides.
+    """Run until the NAMED figures are within `target` of their values or no runs help, by more of them or by shorter steps where
+    the bias decides; UserError where it takes longer than `within` [s].
     """
     runs, level, n, m, before = Runs(model, scene, progress), 0, 2, 1, {}
     while True:
@@ -380,7 +361,7 @@ def accurate(
         if not open_ones:
             break
         if level + 1 < LEVELS and any(
-            of_bias(each) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)
+            abs(each.shift) > 0.7 * target * abs(each.value) for each in open_ones.values() if is_bias(each)
         ):
             before, level, m = {name: each.shift for name, each in found.items()}, level + 1, 1
             continue
@@ -391,7 +372,7 @@ def accurate(
             raise UserError(
                 f"accuracy {100 * target:g} %: {FIGURES[name][0]} is known to {100 * each.half / abs(each.value):.2g} % after {len(runs.done)} "
                 f"runs; {100 * target:g} % would take about {needed:,.0f} seeds, {needed * each_costs:,.0f} s of processor time, and {within:,.0f} s are "
-                f"allowed: {100 * reachable(each, target, needed, within / each_costs):.2g} % can be reached, or a longer time (within)"
+                f"allowed: {100 * target * math.sqrt(needed / max(within / each_costs, 1.0)):.2g} % can be reached, or a longer time (within)"
             )
         n = int(max(n + 1, min(math.ceil(needed), GROWTH * n)))
         m = (n + 1) // 2
@@ -408,11 +389,6 @@ def accurate(
     )
 
 
-def of_bias(each):
-    """The part of a half-width that the finer run's own error makes, which no seeds reduce."""
-    return abs(each.shift)
-
-
 def is_bias(each):
     """Whether the shift is more than scatter."""
     return abs(each.shift) > each.seeds
@@ -420,14 +396,9 @@ def is_bias(each):
 
 def runs_needed(each, target):
     """Runs with which the scatter would be narrow enough beside the bias."""
-    bias = of_bias(each) if is_bias(each) else 0.0
+    bias = abs(each.shift) if is_bias(each) else 0.0  # of the finer run's own error, which no seeds reduce
     room = (target * abs(each.value)) ** 2 - bias**2
     return each.runs[0] * (each.half**2 - bias**2) / room if room > 0.0 else GROWTH * each.runs[0]
-
-
-def reachable(each, target, needed, runs):
-    """Share of the value that a number of runs reaches."""
-    return target * math.sqrt(needed / max(runs, 1.0))
 
 
 def no_way(each, target, before, level):
@@ -435,7 +406,7 @@ def no_way(each, target, before, level):
     share = 100.0 / abs(each.value)
     if each.one_motion and each.seeds > target * abs(each.value):
         return f"all seeds fall on one motion, which changes by {share * each.seeds:.2g} % from block to block: a longer t_end shows more of it"
-    if is_bias(each) and of_bias(each) > target * abs(each.value):
+    if is_bias(each) and abs(each.shift) > target * abs(each.value):
         if before and abs(each.shift) > FALLS * abs(before):
             return f"its bias of {share * abs(before):.2g} % does not fall with the step: {share * abs(each.shift):.2g} % is left at shorter ones"
         if level + 1 >= LEVELS:

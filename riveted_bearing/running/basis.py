@@ -1,6 +1,4 @@
-"""What figures rest on: bearing, FMU, scene, loads, speed, oil, temperatures and S-N curve, in lines for terminals,
-pages and files.
-"""
+"""What figures rest on: bearing, FMU, scene, loads, speed, oil, temperatures, S-N curve, in lines for all outputs."""
 
 import itertools
 from typing import Any
@@ -26,9 +24,7 @@ PARTS = {"inner ring": "ring.T_i", "outer ring": "ring.T_e", "balls": "ball.T", 
 
 
 def basis(model: Model, scenes: Any, curve: str = "") -> Any:
-    """Name and text of each line for runs of a Model: values that differ between the scenes, or in time, as their
-    range; curve: the S-N curve in words.
-    """
+    """Name and text of each line: values that differ as their range; curve: the S-N curve in words."""
     scenes = list(scenes)
     names = dict.fromkeys(s.name if s.source else "none: the FMU's own parameters and inputs" for s in scenes)
     replaced = dict.fromkeys(text for scene in scenes for text in scene.replaced)

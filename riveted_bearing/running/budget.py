@@ -11,25 +11,21 @@ shifts add with their signs, half-widths of each side as the root of their squar
 ranges of assumed values count as such.  A figure is in Pa, or in decades (log10 of damage, and of life with the other sign).
 """
 
-from __future__ import annotations
-
 import math
 import re
 from dataclasses import dataclass, replace
 from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..base.errors import UserError
 from ..base.units import certain, figure, with_error
 from ..bearing.assumed import YOURS, Assumed, all_assumed
 from .accuracy import CONFIDENCE, DECADES, FIGURES, PRIOR, WITHIN, Found, Runs, accurate, found_in, sample_of
+from .fmu import Model
+from .results import Result
+from .scene import Scene
 from .seeds import PULSES
 from .summary import TABLE_TITLE, Row
-
-if TYPE_CHECKING:
-    from .fmu import Model
-    from .results import Result
-    from .scene import Scene
 
 RULE = (
     "independent parts: shifts add with their signs, half-widths of each side as the root of the sum of their squares; "
@@ -126,9 +122,7 @@ def budgets(result: Result, plain: Any, fine: Any = ()) -> dict[str, Budget]:
 
 
 def of_result(result: Result, damage: float | None = None) -> dict[str, Budget]:
-    """The Budgets that a Result carries, else those of the one run; damage: log10 per hour, where the FMU counted none.  None
-    without statistics.
-    """
+    """The Budgets of a Result, else of its one run; damage: log10 per hour, if not counted; none without statistics."""
     if found := result.about.get("budget"):
         return {figure: of_record(record) for figure, record in found.items()}
     try:
@@ -195,10 +189,7 @@ def table_parts(about, summary, size, swing, figure, value):
 
 
 def assumed_part(row: Assumed, figure: str, size: float) -> Part | None:
-    """The part of a value with a range, None if its effect on the figure is not measured.
-
-    An effect's variance is taken from its square, so that many values without effect do not add up.
-    """
+    """The part of a value with a range, None without a known effect, whose variance leaves its square, lest noise adds up."""
     if row.effect is None or figure not in row.effect:
         return None
     ends = [math.copysign(math.sqrt(max(0.0, e**2 - se**2)), e) for e, se in row.effect[figure]]

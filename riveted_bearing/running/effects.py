@@ -47,10 +47,9 @@ def without_effect(
     whole: Any = None,
     cost: float = 0.0,
 ) -> Any:
-    """Those of the names of a scene's values without effect, and the time [s] up to which that was seen, inf for the whole run.
+    """Names without effect of a scene's values, and the time [s] up to which that was seen, inf for the whole run.
 
-    figures(result): what counts of a run, {name: array}; prepared(scene): what the command runs of it; whole: figures of the whole
-    run, if they are known; cost: of a whole run [s].
+    figures(result): {name: array} that counts; prepared(scene): as the command runs it; whole, cost [s]: of a whole run.
     """
     begins = [scene.value("start.settle", model)]
     begins += [float(scene.inputs[name].t[0]) for name in names if name in scene.inputs]
@@ -70,9 +69,7 @@ def without_effect(
 
 
 def acts(name: str, scene: Scene, figures: Any, reference: Any) -> bool:
-    """Whether the figures of a scene, {name: array}, change without one of its values; what is refused changes them, the
-    record of the value itself does not.
-    """
+    """Whether {name: array} of a scene changes without one of its values; what is refused changes it."""
     try:
         found = figures(without(scene, name))
     except UserError:

@@ -42,17 +42,13 @@ LOGS = {}  # component environment -> log of its instance
 
 @fmi2CallbackLoggerTYPE
 def keep_message(environment, name, status, category, message):
-    """Callback of the loggers of all FMUs: fmpy's proxy, which formats messages, takes one callback only, so the
-    environment tells the instances apart.
-    """
+    """Callback of all FMUs' loggers: fmpy's proxy takes one only, so the environment tells instances apart."""
     if environment in LOGS:
         LOGS[environment].append((LEVELS[status], message.decode(errors="replace").strip()))
 
 
 def default_fmu():
-    """The FMU of the working directory, of the checkout, or the one installed with the package; UserError if there is
-    none.
-    """
+    """The FMU of the working directory, the checkout, or the package; UserError if there is none."""
     places = [Path.cwd() / FMU_NAME, PACKAGE.parent / "fmus" / FMU_NAME, PACKAGE / FMU_NAME]
     for path in places:
         if path.is_file():
@@ -70,9 +66,7 @@ def near_fmu(path):
 
 
 def check_archive(path):
-    """UserError if an FMU would unpack to more than an FMU needs.  The sizes are those in the archive's directory, beyond
-    which Python does not unpack.
-    """
+    """UserError if an FMU would unpack to more than one needs, by the sizes that bind Python's unpacking."""
     with zipfile.ZipFile(path) as archive:
         sizes = [member.file_size for member in archive.infolist()]
     if sum(sizes) > MOST_UNPACKED or len(sizes) > MOST_FILES:
@@ -83,10 +77,7 @@ def check_archive(path):
 
 
 class Model:
-    """An FMU's variables by name, with units, limits and enumerations.
-
-    path: the .fmu file, None for the default one.  Raises UserError if it is not a co-simulation FMU of FMI 2.0.
-    """
+    """An FMU's variables by name, with units, limits and enumerations; UserError if it is none of FMI 2.0 co-simulation."""
 
     def __init__(self, path=None):
         self.path = Path(path) if path else default_fmu()
@@ -122,9 +113,14 @@ class Model:
         return whole.partition(". ")[2] or whole
 
     @functools.cached_property
+    def content(self):
+        """The file's bytes, when they are first asked for."""
+        return self.path.read_bytes()
+
+    @functools.cached_property
     def digest(self):
         """SHA-256 of the file."""
-        return hashlib.sha256(self.path.read_bytes()).hexdigest()
+        return hashlib.sha256(self.content).hexdigest()
 
     @functools.cached_property
     def noted(self):
@@ -161,9 +157,7 @@ class Model:
 
     @functools.cached_property
     def cage_modes(self):
-        """Modes of a free cage half in the FMU's rivet table: `frequency` [Hz], `modes` of each frequency, `mass` [kg];
-        None if the FMU does not list them.
-        """
+        """Free half's modes in the rivet table: `frequency` [Hz], `modes` of each, `mass` [kg]; None if not listed."""
         with zipfile.ZipFile(self.path) as archive:
             return json.loads(archive.read(CAGE_MODES)) if CAGE_MODES in archive.namelist() else None
 
@@ -230,9 +224,7 @@ def item_name(variable, code):
 
 
 class Instance:
-    """One instance of an FMU, from instantiation to freeing (a context manager).  Its errors and warnings are kept in
-    `log`.
-    """
+    """One instance of an FMU, a context manager; its errors and warnings are kept in `log`."""
 
     def __init__(self, model):
         self.model = model
@@ -283,9 +275,7 @@ class Instance:
         return "; ".join(lines) or "the FMU gave no reason"
 
     def initialize(self, scene):
-        """Set parameters and the inputs at the start, then find the quasi-static start; UserError with the FMU's reason
-        if it refuses.
-        """
+        """Set parameters and inputs, find the quasi-static start; UserError with the FMU's reason."""
         inputs = {name: float(history(0.0)) for name, history in scene.inputs.items()}
         try:
             for name, value in scene.parameters.items():
@@ -323,9 +313,7 @@ class Instance:
         return dict(zip(names, self.reader(names)().tolist()))
 
     def reader(self, names):
-        """A function that reads the named variables, with one call of the FMU, into an array that its next call
-        overwrites.
-        """
+        """A function that reads the named variables at once into an array that its next call overwrites."""
         variables = self.model.inputs | self.model.outputs | self.model.locals
         references = (fmi2ValueReference * len(names))(*(variables[name].valueReference for name in names))
         buffer = (ctypes.c_double * len(names))()

@@ -1,13 +1,13 @@
 """Parameters that changed and rivets that broke while the bearing ran, in words."""
 
-import re
 from typing import Any
 
 from bearing_model.generated import variables
 
 from ..base.units import scales_of, suffix
+from ..base.variable_list import variable_of
 from .results import Result
-from .summary import breaks, rivets_of
+from .summary import breaks, count_note, rivets_of, settle_note, speed_note
 
 ALONE = (
     "all rivets are gone: the halves come apart, held by pockets and lands alone, and there is no stress of rivets; "
@@ -15,16 +15,8 @@ ALONE = (
 )
 
 
-def variable_of(name: str) -> Any:
-    """The parameter of this name in the table, where those of an array have one entry; None for an unknown one."""
-    names = (re.sub(r"\[\d+\]", index, name) for index in ("[j]", "[k]", "[n]"))
-    return next((variables.PARAMETERS[known] for known in names if known in variables.PARAMETERS), None)
-
-
 def unit_of(result: Result, name: str, variable: Any) -> Any:
-    """The unit in which the user wrote a value, else the one in which people read it, "" for none; factor and offset
-    from SI.
-    """
+    """The unit that the user wrote, else the one that people read, "" for none; factor and offset from SI."""
     scales = scales_of(variable.unit, variables.UNITS[variable.unit])
     symbol = result.about.get("units", {}).get(name)
     symbol = symbol if symbol in scales else variable.display or variable.unit
@@ -96,6 +88,12 @@ def largest_damage(result):
         if (name := f"rivet[{k}].damage_{short}") in result.summary
     ]
     return max(found, default=(0.0, 0, ""), key=lambda each: each[0])
+
+
+def notes(result: Result) -> list[str]:
+    """Sentences that a reader of a run's figures has to know."""
+    kinds = (settle_note, count_note, speed_note, alone_note)
+    return [text for note in kinds if (text := note(result))]
 
 
 def alone_note(result: Result) -> str:

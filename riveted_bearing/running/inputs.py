@@ -15,9 +15,7 @@ COLUMN = ("file", "column", "time", "unit", "interpolation", "longest_gap")
 
 @dataclass(frozen=True)
 class History:
-    """An input over time: straight lines between points or, with hold, steps; constant before the first and after the
-    last point.
-    """
+    """An input over time: straight lines or, with hold, steps; constant before the first and after the last point."""
 
     t: np.ndarray
     value: np.ndarray

@@ -73,10 +73,7 @@ def of_geometry(geometry: Any) -> Any:
 
 
 def in_words(thermal, pairs, newtons, degrees):
-    """Preload as given and at temperature, and why they differ.
-
-    pairs: (preload [N], temperature of the cage [K]) of all cases; newtons, degrees: a range of values in words.
-    """
+    """Preload [N] as given and at the cage's temperature [K], of all pairs, and why; newtons, degrees: ranges in words."""
     given = newtons([preload for preload, _ in pairs])
     if thermal is None:
         return f"{given} as given"

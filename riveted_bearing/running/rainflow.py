@@ -1,6 +1,4 @@
-"""Rainflow cycles and life of the rivets from recorded stress, by the `rainflow` package (ASTM E1049) and the S-N law
-of bearing_model.instance.fatigue.
-"""
+"""Rainflow cycles and life of the rivets by the `rainflow` package (ASTM E1049) and bearing_model.instance.fatigue."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +9,7 @@ import rainflow
 from bearing_model.generated.variables import MeanStress
 from bearing_model.instance.fatigue import FatigueLaw, fatigue_cycle, fatigue_law_in_hole, strengthened
 
+from ..bearing.strength import reversed_amplitudes
 from .results import Result
 from .summary import settled
 
@@ -19,9 +18,7 @@ CHANNELS = {"head": "sigma_head", "mid": "sigma_mid"}
 
 @dataclass(frozen=True)
 class RivetLife:
-    """Cycles (rows of range [Pa], mean [Pa], count) of one rivet's stress, Miner's sum of the run and time [s] to
-    Miner's sum 1 if the run repeated.
-    """
+    """Cycles (range [Pa], mean [Pa], count), Miner's sum, time [s] to Miner's sum 1 if the run repeated."""
 
     cycles: np.ndarray
     damage: float
@@ -36,24 +33,14 @@ def fatigue_law(parameters: dict[str, Any]) -> Any:
 
 def cycle_damages(law: Any, span: Any, mean: Any) -> Any:
     """fatigue_cycle() of many cycles: arrays of ranges and means [Pa]."""
-    half, mean = 0.5 * np.asarray(span, float), np.asarray(mean, float)
+    amplitude = reversed_amplitudes(law, span, mean)
     with np.errstate(over="ignore"):
-        if law.mean_stress == MeanStress.SWT:
-            amplitude = np.sqrt(np.maximum(mean + half, 0.0) * half)
-        else:
-            room = {
-                MeanStress.GOODMAN: 1.0 - np.maximum(mean, 0.0) / law.sigma_m,
-                MeanStress.MORROW: 1.0 - mean / law.sigma_f,
-            }.get(law.mean_stress, np.ones_like(half))
-            amplitude = np.where(room > 0.0, half / np.where(room > 0.0, room, 1.0), np.inf)
         slope = np.where(amplitude > law.sigma_D, law.k_1, law.k_2)
         return np.minimum((amplitude / law.sigma_D) ** slope / law.N_D, 1.0)
 
 
 def fatigue_law_at(parameters: dict[str, Any], k: Any, place: str) -> Any:
-    """FatigueLaw of a result's rivet k at "head" or "mid": strength_factor scales its strengths, fretting weakens a shank
-    on which its hole presses.
-    """
+    """FatigueLaw of rivet k at "head" or "mid" with its strength_factor, and fretting of a pressed shank."""
     law = strengthened(fatigue_law(parameters), parameters.get(f"rivet[{k}].strength_factor", 1.0))
     if place == "head" or law.fretting == 1.0:
         return law
@@ -62,11 +49,7 @@ def fatigue_law_at(parameters: dict[str, Any], k: Any, place: str) -> Any:
 
 
 def stress_history(result: Result, k: Any, place: str) -> Any:
-    """Stress of rivet k at "head" or "mid" after settling [Pa]: peak and end of each communication step in turn, None
-    if not recorded.
-
-    Minima between communication points are not recorded, so ranges are those between peaks and samples.
-    """
+    """Settled stress of rivet k at "head" or "mid" [Pa]: peak and end of each step in turn, without minima between; or None."""
     ends = result.data.get(f"rivet[{k}].{CHANNELS[place]}")
     if ends is None:
         return None

@@ -13,11 +13,8 @@ BLOCK = 1024  # rows that are turned into columns together
 
 
 class Record:
-    """Columns of numbers of which at most `count` rows are written, one after the other.
-
-    A row may be written again until the next one is; columns() ends the record.  A large record is a file in the user's
-    cache folder, which the system removes when nothing refers to it any more, however the program ends; of its columns
-    only those in use take memory.
+    """Columns of at most `count` rows, written one after the other, the last one again if need be; columns() ends it.  A large
+    record is a file of the user's cache that the system removes, so that it needs no memory.
     """
 
     def __init__(self, count, width):

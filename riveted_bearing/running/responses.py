@@ -9,7 +9,7 @@ import numpy as np
 from bearing_model.generated import variables
 
 from ..base.errors import unknown
-from ..base.variable_list import KNOWN
+from ..base.variable_list import variable_of
 from .summary import static_and_swing
 
 COLUMNS = {
@@ -47,20 +47,11 @@ def response(path: Path, rows: Any, name: str) -> Any:
 
 
 def display_of(name: str) -> Any:
-    """Unit in which people read a response, parameter or input, "" without one; factor and offset that make it from the
-    SI value.
-    """
+    """Unit in which people read a name's values, "" without one; factor and offset from SI."""
     if name == "damage":
         return DAMAGE_UNIT, 1.0, 0.0
     inner = re.fullmatch(r"(?:\w+\()?([^()]*)\)?", COLUMNS.get(name, name))
-    variable = next(
-        (
-            KNOWN[key]
-            for index in ("[j]", "[k]", "[n]")
-            if inner and (key := re.sub(r"\[\d+\]", index, inner[1])) in KNOWN
-        ),
-        None,
-    )
+    variable = variable_of(inner[1]) if inner else None
     if variable is None:
         return "", 1.0, 0.0
     symbol = variable.display or variable.unit

@@ -8,7 +8,6 @@ All hold a digest of what was written, by which a damaged file is known.
 """
 
 import hashlib
-import importlib
 import json
 import math
 import re
@@ -18,21 +17,20 @@ from pathlib import Path
 
 import numpy as np
 
-from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.parameters import TYPES
 
-from ..base.errors import UserError, extra
+from ..base.errors import UserError, library
 from ..base.files import KEY, format_of, one_line, read_table, write_atomically, write_table
 from ..base.toml_files import to_toml
+from ..base.variable_list import variable_of
 
 FORMAT_VERSION = 1
 
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a run: data (arrays by channel, "time" [s] first), units by channel, all parameters (SI value or item
-    name), summary (statistics over every internal step, solver counters and run times at the end) and about (scene,
-    FMU, versions, reason of an early stop).
+    """data by channel ("time" [s] first), units, all parameters (SI value or item name), summary (statistics, solver counters,
+    run times) and about (scene, FMU, versions, reason of an early stop).
     """
 
     data: dict
@@ -62,10 +60,8 @@ class Result:
         }
 
     def to_pandas(self):
-        """The data as a pandas.DataFrame over time [s]; its attrs hold units, parameters, summary and origin.  Needs
-        pandas (the extra "full").
-        """
-        pandas = needed("pandas")
+        """A pandas.DataFrame over time [s], its attrs the metadata; needs pandas (the extra "full")."""
+        pandas = library("pandas", "to_pandas")
         frame = pandas.DataFrame(
             {name: values for name, values in self.data.items() if name != "time"},
             index=pandas.Index(self.data["time"], name="time"),
@@ -74,12 +70,8 @@ class Result:
         return frame
 
     def to_xarray(self):
-        """The data as an xarray.Dataset: ball[1].Q_i ... ball[Z].Q_i are one array ball.Q_i over (time, ball), units in
-        attrs.
-
-        Needs xarray (the extra "full").
-        """
-        xarray = needed("xarray")
+        """An xarray.Dataset: ball[j].Q_i are one array ball.Q_i over (time, ball), units in attrs; needs xarray."""
+        xarray = library("xarray", "to_xarray")
         variables = {}
         for place, names in group_by_place(self.data).items():
             numbers = [re.findall(r"\[(\d+)\]", name) for name in names]
@@ -101,14 +93,6 @@ class Result:
             "summary": json.dumps(self.summary),
         }
         return xarray.Dataset(variables, attrs=about | {"title": self.about.get("scene", "")})
-
-
-def needed(name):
-    """A package that only this needs; UserError naming the extra that brings it."""
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise UserError(f"{name} is not installed: {extra('full')}") from None
 
 
 def write_result(result: Result, path: str | Path) -> Path:
@@ -175,8 +159,9 @@ def check_result(result, path):
         if not is_number(value):
             raise UserError(f"{path}: {name} = {value!r}: not a number")
     for name, value in result.about.items():
-        if problem := origin_problem(name, value):
-            raise UserError(f"{path}: {name} = {value!r}: {problem}")
+        for names, holds, words in ORIGINS:
+            if name in names.split() and not holds(value):
+                raise UserError(f"{path}: {name} = {value!r}: {words}")
 
 
 def is_number(value):
@@ -209,14 +194,9 @@ ORIGINS = (  # facts about the origin of a result: their names, test, and what i
 )
 
 
-def origin_problem(name, value):
-    """What is wrong with a fact about the origin of a result, nothing if it may stand there or has no meaning here."""
-    return next((words for names, holds, words in ORIGINS if name in names.split() and not holds(value)), "")
-
-
 def parameter_problem(name, value):
     """What is wrong with the value of a parameter in a result, nothing if it may stand there."""
-    known = PARAMETERS.get(re.sub(r"\[\d+\]", "[j]", name))
+    known = variable_of(name)
     if known is not None and known.type in TYPES:
         items = [item.name.lower() for item in TYPES[known.type]]
         return "" if value in items else f"allowed: {', '.join(items)}"

@@ -27,9 +27,7 @@ PROGRESS_INTERVAL = 0.05  # s of wall time between calls of progress
 
 
 def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
-    """Run a Scene that was checked against the Model; returns its Result, see riveted_bearing.run.  Ctrl-C ends the run
-    after the step under way.
-    """
+    """The Result of a Scene checked against the Model (riveted_bearing.run); Ctrl-C ends it after a step."""
     if scene.accuracy is not None:
         raise UserError(
             f"{scene.name}: simulation.accuracy = {100 * scene.accuracy:g} %: run and life choose steps and seeds by it; here both are given"
@@ -61,11 +59,7 @@ def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
 
 
 def march(instance, scene, progress, interrupts):
-    """All communication steps of a scene, until interrupts.pending.
-
-    Returns the times [s] and columns of outputs up to the end or to the point where the FMU gave up, and the reason for
-    that ("" at the end).
-    """
+    """All communication steps until interrupts.pending: times [s], columns, and why it ended early, "" at the end."""
     times = scene.communication_points()
     varying = {name: history for name, history in scene.inputs.items() if len(history.t) > 1}
     references = [instance.model.inputs[name].valueReference for name in varying]
@@ -124,9 +118,7 @@ def closing_values(instance, model):
 
 
 def closing_names(model: Model) -> list[str]:
-    """Variables that say how it went over the whole run: statistics, damage, broken rivets, solver counters, processor
-    time, and what the rivets' stress rests on.
-    """
+    """Variables on the whole run: statistics, damage, breaks, solver counters, what the stress rests on."""
     names = [*model.outputs, *model.locals]
     return [
         name
@@ -138,11 +130,7 @@ def closing_names(model: Model) -> list[str]:
 
 
 def vibrations(model, parameters):
-    """Frequencies [Hz] of a free half by the table inside the FMU; nothing if the halves are rigid or the FMU lists
-    none.
-
-    A half is as much denser than the table's as `cage.m` is larger (bearing_model/cage/elastic/half_modes.py: denser).
-    """
+    """Frequencies [Hz] of a free elastic half by the FMU's table; it is as much denser as `cage.m` is larger."""
     if parameters.get("scene.cage") != "elastic" or not model.cage_modes:
         return {}
     modes = model.cage_modes

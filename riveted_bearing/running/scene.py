@@ -78,12 +78,8 @@ class Scene:
 
 
 def load_scene(source: Any, model: Model, *changes: Any) -> Scene:
-    """Read a scene and apply changes to it.
-
-    source: path of a TOML file or name of a shipped scene, None for the FMU's own parameters and inputs, over at least
-    twice its start.settle; model: the Model to run it; changes: pairs (origin for messages, document like the file's), later ones win.
-    scene.statistics is on unless the scene sets it, because communication points alone miss the impacts.
-    Returns a Scene; raises UserError naming file, key, value and what is allowed.
+    """The Scene of a file or shipped name (None: the FMU's own, over twice start.settle) with changes: pairs (origin for
+    messages, document), later ones win.  UserError naming file, key, value and what is allowed.
     """
     start = Scene(parameters=ALWAYS)
     if source is None:
@@ -101,13 +97,12 @@ def load_scene(source: Any, model: Model, *changes: Any) -> Scene:
         scene = apply(scene, where, document, model, folder)
     check_times(scene, " with ".join([*filter(None, [scene.source]), *(where for where, _ in changes)]))
     replaced = tuple(replacements(of_file, scene, model))
-    return warm(replace(scene, outputs=scene.outputs or default_outputs(model), replaced=replaced), model)
+    all_but_statistics = tuple(name for name in [*model.inputs, *model.outputs] if not name.startswith("stat."))
+    return warm(replace(scene, outputs=scene.outputs or all_but_statistics, replaced=replaced), model)
 
 
 def warm(scene, model):
-    """The scene with the oil's temperature, where it sets one, in all parts of which neither it nor the bearing's own
-    file gives another.
-    """
+    """The scene with its oil's temperature in all parts whose own neither it nor the bearing's file gives."""
     if "oil.T" not in scene.inputs:
         return scene
     parts = [name for name in PARTS_TEMPERATURES if name not in scene.inputs and model.origin.get(name) != "yours"]
@@ -125,9 +120,7 @@ def working_point(model):
 
 
 def own_names(scene: Scene, model: Model) -> Any:
-    """Names of the parameters and inputs that a scene sets otherwise than its FMU, or than load_scene; what follows from
-    the kind or the temperature of its oil is not among them.
-    """
+    """Names that a scene sets otherwise than its FMU or load_scene; what follows from its oil is not among them."""
     own = {name: model.default(model.parameters[name]) for name in scene.parameters} | ALWAYS
     of_oil, warm = OF_PROPERTY if scene.oil else (), scene.inputs.get("oil.T")
     return [n for n, value in scene.parameters.items() if value != own[n] and n not in of_oil] + [
@@ -150,9 +143,7 @@ def in_words(model: Model, name: str, value: Any = None, symbol: Any = None) -> 
 
 
 def replacements(of_file, scene, model):
-    """Values of a scene's file, not changed since, in the place of the FMU's own: "shaft.F_y 2994 N for 4100 N".  How
-    to simulate does not count, what follows from the kind of oil is not listed.
-    """
+    """Values of a scene's file in the place of the FMU's: "shaft.F_y 2994 N for 4100 N"; not how to simulate."""
     if of_file.oil and of_file.oil == scene.oil:
         yield f"oil {scene.oil} for its own"
     for name, given in (of_file.parameters | of_file.inputs).items():
@@ -279,10 +270,7 @@ def surface_parameters(where, surfaces, model, folder):
 
 
 def profile_waves(race, profile, model, folder):
-    """Amplitudes and phases of a race's waves from one measured turn, by least squares; heights into the clearance.
-
-    The mean height is left out: it belongs to the groove's diameter.
-    """
+    """Amplitudes and phases of a race's waves from one measured turn; the mean height belongs to the groove's diameter."""
     from ..base import tables
     from ..bearing.surfaces import waves_of
 
@@ -321,11 +309,6 @@ def select(patterns, model):
             raise unknown("outputs", "name", pattern, names)
         chosen.update(matches)
     return tuple(name for name in names if name in chosen)
-
-
-def default_outputs(model):
-    """All inputs and outputs but the statistics, which are read once at the end."""
-    return tuple(name for name in [*model.inputs, *model.outputs] if not name.startswith("stat."))
 
 
 def check_times(scene, where):

@@ -25,11 +25,7 @@ def is_bearing(source: Any) -> bool:
 
 
 def case_of(target: Any = None, fmu: Any = None, cage: Any = None) -> Case:
-    """The Case of a bearing (file or designation) or of a scene at its start (file or name); without a target of the
-    FMU itself, and without both EXAMPLE.
-
-    fmu: path of the FMU, None for the default one; cage: one of CAGES, of a bearing only.
-    """
+    """The Case of a bearing (file or designation) or of a scene at its start; without a target of the FMU, without both EXAMPLE."""
     target = EXAMPLE if target is None and fmu is None else target
     names = [*known_bearings(), *shipped_scenes()]
     if target is not None and str(target) not in names and not is_file(target):
@@ -44,11 +40,7 @@ def case_of(target: Any = None, fmu: Any = None, cage: Any = None) -> Case:
 
 
 def scene_case(source: Any, model: Model) -> Case:
-    """The Case of a scene at its start, with the FMU's start values for all variables that the scene does not set;
-    None: of the FMU itself.
-
-    An FMU holds no dimensions of its rivets.
-    """
+    """The Case of a scene at its start, None: of the FMU itself, over its start values; it holds no dimensions of rivets."""
     return case_at(load_scene(source, model), model)
 
 

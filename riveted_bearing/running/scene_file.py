@@ -2,20 +2,15 @@
 
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
-from ..base.errors import UserError
-from ..base.schema import Named, Number, Section, Text
+from ..base.schema import Named, Number, Section, Text, holds, is_list_of
 from ..base.units import SECONDS
 
 Seconds = Annotated[float | None, Number(SECONDS, above=0.0)]
 
 
-def patterns(value: Any) -> list[str]:
-    """A list of patterns of names; ValueError for anything else."""
-    if not isinstance(value, list) or not all(isinstance(pattern, str) for pattern in value):
-        raise UserError('not a list of names such as ["ring.*", "rivet[*].sigma_head"]')
-    return value
+PATTERNS = holds(lambda value: is_list_of(value, str), 'not a list of names such as ["ring.*", "rivet[*].sigma_head"]')
 
 
 class Simulation(Section):
@@ -30,7 +25,7 @@ class Simulation(Section):
         None, description="of mean and 99.9 % stress and RMS pocket force: `run` and `life` choose steps and seeds"
     )
     tolerance: Annotated[float | None, Number(above=0.0)] = Field(None, description="default: solver.tol")
-    outputs: Annotated[list[str], BeforeValidator(patterns)] = Field([], description="names or patterns; default: all")
+    outputs: Annotated[list[str], PATTERNS] = Field([], description="names or patterns; default: all")
 
 
 class Profile(Section):

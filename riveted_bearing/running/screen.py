@@ -5,13 +5,11 @@ the bearing's file (what the drawing allows) or of a study.  What shapes the FMU
 Effects are relative changes of the stress, and decades of the damage.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from dataclasses import replace
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -30,13 +28,11 @@ from ..bearing.assumed import (
 from ..bearing.oil import ALL_TEMPERATURES
 from .accuracy import CHANNELS, DECADES, sample
 from .basis import values
+from .fmu import Model
 from .inputs import History
 from .scene import load_scene
 from .screening import VERSION, keep, known
 from .seeds import seeded
-
-if TYPE_CHECKING:
-    from .fmu import Model
 
 SEEDS = 3
 SPAN = 0.1  # s after start.settle, or as long as that
@@ -46,9 +42,7 @@ OF_BUILD = "part of the FMU's stress table, so that another value needs an FMU o
 
 
 def screened(model: Model, say: Any = lambda done, total: None, further: Any = None) -> dict[str, Any]:
-    """The record of an FMU's screening, measured and kept if there is none; further: ranges of a study, {name: (low, high)}, which are
-    measured if the record has others.
-    """
+    """The record of an FMU's screening, measured if there is none of these further ranges {name: (low, high)}."""
     record = known(model) or {}
     further, own = further or {}, own_ranges(model.ranges, record)
     if record and all(own.get(name) == ends for name, ends in further.items()):

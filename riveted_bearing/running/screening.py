@@ -2,17 +2,13 @@
 FMU, or in the user's cache where that folder cannot be written.  An FMU that was built again is screened again.
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..base.errors import UserError
 from ..base.files import cache_path, write_json
-
-if TYPE_CHECKING:
-    from .fmu import Model
+from .fmu import Model
 
 VERSION = 1
 

@@ -17,10 +17,8 @@ SETTLED = 0.5  # of start.settle: by then a run-up is over
 
 
 def seeded(scene: Scene, model: Model, first: int, s: int) -> Scene:
-    """The Scene of run number s (from 0), whose start.seed is first + s.
-
-    Pulses begin later by a part of their interval, or of the cage's turn if that is shorter: their phase to the cage is chance.  The parts
-    0, 1/2, 1/4, 3/4, 1/8 ... (van der Corput's sequence) leave run 0 as it is given.  Inputs over time keep their times.
+    """Run number s (from 0): start.seed is first + s, and pulses begin later by a part of interval or cage turn, whose phase is
+    chance: 0, 1/2, 1/4, 3/4 ... (van der Corput).  Inputs over time keep their times.
     """
     parameters = scene.parameters | {"start.seed": first + s}
     if any(scene.value(name, model) for name in PULSES):
@@ -46,9 +44,8 @@ def van_der_corput(s):
 
 
 def started(scene: Scene, model: Model, first: int, s: int) -> Scene:
-    """The Scene of run number s as of seeded().  Every second run is run up from a tenth of its speed, the others start at speed with
-    joints that carry no shear, so that the scatter of the runs holds that of the start.  All start at speed where it varies, or where
-    start.settle leaves no time for a run-up.
+    """As seeded(), every second one run up from a tenth of its speed, so that the scatter holds that of the start; all at speed
+    where it varies, or where start.settle is too short.
     """
     scene, values = seeded(scene, model, first, s), speeds(scene, model)
     varies, settle = np.any(values != values[0]), scene.value("start.settle", model)

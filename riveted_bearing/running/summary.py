@@ -20,9 +20,7 @@ COUNTED = 10.0  # revolutions of the shaft that statistics should count
 
 @dataclass(frozen=True)
 class Row:
-    """One line: channel, unit shown, figures in that unit (nan if unknown), and whether every internal step or only the
-    communication points count.
-    """
+    """A line: channel, unit shown, figures in it (nan if unknown), whether every internal step counts."""
 
     channel: str
     unit: str
@@ -34,9 +32,7 @@ class Row:
 
 
 def summary_rows(result: Result) -> Any:
-    """Rows for every channel that the result has; values before start.settle [s] do not count, and without later ones
-    there are no rows.
-    """
+    """Rows of every channel that the result has, after start.settle; none without later values."""
     if not has_statistics(result):
         return []
     rows = [
@@ -49,9 +45,7 @@ def summary_rows(result: Result) -> Any:
 
 
 def channels(result):
-    """Channel, unit shown, factor, names of the outputs and how they combine, for what is known at the communication
-    points alone.
-    """
+    """Channel, unit shown, factor, outputs and how they combine, of what communication points alone tell."""
     return [
         ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
         ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
@@ -180,8 +174,8 @@ def life_is_known(result: Result) -> bool:
 
 
 def static_and_swing(values: Any, place: str) -> Any:
-    """Stress of the rivets' heads ("head") or middles ("mid") in two parts: the largest mean of a rivet, and the largest
-    distance of a 99.9 % quantile from its own mean; values: stat.* by name.  Fatigue follows the second one.
+    """Largest mean of a rivet's heads ("head") or middles ("mid"), and largest 99.9 % quantile less its own mean, which fatigue
+    follows; values: stat.* by name.
     """
     kinds = (f"stat.rivet_{place}_{kind}[" for kind in ("mean", "p999"))
     mean, p999 = (np.array([values[name] for name in values if name.startswith(kind)], float) for kind in kinds)

@@ -1,6 +1,4 @@
-"""The motion of a run as compact numbers that animation.js draws: positions, loads and rivet stress at a limited number
-of frames.
-"""
+"""The motion of a run as compact numbers that animation.js draws, at a limited number of frames."""
 
 import base64
 
@@ -39,10 +37,8 @@ def number_of_balls(result):
 
 
 def frames(result):
-    """Data for animation.js, ready for JSON (None if channels are missing), and the list of missing channels.
-
-    Azimuths are relative to the mean rotation of the halves, `psi` [rad], so that they fit 16 bits; channels are
-    {first, step, data}: value = first + step n, n 16-bit numbers in base64; SI units.
+    """Data for animation.js (None if channels are missing), and the missing channels: azimuths relative to `psi` [rad], channels
+    as {first, step, data}: value = first + step n, 16-bit n in base64; SI.
     """
     Z = number_of_balls(result)
     missing = [name for name in needed(Z) if name not in result.data]
@@ -72,7 +68,7 @@ def frames(result):
         "time": packed(data["time"][rows]),
         "turned": {name: packed(values[rows]) for name, values in turned.items()},
         "channels": {
-            name: quantized(thinned(values, stride) if shows_peak(name) else values[rows])
+            name: quantized(thinned(values, stride) if is_peak(name) or name.startswith("stress") else values[rows])
             for name, values in channels.items()
         },
         "scale": exaggeration(p),
@@ -86,16 +82,9 @@ def frames(result):
 
 
 def thinning(rows, Z, bends=False):
-    """Distance of the rows to keep, so that all channels, at 2 bytes a value in base64, fit the budget; bends: with
-    those of elastic halves.
-    """
+    """Distance of the rows to keep, so that all channels in base64 fit the budget; bends: elastic halves."""
     channels = len(SCALARS) + 1 + Z * (len(OF_BALLS) + 2 + bends * len(FLEX))
     return max(1, -(-rows * channels * 8 // (3 * BUDGET)))
-
-
-def shows_peak(name):
-    """Whether a channel holds largest values between frames."""
-    return is_peak(name) or name.startswith("stress")
 
 
 def thinned(values, stride):
@@ -116,9 +105,7 @@ def exaggeration(p):
 
 
 def bent(result, Z):
-    """Motion of both halves at the rivets by their modes [m] by channel, less the mean widening after settling; that
-    widening, mean of the halves [m].
-    """
+    """Motion of the halves at the rivets by their modes [m], less the mean widening after settling; that [m]."""
     late, forms, widenings = settled(result), {}, []
     for h in (0, 1):
         widenings.append(np.mean([result.data[f"rivet[{k}].flex_{h}_r"][late] for k in range(1, Z + 1)]))
@@ -130,9 +117,7 @@ def bent(result, Z):
 
 
 def magnification(result, forms):
-    """Factor by which the bending of the halves is magnified: round, so that the largest after settling is a share of
-    the ball.
-    """
+    """Round factor by which the halves' bending is magnified to a share of the ball."""
     late = settled(result)
     largest = max(np.abs(values[late]).max() for values in forms.values())
     return round_factor(BENT * result.parameters["bearing.D"] / max(largest, 1e-9))

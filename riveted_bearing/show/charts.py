@@ -11,7 +11,6 @@ from matplotlib.colors import LogNorm
 from ..base.errors import UserError
 from ..running.summary import columns, settled
 from . import plot, spectrum
-from .orbit import cage_orbit as draw_orbit
 from .plot import wanted
 from .spectrum import density
 from .style import FORCE, HEAD, MIDDLE, MUTED, RING, STYLE, plt
@@ -35,9 +34,7 @@ SEGMENT = 32  # fewest samples of a segment of the joints' spectra
 
 
 def svg(draw, size, label):
-    """The figure of draw(figure) as an <svg> element without fixed size; size: inches, at which 9 points are legible on
-    a phone's width.
-    """
+    """The figure of draw(figure) as an <svg> without fixed size; size [inch]: 9 points are legible on a phone."""
     with plt.rc_context(STYLE | SVG | {"svg.hashsalt": label}):
         figure = plt.figure(figsize=size, layout="constrained")
         draw(figure)
@@ -61,9 +58,7 @@ def svg(draw, size, label):
 
 
 def thinned(result, buckets=BUCKETS):
-    """The result with at most two rows per stretch of time: the smallest and the largest value of each channel, so that
-    no peak is lost.
-    """
+    """The result with the smallest and largest value of each stretch of time, so that no peak is lost."""
     t = result.data["time"]
     if len(t) <= 2 * buckets:
         return result
@@ -214,9 +209,7 @@ def by_bin(values, bins, count, reduce):
 
 
 def section_sizes(p):
-    """Radii and half widths of the section [mm] from the parameters: bottoms and shoulders of the grooves, bore and
-    outside of the rings (0: of usual cross-sections), cage.
-    """
+    """Radii and half widths of the section [mm]: grooves, shoulders, bore and outside (0: usual), cage."""
     mm = {name: 1e3 * p[f"bearing.{name}"] for name in ("D", "d_m", "P_d")}
     bottom = [0.5 * mm["d_m"] + side * (0.5 * mm["D"] + 0.25 * mm["P_d"]) for side in (-1, 1)]
     ribbon = p.get("cage.shape") == "ribbon"
@@ -234,9 +227,7 @@ def section_sizes(p):
 
 
 def section(figure, result):
-    """Section of the bearing through a ball, above the axis, with its dimensions; the rings' width is not a parameter
-    of the model.
-    """
+    """Section through a ball, above the axis, with its dimensions; the rings' width is not in the model."""
     p = result.parameters
     ax, size, D, d_m = figure.subplots(), section_sizes(p), 1e3 * p["bearing.D"], 1e3 * p["bearing.d_m"]
     end = max(0.75 * D, 1.15 * size["half"])
@@ -279,7 +270,7 @@ def section(figure, result):
 def cage_orbit(figure, result):
     """Orbit of the cage's centre in its guide clearance."""
     ax = figure.subplots()
-    draw_orbit(ax, result)
+    plot.cage_orbit(ax, result)
     ax.set_title("")
 
 
@@ -326,9 +317,7 @@ def stress_over_azimuth(figure, result):
 
 
 def stress_over_time(figure, result):
-    """Largest head stress, rivet by rivet, in stretches of time; the colour scale ends at the largest stress after
-    settling.
-    """
+    """Largest head stress of each rivet in stretches of time, on the scale of the settled run."""
     names, t = columns(result, "rivet[", "].sigma_head_peak"), result.data["time"]
     first = np.unique(np.linspace(0, len(t), 240, endpoint=False).astype(int))
     rows = [1e-6 * np.maximum.reduceat(result.data[name], first) for name in names]

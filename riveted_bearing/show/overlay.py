@@ -7,7 +7,6 @@ A column is that of the channel it is named after, or of the one that `columns` 
 and a measurement has no common start with a run: no point of one is compared with a point of the other.
 """
 
-import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,7 +17,7 @@ from bearing_model.generated import variables
 from ..base import tables
 from ..base.errors import UserError, unknown
 from ..base.units import SECONDS, canonical, scale, scales_of, suffix
-from ..base.variable_list import KNOWN
+from ..base.variable_list import variable_of
 from ..running.summary import settled
 from .spectrum import density
 from .style import FORCE, HEAD, MUTED
@@ -31,9 +30,7 @@ BUCKETS = 300
 
 @dataclass(frozen=True)
 class Series:
-    """A channel of the run with the measured one: times [s] and values in the unit shown; column: as the file names it;
-    gap: in its times, in words.
-    """
+    """A channel beside its measured series: times [s], values in the unit shown; column, gap: in words."""
 
     channel: str
     column: str
@@ -57,10 +54,7 @@ def assigned(options: Any) -> Any:
 
 
 def read_measured(path, result, columns=None):
-    """The Series of a table (tables.py) beside a Result; columns: {channel: column} where names differ, "time" among them.
-
-    Raises UserError if nothing fits, or naming file, column and value that cannot be used.
-    """
+    """The Series of a table beside a Result; columns: {channel: column}, "time" too, where names differ; UserError if none fits."""
     table, columns = tables.Table(path), dict(columns or {})
     recorded = [name for name in result.data if name != TIME]
     time = tables.Wanted(columns.pop(TIME, TIME), SECONDS)
@@ -80,7 +74,6 @@ def read_measured(path, result, columns=None):
     for channel, name in columns.items():
         if channel not in recorded:
             raise unknown(f"{path}: --column", "recorded channel", channel, recorded)
-        variable = KNOWN.get(re.sub(r"\[\d+\]", "[j]" if channel.startswith("ball") else "[k]", channel))
         own = result.units.get(channel, "1")
         displays = variables.UNITS.get(own, {})
         scales = scales_of(own, displays)
@@ -90,19 +83,13 @@ def read_measured(path, result, columns=None):
         clock.add(rows, t)
         if len(t) < FEWEST:
             raise UserError(f'{path}: column "{time.name}": at least {FEWEST} times are needed')
-        shown = unit_shown(table.unit(wanted), variable, own, displays)
+        display = getattr(variable_of(channel), "display", None)
+        shown = canonical(table.unit(wanted)) if table.unit(wanted) else display if display in displays else own
         factor, offset = scale(shown, scales) if shown != own else (1.0, 0.0)
         run = result.data["time"][late], factor * result.data[channel][late] + offset
         head, unit = table.heads[table.place(name)], suffix(shown).strip()
         found.append(Series(channel, head, unit, *run, t, factor * values + offset, clock.note))
     return found
-
-
-def unit_shown(unit, variable, own, displays):
-    """The unit of the file, else the one in which people read the channel."""
-    if unit:
-        return canonical(unit)
-    return variable.display if variable is not None and variable.display in displays else own
 
 
 def statistics(t, values):

@@ -12,14 +12,7 @@ PARTS = Path(__file__).parents[1] / "data" / "report"
 
 
 def page_text(template, style="style.css", **values):
-    """A page as text; template: a file of data/report or the path of another one; style: a file of data/report.  All pages
-    have the words of error budgets.
-
-    Raises
-    ------
-    jinja2.UndefinedError
-        The template names a value that is not given.
-    """
+    """A page as text; template: of data/report or a path; style: of data/report; StrictUndefined: a missing value is an error."""
     environment = jinja2.Environment(
         loader=jinja2.FileSystemLoader([PARTS, Path(template).parent]),
         autoescape=True,

@@ -1,19 +1,20 @@
-"""One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit (orbit.py), and the rivets side by side."""
+"""One picture of a run: loads, pocket force and rivet stress over time, the cage's orbit, and the rivets side by side."""
 
 import textwrap
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.patches import Circle
 
 from ..running.in_run import changes
 from ..running.results import Result
-from ..running.summary import RPM, breaks, rivet_rows, settled, summary_rows
-from .orbit import cage_orbit
+from ..running.summary import RPM, breaks, clearance_of_cage, rivet_rows, settled, summary_rows
 from .style import FORCE, HEAD, MIDDLE, MUTED, RING, picture
 
 TITLE_WIDTH = 160  # characters of a line over the whole picture
 MARK = "_mark"  # label of lines that are no curves
+NOTHING = 1e-3  # um; an orbit below a nanometre is a point
 
 
 def plot_result(result: Result, path: Path) -> Path:
@@ -166,6 +167,41 @@ def rivet_bars(ax, result):
     ax.legend(ncols=2, loc="upper right")
 
 
+def cage_orbit(ax, result):
+    """Path of the cage's centre within its guide clearance."""
+    kind = clearance_of_cage(result.parameters)
+    label = f"y [µm]; dashed: {kind} clearance"
+    ax.set(title="Orbit of the cage's centre, from +X", xlabel=label, ylabel="z [µm]", aspect="equal")
+    if not {"cage.y", "cage.z"} <= result.data.keys():
+        ax.text(0.5, 0.5, "cage.y and cage.z were not recorded", ha="center", transform=ax.transAxes)
+        return
+    late = settled(result)
+    y, z = 1e6 * result.data["cage.y"][late], 1e6 * result.data["cage.z"][late]
+    clearance = 1e6 * result.parameters[f"cage.{kind}_clearance"] / 2
+    ax.add_patch(Circle((0, 0), clearance, fill=False, color=MUTED, ls="--", lw=1))
+    ax.plot(y, z, color=FORCE, lw=0.35, alpha=0.7)
+    limit = 1.08 * max(clearance, np.abs(y).max(), np.abs(z).max())
+    ax.set(xlim=(-limit, limit), ylim=(-limit, limit))
+    size = max(np.ptp(y), np.ptp(z))
+    if NOTHING < size < 0.5 * clearance:
+        magnified(ax, y, z, 0.6 * size)
+
+
+def magnified(ax, y, z, half):
+    """The orbit magnified in the corner that is farthest from it: a square of the given half width [um]."""
+    centre = (y.max() + y.min()) / 2, (z.max() + z.min()) / 2
+    left, lower = centre[0] >= 0.0, centre[1] >= 0.0
+    inset = ax.inset_axes([0.0 if left else 0.64, 0.0 if lower else 0.64, 0.36, 0.36])
+    inset.yaxis.set_ticks_position("right" if left else "left")  # to the inside
+    inset.xaxis.set_ticks_position("top" if lower else "bottom")
+    inset.spines[:].set_visible(True)
+    inset.plot(y, z, color=FORCE, lw=0.35, alpha=0.8)
+    x, y = ((middle - half, middle + half) for middle in centre)
+    inset.set(xlim=x, ylim=y, aspect="equal", facecolor="#ffffff")
+    inset.tick_params(labelsize=7)
+    ax.indicate_inset_zoom(inset, edgecolor=MUTED)
+
+
 # ----------------------------------------------------------------------------------------------------------- comparison
 
 # [N]
@@ -173,9 +209,7 @@ OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), (
 
 
 def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
-    """Write the picture of a Comparison as PNG: outputs of both on top of each other, differences over time by
-    tolerance, statistics in standard deviations.
-    """
+    """Write a Comparison as PNG: outputs of both, differences by tolerance, statistics in deviations."""
     rows = 3 if found.statistics else 2
     with picture(path, (4.6 * rows, 7.0), f"{found.scene}: FMU against the Python reference", dpi) as figure:
         axes = figure.subplots(2, rows)

@@ -13,11 +13,12 @@ from bearing_model.generated import variables
 from ..base.errors import UserError
 from ..base.files import FORMATS, write_text
 from ..base.units import duration, figure
+from ..base.variable_list import variable_of
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
 from ..running.budget import computed_share, shown
-from ..running.in_run import alone_note, change_lines, later_values, unit_of, variable_of
+from ..running.in_run import change_lines, later_values, notes, unit_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
 from ..running.results import Result, read_result
@@ -27,15 +28,12 @@ from ..running.summary import (
     breaks,
     clearance_of_cage,
     columns,
-    count_note,
     early_rows,
     flag_note,
     has_statistics,
     life_is_known,
     no_statistics,
-    settle_note,
     settled,
-    speed_note,
     summary_rows,
     table_note,
 )
@@ -73,11 +71,9 @@ def report_files(source):
 def report_pages(
     source: Any, out: Any = None, decides: Any = None, overlay: Any = None, columns: Any = None
 ) -> Iterator[Any]:
-    """Write a page for each result of a path and yield the pages' paths one by one.
+    """Write a page for each result of a path and yield their paths; UserError for no result, no numbers, or several in a file.
 
-    out: file, or folder for the pages; None for beside the results.  decides: a Sensitivity whose table the pages show;
-    overlay: CSV file of measured series, columns: their {channel: column} where names differ (overlay.py).
-    Raises UserError if there is no result, if one has no numbers, or if several are to go into one file.
+    out: file or folder, None: beside the results; decides: a Sensitivity; overlay, columns: as of read_measured.
     """
     sources, out = report_files(source), Path(out) if out else None
     as_file = out is not None and out.suffix in (".html", ".htm")
@@ -103,6 +99,8 @@ def render(result, decides=None, measured=()):
     """The page as text; decides: see report_pages; measured: Series beside the run's."""
     film, missing = frames(result)
     lives, elastic = all_lives(result), result.parameters.get("scene.cage") == "elastic"
+    absent = () if elastic else OF_ELASTIC
+    absent = absent if charts.vibrates(result) else (*absent, "vibration")  # of races that are not perfect
     return page_text(
         "page.html",
         about=NOT_SAID | result.about,
@@ -135,7 +133,7 @@ def render(result, decides=None, measured=()):
         **wrong(result),
         measured_in=measured_in(rows),
         as_bronze=assumed_as_bronze(result),
-        notes=[text for note in (settle_note, count_note, speed_note, alone_note) if (text := note(result))],
+        notes=notes(result),
         decides=decides,
         measured=views(measured),
         display_of=display_of,
@@ -144,7 +142,7 @@ def render(result, decides=None, measured=()):
         changes=change_lines(result),
         accelerated=accelerated(result),
         solver=list(solver_rows(result)),
-        charts={name: chart(result, name, lives) for name in CHARTS if is_shown(name, result, elastic)},
+        charts={name: chart(result, name, lives) for name in CHARTS if name not in absent},
         figure=figure,
         duration=duration,
     )
@@ -194,11 +192,6 @@ CHARTS = {  # name: draw(figure, result), size, label, channels that the chart n
 OF_ELASTIC = ("joints",)  # charts of elastic cage halves alone
 
 
-def is_shown(name, result, elastic):
-    """Whether the page has this chart: some belong to elastic halves, one to races that are not perfect."""
-    return (elastic or name not in OF_ELASTIC) and (name != "vibration" or charts.vibrates(result))
-
-
 def chart(result, name, lives):
     """SVG of one chart, or in words which channels it lacks."""
     draw, size, label, needs = CHARTS[name]
@@ -227,9 +220,7 @@ def chart(result, name, lives):
 
 
 def all_lives(result):
-    """One dict a rivet: k, RivetLife of head and middle, and the FMU's own Miner's sums if it counted; none from closed
-    forms.
-    """
+    """One dict a rivet: k, RivetLife of head and middle, the FMU's own sums; none from closed forms."""
     rows = []
     if result.parameters.get("scene.stress") == "off" or not life_is_known(result) or not has_statistics(result):
         return rows

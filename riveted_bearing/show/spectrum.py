@@ -89,9 +89,7 @@ class Spectra:
 
 
 def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any:
-    """Spectra of a Result.  channel: name, default the first of CHANNELS that moves; band: (low, high) of the envelope in
-    Hz, default by spectral kurtosis.  UserError names what the result lacks.
-    """
+    """Spectra of a Result; channel: None, the first of CHANNELS that moves; band: of the envelope [Hz]; UserError if it lacks."""
     rows = settled(result)
     t = result.data["time"][rows]
     channel = channel or default_channel(result)
@@ -123,9 +121,7 @@ def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any
 
 
 def idle_settings(result: Result, found: Any) -> Any:
-    """Names of what the run's scene sets without effect on its Spectra, and the time [s] up to which that was seen; none
-    where the run cannot be repeated: its FMU is another one by now, or parameters or long inputs changed in it.
-    """
+    """Names set without effect on a run's Spectra, and until when [s] that was seen; none where the run cannot be repeated."""
     about, path = result.about, Path(result.about.get("fmu", ""))
     names = about.get("set", [])
     if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):
@@ -205,9 +201,7 @@ def density(values: np.ndarray, rate: float, segment: int = 1024) -> tuple[np.nd
 
 
 def kurtosis_band(x, rate):
-    """The band (low, high) whose short-time amplitudes are most impulsive: largest <|X|^4>/<|X|^2>^2 - 2 over
-    frequencies and lengths of the window.
-    """
+    """The band (low, high) of the largest <|X|^4>/<|X|^2>^2 - 2 over frequencies and window lengths."""
     best, found = -math.inf, (0.05 * rate, 0.45 * rate)
     for segment in (n for n in SEGMENTS if 4 * FEWEST_BLOCKS * n <= len(x) or n == SEGMENTS[0]):
         transform, width = ShortTimeFFT(hann(segment, sym=False), hop=segment // 4, fs=rate), 1.5 * rate / segment
@@ -256,9 +250,7 @@ def contact_angle(result, Z):
 
 
 def expected_lines(kinematic):
-    """Name and frequency of each kinematic line, its harmonics, and the side bands at the speed that modulates it; names
-    of one frequency share a line, and what stands still has none.
-    """
+    """Names and frequencies of lines, harmonics and side bands; equal ones once, none of what stands still."""
     # a fault that turns passes through the load
     modulators = {"BPFI": "shaft", "BPFO": "housing", "BSF": "FTF"}
     found = []

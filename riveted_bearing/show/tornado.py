@@ -1,17 +1,12 @@
 """An error budget as a picture: a bar for each part, the largest on top, and the whole below."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..running.accuracy import FIGURES
-from ..running.budget import RULE, amounts, computed_share, of_result, shown, told, unsized_lines
+from ..running.budget import RULE, Budget, amounts, computed_share, of_result, shown, told, unsized_lines
+from ..running.results import Result
 from . import charts
 from .style import FORCE, HEAD, MIDDLE
-
-if TYPE_CHECKING:
-    from ..running.budget import Budget
-    from ..running.results import Result
 
 MOST = 7  # bars beside the whole
 

@@ -1,19 +1,8 @@
-"""Labelled signals: the runs of a design with their vibration, as a Parquet dataset to train on.
+"""Labelled signals: the runs of a design with their vibration, as a Parquet dataset to train on; docs/surfaces.md.
 
-    scene = "spall"                      # a sweep file (sweep_file.py): scene, [parameters], [[vary]], [sample], repeats ...
-    [dataset]
-    channels = ["housing.a_y"]           # signals to keep; default: housing.a_y
-    [[vary]]
-    outer.spall_length = ["0 mm", "1 mm"]
-    outer.spall_width = ["0 mm", "3 mm"]
-    outer.spall_depth = ["0 um", "50 um"]
-    [[vary]]
-    shaft.omega = ["1500 rev/min", "3000 rev/min"]
-
-A row holds what a sweep's row holds (all parameters and inputs in SI units, status, statistics) and further the labels
-(label.fault: none, outer, inner, both, ball, or names with +; label.length, width and depth of the longest spall;
-label.waviness, the largest amplitude), the kinematic frequencies of the computed speeds, and for each channel a list of single-precision samples
-from start.settle on, signal.rate apart.  Rows are written as they arrive; a second call does only runs that are missing.
+A row holds what a sweep's row holds and further the labels (label.fault: none, outer, inner, both, ball, or names with +;
+label.length, width and depth of the longest spall; label.waviness, the largest amplitude), the kinematic frequencies of the
+computed speeds, and for each channel a list of single-precision samples from start.settle on, signal.rate apart.
 """
 
 import math

@@ -44,10 +44,8 @@ ROSS = {"x": "y", "y": "z", "z": "x"}  # its axes, z axial, by ours, x axial
 
 @dataclass(frozen=True)
 class Matrices:
-    """The bearing at one speed and load: place and matrices [5], [5, 5] in m, rad, N, N.m and s.
-
-    omega [rad/s], load: factor of the loads, frequency of the shake [rad/s]; q: equilibrium; K_static: quasi-static
-    stiffness; K, C: of the FMU, None without it.
+    """omega [rad/s], factor of the loads, frequency of the shake [rad/s], place q [5], K_static and the FMU's K and C [5, 5] or
+    None; m, rad, N, N.m, s.
     """
 
     omega: float
@@ -60,11 +58,7 @@ class Matrices:
 
 
 def quasi_static_matrices(case: Case, speeds: Any, loads: Any = (1.0,)) -> Any:
-    """The Matrices of a bearing without the FMU's K and C at each load factor and speed [rad/s]; UserError if there is
-    no equilibrium.
-
-    case: scene_case of a scene.
-    """
+    """Matrices without K and C of the FMU at each load factor and speed [rad/s]; else UserError."""
     return [Matrices(omega, load, abs(omega), *equilibrium(case, load, omega)) for load in loads for omega in speeds]
 
 
@@ -76,11 +70,7 @@ def dynamic_matrices(
     frequency: Any = None,
     progress: Any = lambda share: None,
 ) -> Any:
-    """The quasi_static_matrices `points` with K and C of the FMU `model` under the scene's parameters; UserError if the
-    FMU refuses.
-
-    frequency [rad/s]: of the shakes, None for the speed itself (at standstill 100 Hz).
-    """
+    """The points with the FMU's K and C; frequency [rad/s]: None for the speed, at standstill 100 Hz; else UserError."""
     found = []
     for i, point in enumerate(points):
         w = frequency or point.frequency or 2.0 * math.pi * 100.0
@@ -103,9 +93,7 @@ def scene_at(model: Model, scene: Scene, point: Any) -> Any:
 
 
 def idle_settings(model: Model, scene: Scene, point: Any, speeds_given: Any, static: Any) -> Any:
-    """Names of what a scene sets without effect on the matrices at the highest speed, a Matrices: neither on the stiffness
-    of the equilibrium nor, unless static, on the reactions of the ring that is held there.
-    """
+    """Names set without effect at the highest speed on the stiffness and, unless static, the reactions."""
 
     def held(one):
         one = scene_at(model, one, point)
@@ -142,17 +130,13 @@ def equilibrium(case, load, omega):
 
 
 def response(model, scene, omega, q, direction, amplitude, w):
-    """-dR/dq_i at the frequency w [rad/s], complex [5]: half the difference of the responses to both signs of the
-    amplitude.
-    """
+    """-dR/dq_i at w [rad/s], complex [5]: half the difference of the responses to both signs."""
     there, back = (shaken(model, scene, omega, q, direction, sign * amplitude, w) for sign in (1.0, -1.0))
     return -(there - back) / (2.0 * amplitude)
 
 
 def shaken(model, scene, omega, q, direction, amplitude, w):
-    """First harmonic of the reactions [5], as the factor of sin(w t) + i times that of cos(w t), while the ring shakes
-    with amplitude sin(w t).
-    """
+    """First harmonic of the reactions [5] to amplitude sin(w t): of sin(w t) + i times that of cos(w t)."""
     period = 2.0 * math.pi / w
     count = math.ceil(period / LONGEST_STEP)
     h, settle, periods = period / count, math.ceil(SETTLE / period), math.ceil(LENGTH / period)
@@ -197,9 +181,7 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
 
 
 def write_table(found: Any, path: Path, basis: Any = ()) -> Path:
-    """A CSV with a row for each Matrices: speed, load factor, frequency, place, then K_static, K and C entry by entry,
-    SI; in front, behind "# ", the basis.
-    """
+    """A CSV row for each Matrices: speed, load factor, frequency, place, matrices, SI; before it the basis."""
     entries = [f"{a}.{b}" for a in DIRECTIONS for b in DIRECTIONS]
     kinds = ["K_static", *(("K", "C") if found[0].K is not None else ())]
     places = [f"{name} [{'rad' if 'tilt' in name else 'm'}]" for name in DIRECTIONS]
@@ -218,12 +200,8 @@ def comments(basis):
 
 
 def ross_coefficients(found):
-    """Coefficients of ROSS 3's BearingElement: {kxx, kxy ... czz, speed [, frequency]}, its axes (x, y lateral, z axial)
-    for our (Y, Z, X).
-
-    speed: of the rotor, frequency: of the whirl, both [rad/s].  With more than one whirl at a speed, each coefficient
-    is a table [speed][frequency]; else one over speed. K and C of the FMU where they are known, else the quasi-static K
-    and no damping.
+    """Coefficients of ROSS 3's BearingElement by name over speed, with several whirls [speed][frequency] [rad/s], in its axes (x,
+    y lateral, z axial); quasi-static K and no damping where the FMU's are not known.
     """
     speeds, whirls = sorted({p.omega for p in found}), sorted({p.frequency for p in found})
     places = {(p.omega, p.frequency): p for p in found}
@@ -248,10 +226,7 @@ def entry(point, kind):
 
 
 def write_ross(found: Any, path: Path, node: int = 0, tag: str = "bearing", basis: Any = (), version: int = 3) -> Path:
-    """A TOML file that ross.BearingElement.load reads: one load factor, speeds rising.
-
-    version: of ROSS.  In 2 the one axis is called frequency and is the rotor's speed; it has no tables over both.
-    """
+    """A TOML file for ross.BearingElement.load; in version 2 of ROSS the axis is called frequency, without tables over both."""
     coefficients = ross_coefficients(found)
     if version < 3:
         if "frequency" in coefficients:
@@ -263,9 +238,7 @@ def write_ross(found: Any, path: Path, node: int = 0, tag: str = "bearing", basi
 
 
 def plot_matrices(found: Any, path: Path) -> Path:
-    """A picture: direct and cross stiffness and damping of the translations over speed, one line style for each load
-    factor.
-    """
+    """Stiffness and damping of the translations over speed as PNG, one line style for each load factor."""
     loads = list(dict.fromkeys(p.load for p in found))
     with picture(path, (11, 4.2)) as figure:
         left, right = figure.subplots(1, 2)

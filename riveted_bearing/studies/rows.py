@@ -1,6 +1,4 @@
-"""Rows of a sweep, one for each run: as they arrive in _rows.sqlite of the sweep's folder, at the end of each call in the
-order of the design in runs.parquet, which readers take.
-"""
+"""Rows of a sweep, one a run: in _rows.sqlite as they arrive, then in the design's order in runs.parquet for readers."""
 
 import base64
 import contextlib
@@ -32,10 +30,8 @@ def decoded(found):
 
 
 class Store:
-    """The rows of a folder by key, in a file that one process holds at a time; a context manager.
-
-    A row is there once `add` has returned, whatever becomes of the process.  Rows stay when the design changes, so that
-    a run that belongs to it again is not done again.  Rows of a folder that has Parquet files only are taken over.
+    """The rows of a folder by key, in a file of one process at a time; a context manager.  A row is there once `add` returned,
+    stays when the design changes, and is taken over from Parquet files where these are all.
     """
 
     def __init__(self, folder):
@@ -103,9 +99,7 @@ class Store:
             return {key for (key,) in self.file.execute("SELECT key FROM runs WHERE status = 'done'")}
 
     def export(self, schema, keys, grows=False):
-        """Write runs.parquet: rows of the keys in their order, each with its place as `run`, and where the design grows
-        all others behind them; columns without a value are null.  Returns the columns as numpy arrays by name.
-        """
+        """Write runs.parquet, rows in the keys' order with their place as `run`, all others behind if it grows."""
         import pyarrow as pa
 
         with self.errors():

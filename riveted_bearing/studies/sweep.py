@@ -1,33 +1,9 @@
-"""Sweeps: many runs of the FMU on a Dask cluster, one row each in a Parquet dataset.
-
-    description = "..."
-    scene = "demo"                       # shipped name or file, relative to the sweep's own; default: none, the FMU's own parameters and inputs
-    repeats = 8                          # start.seed = 1 ... 8; default: the scene's seed
-    [simulation]                         # as in a scene file; outputs are sampled at the communication points
-    [parameters]                         # as in a scene file, for all runs
-    [inputs]
-
-    [[vary]]                             # each block is an axis of the design, all axes are crossed
-    joint.preload = ["0 N", "20 N"]      # a list ...
-    [[vary]]
-    shaft.omega = { from = "4000 rev/min", to = "24000 rev/min", count = 6 }     # ... or a range, spacing = "linear" or "log"
-    [[vary]]                             # entries of one block go together
-    shaft.F_y = ["2994 N", "2246 N"]
-    shaft.F_x = ["515 N", "386 N"]
-    [[vary]]
-    scene = ["R", "F"]                   # scenes can vary, and simulation.tolerance, simulation.t_end ...
-
-    [sample]                             # one more axis: points spread over a box
-    method = "sobol"                     # or "latin_hypercube"
-    count = 64
-    seed = 1
-    between.joint.mu = [0.05, 0.3]       # lowest and highest value
+"""Sweeps: many runs of the FMU on a Dask cluster, one row each in a Parquet dataset; docs/running.md has an example.
 
 A row holds all parameters and inputs of the run in SI units, its end (status: done, stopped by the FMU, failed), the
 FMU's statistics over every internal step, solver counters, run time (cpu_time of the simulation, whole_cpu_time with
-its start and end), and of each sampled output mean, rms, min, max and the quantiles p001 and p999 (0.1 and 99.9 %)
-after start.settle, as `mean(ring.y)`. Rows are written as they arrive, a few in a file where they arrive fast, each
-file whole or not at all; a second call does only runs that are missing or failed.
+its start and end), and of each sampled output KINDS after start.settle, as `mean(ring.y)`.  Rows are kept as they arrive; a
+second call does only runs that are missing or failed.
 """
 
 import contextlib
@@ -73,9 +49,7 @@ CONFIG = {  # of Dask
 
 
 def perform(scene, fmu, measure=None):
-    """Run a scene through the FMU given as bytes; returns the measured part of the row, with what measure(result) finds
-    if it is given.
-    """
+    """Run a scene through the FMU given as bytes: the measured part of the row, with measure(result)."""
     started, cpu = datetime.now(UTC).isoformat(timespec="milliseconds"), time.thread_time()
     try:
         result = simulate(unpacked(fmu), scene)
@@ -116,9 +90,7 @@ MODELS = {}  # by folder and bytes
 
 
 class cluster:
-    """A Dask client, as a context manager: of the scheduler at `address`, or of `workers` processes of its own with one
-    thread each.
-    """
+    """A Dask client, a context manager: of a scheduler, or of own processes with one thread each."""
 
     def __init__(self, address=None, workers=None):
         self.address, self.workers = address, workers
@@ -157,14 +129,10 @@ class cluster:
 
 
 def run_sweep(sweep: Sweep, folder: Path, client: Any, progress: Any = None, keys: Any = None) -> dict[str, np.ndarray]:
-    """Do the runs that a sweep's folder lacks and return the rows that it then has, of the keys in their order if there are
-    some.
+    """Do the runs that a sweep's folder lacks and return its rows, of the keys in their order if some are given.
 
-    folder: of the rows, made if need be; client: of a Dask cluster whose workers have this package (the FMU travels with
-    the runs), or a function that gives it, called if something has to be simulated; progress:
-    called with the numbers of runs done, failed, and in all; keys: of the runs that are wanted, None for all. A worker that
-    dies is replaced by another; its run counts once.
-    A run that fails is a row with status and message, and is tried again in the next call.
+    client: of a Dask cluster with this package, or a function that gives it when needed; progress: called with runs done,
+    failed, in all.  A lost worker's run counts once; a failed one is a row, and is tried again in the next call.
     """
     with Store(folder) as store:
         try:
@@ -187,7 +155,7 @@ def run_missing(sweep, store, client, progress, keys):
         return
     client = client() if callable(client) else client
     # as a task, so that Dask makes it again if its workers die
-    fmu = client.submit(bytes, sweep.fmu, key=f"fmu-{hashlib.sha256(sweep.fmu).hexdigest()}")
+    fmu = client.submit(bytes, sweep.model.content, key=f"fmu-{sweep.model.digest}")
     futures = [
         client.submit(sweep.perform or perform, sweep.scenes[key], fmu, *sweep.further[:1], key=f"run-{key}")
         for key in keys
@@ -217,9 +185,7 @@ def run_missing(sweep, store, client, progress, keys):
 
 
 def outcome(future):
-    """A worker's part of a row, or the reason why there is none; None if the scheduler is gone, be it between the news
-    of the run's end and its result.
-    """
+    """A worker's part of a row, or why there is none; None if the scheduler is gone."""
     from distributed.comm import CommClosedError
 
     if future.status == "finished":

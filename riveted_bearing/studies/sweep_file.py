@@ -75,7 +75,6 @@ class Sweep:
     name: str
     description: str
     model: Model
-    fmu: bytes = field(repr=False)  # content of the file when the design was made
     document: dict
     factors: tuple
     scenes: dict = field(repr=False)  # key -> Scene, in the order in which they are run
@@ -94,9 +93,7 @@ def load_sweep(path: str | Path, model: Model) -> Sweep:
 
 
 def plan_sweep(name, document, model, path):
-    """The Sweep of a document like the file's; path: of the file, for messages and to find the scene files that it
-    names.
-    """
+    """The Sweep of a document; path: of its file, for messages and to find scenes beside it."""
     check_keys(path, document, SweepFile.model_fields, "sweep")
     file = checked(SweepFile, document, path)
     axes = [*vary_axes(path, file.vary, model), *sample_axes(path, file.sample, model)]
@@ -109,19 +106,17 @@ def plan_sweep(name, document, model, path):
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
     common = {"parameters": file.parameters, "inputs": file.inputs}
     common["simulation"] = {"outputs": list(SAMPLED)} | file.simulation
-    fmu = model.path.read_bytes()
-    fingerprint = hashlib.sha256(fmu).hexdigest()
     scenes = {}
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
         source = settings.pop("scene", file.scene)
         changes = (str(path), common), (str(path), sections_of(settings, model))
         scene = load_scene(beside(path, source), model, *changes)
-        key = key_of(scene, fingerprint)
+        key = key_of(scene, model.digest)
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
         scenes[key] = scene
-    return Sweep(name, file.description, model, fmu, document, factors, scenes)
+    return Sweep(name, file.description, model, document, factors, scenes)
 
 
 def vary_axes(path, blocks, model):
@@ -181,6 +176,22 @@ def bounds(path: Path, name: str, pair: Any, model: Model) -> tuple[float, ...]:
         return tuple(to_si(value, scales) for value in pair)
 
 
+def box_of(path: Path, key: str, section: Any, model: Model) -> dict[str, tuple[float, ...]]:
+    """Lowest and highest SI values by name, of a section with full names; key: of the section, for messages."""
+    if not section:
+        raise UserError(f"{path}: {key}: name at least one parameter or input with its lowest and highest value")
+    found = {}
+    for name, pair in section.items():
+        if name not in known_names(model) or name == "scene":
+            raise unknown(path, "parameter or input", name, known_names(model))
+        if not isinstance(pair, list | tuple) or len(pair) != 2:
+            raise refusal(path, f"{key}.{name}", pair, "[lowest, highest] is needed")
+        found[name] = bounds(path, name, pair, model)
+        if not found[name][0] < found[name][1]:
+            raise refusal(path, f"{key}.{name}", list(pair), "the lowest value must be below the highest")
+    return found
+
+
 def count_of(path: Path, name: str, value: Any) -> Any:
     """A whole number of at least 1."""
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
@@ -204,26 +215,13 @@ def limit_runs(path, what, runs):
 
 
 def sample_axes(path, sample, model):
-    """The axis of a Sample, if there is one: points of a Latin hypercube or a Sobol sequence (scrambled) in the box
-    `between`.
-    """
+    """The axis of a Sample, if there is one: Latin hypercube or scrambled Sobol points in the box."""
     if sample is None:
         return []
     from scipy.stats import qmc
 
-    box = dict(leaves(sample.between, known_names(model)))
-    if not box:
-        raise UserError(
-            f"{path}: sample.between: name at least one parameter or input with its lowest and highest value"
-        )
-    for name, pair in box.items():
-        if name not in known_names(model):
-            raise unknown(path, "parameter or input", name, known_names(model))
-        if not isinstance(pair, list) or len(pair) != 2:
-            raise refusal(path, f"sample.between.{name}", pair, "[lowest, highest] is needed")
-    low, high = np.array([bounds(path, name, pair, model) for name, pair in box.items()]).T
-    if not np.all(low < high):
-        raise refusal(path, "sample.between", sample.between, "each lowest value must be below its highest")
+    box = box_of(path, "sample.between", dict(leaves(sample.between, known_names(model))), model)
+    low, high = np.array(list(box.values())).T
     limit_runs(path, f"sample.count = {sample.count}", sample.count)
     if sample.method == "sobol" and sample.count & (sample.count - 1):
         raise refusal(path, "sample.count", sample.count, "a Sobol sequence is balanced only for powers of 2")
@@ -233,9 +231,7 @@ def sample_axes(path, sample, model):
 
 
 def beside(path: str | Path, source: Any) -> Any:
-    """A scene's name or file, looked for beside the sweep's file; None, the FMU's own parameters and inputs, stays
-    None.
-    """
+    """A scene's name, or its file beside the sweep's; None, the FMU's own parameters and inputs, stays None."""
     if source is not None and not isinstance(source, str):
         raise refusal(path, "scene", source, "a shipped scene's name or a file is needed")
     if source is None or source in shipped_scenes() or Path(source).is_absolute():

@@ -1,6 +1,4 @@
-"""Results of a sweep: means over seeds with their confidence for each point of the design, as a table, a picture
-and a page.
-"""
+"""Results of a sweep: means over seeds with their confidence at each point, as a table, a picture and a page."""
 
 import math
 from dataclasses import dataclass
@@ -12,6 +10,7 @@ from scipy import stats
 
 from ..base.units import suffix
 from ..running.basis import basis
+from ..running.responses import NO_DAMAGE, response
 from ..show import charts
 from ..show.pages import save_page
 from ..show.style import FORCE, HEAD, MIDDLE, MUTED, RING, picture
@@ -32,9 +31,7 @@ RESPONSES = (  # (title, unit, factor, column)
 
 @dataclass(frozen=True)
 class Response:
-    """Means and half-widths of the confidence interval (nan with one seed) of a response at the points of the design
-    [P].
-    """
+    """Means and half-widths (nan with one seed) of a response at the points of the design [P]."""
 
     title: str
     unit: str
@@ -44,9 +41,7 @@ class Response:
 
 @dataclass(frozen=True)
 class SweepTable:
-    """name; factors: names of what varies but the seed, with the unit in which people read it; points: their values,
-    texts or numbers in it [P, factors]; seeds: runs of each point [P]; responses; basis: what all rests on.
-    """
+    """factors with unit, points: texts or numbers [P, factors], seeds: runs [P], responses, basis of all."""
 
     name: str
     factors: tuple
@@ -70,9 +65,8 @@ def sweep_table(sweep: Sweep, rows: Any) -> Any:
     for title, unit, factor, column in RESPONSES:
         if column in rows and np.any(rows[column][done]):
             responses.append(Response(title, unit, *averaged(factor * rows[column], groups)))
-    if np.any(damage := damage_per_hour(rows, done)):
-        mean, half = averaged(np.log10(np.maximum(damage, 1e-300)), groups)
-        responses.append(Response("log10 damage per hour", "", mean, half))
+    if done.any() and np.any((damage := response(Path(sweep.name), rows, "damage"))[done] > math.log10(NO_DAMAGE)):
+        responses.append(Response("log10 damage per hour", "", *averaged(damage, groups)))
     factors = tuple(f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True))
     seeds = np.array([len(group) for group in groups.values()])
     return SweepTable(sweep.name, factors, list(groups), seeds, responses, basis(sweep.model, sweep.scenes.values()))
@@ -91,15 +85,6 @@ def column_of(name):
     """Column of the rows that holds a factor."""
     others = {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}
     return others.get(name, name)
-
-
-def damage_per_hour(rows, done):
-    """Miner's sum per hour of the worst place of each run."""
-    damage = np.column_stack(
-        [rows[name] for name in rows if name.startswith("rivet[") and ".damage_" in name] or [np.zeros(len(done))]
-    )
-    hours = (rows["simulated_time"] - rows["start.settle"]) / 3600.0
-    return np.where(done & (hours > 0.0), np.nan_to_num(damage).max(axis=1) / np.where(hours > 0.0, hours, 1.0), 0.0)
 
 
 def averaged(values, groups):
