@@ -385,7 +385,7 @@ def test_a_rivet_taken_out_in_the_run_equals_one_that_is_gone_from_the_start(fmu
     """
     model = Model(fmu)
     changes = {"inputs": {"shaft.tilt_z": "0.15 deg"}}
-    decades = []
+    decades, rises = [], []
     for seed in range(1, 9):
         changes["parameters"] = {"start.seed": seed}
         scene = mission_scene("f.toml", changes, model)
@@ -395,10 +395,12 @@ def test_a_rivet_taken_out_in_the_run_equals_one_that_is_gone_from_the_start(fmu
         assert second["gone"] == restarted["gone"] == [first["rivet"]]
         whole = [k for k in range(9) if k + 1 != first["rivet"]]
         decades.append(np.log10(np.array(second["rates"])[whole, 0] / np.array(restarted["rates"])[whole, 0]))
+        rises.append(np.array(second["rates"])[:, 0].max() / np.array(first["rates"])[:, 0].max())
     record_property("decades", [float(np.mean(decades)), float(np.std(np.mean(decades, axis=1)) / np.sqrt(8))])
     assert abs(np.mean(decades)) < 0.06
-    rise = np.array(second["rates"])[:, 0].max() / np.array(first["rates"])[:, 0].max()
-    assert rise > 2.0  # the neighbours carry more than before
+    assert (
+        np.exp(np.mean(np.log(rises))) > 2.0
+    )  # the neighbours carry more than before: observed 2.8, single seeds 1.4 to 6.9
 
 
 def test_a_pool_is_kept_and_answers(fmu, tmp_path):

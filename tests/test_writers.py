@@ -26,6 +26,7 @@ ONE_TASK = {
     "pocket_forces.h": "pocket.c",
     "pocket_spheres.c": "pocket.c",
     "pocket_films.c": "pocket.c",
+    "pocket_films.h": "pocket.c",
     "cage_substeps.c": "cage_elastic.c",
     "land_bent.c": "land_film.c",
 }

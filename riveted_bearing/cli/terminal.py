@@ -236,19 +236,25 @@ def print_warnings(texts):
 
 
 @contextlib.contextmanager
-def design_runs(name, folder, scheduler, workers):
-    """For a study: a function that starts the cluster when it is first called, and one for progress."""
-    from ..studies.sweep import cluster
-
+def resumable(folder):
+    """For work whose parts are kept in a folder one by one: Ctrl-C becomes one line that says so."""
     try:
-        with contextlib.ExitStack() as stack:
-            progress = stack.enter_context(sweep_progress())
-            client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
-            yield client, functools.partial(progress, name)
+        yield
     except KeyboardInterrupt:
         kept = f"finished runs are kept in {escape(str(folder))}; the same command does the others"
         messages.print(f"interrupted: {kept}")
         raise typer.Exit(INTERRUPTED) from None
+
+
+@contextlib.contextmanager
+def design_runs(name, folder, scheduler, workers):
+    """For a study: a function that starts the cluster when it is first called, and one for progress."""
+    from ..studies.sweep import cluster
+
+    with resumable(folder), contextlib.ExitStack() as stack:
+        progress = stack.enter_context(sweep_progress())
+        client = functools.cache(lambda: stack.enter_context(cluster(scheduler, workers)))
+        yield client, functools.partial(progress, name)
 
 
 class RealTimeFactor(ProgressColumn):
