@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{c531c50c-41fd-c893-1cf7-688c9357876f}"  // digest of the table
+#define MODEL_GUID "{f5379d9e-ebc3-17aa-34e3-b481b6da2bcc}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
