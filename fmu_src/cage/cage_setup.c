@@ -74,7 +74,7 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so that it has five
 // substeps at most, of a ribbon 3.5.  Below SLOW a cage's own speed is of the order of the tolerance's scale, so that the tolerance falls in
-// proportion to the speed: 99.9 % force of a ribbon at 394 r/min +5.2 without, +1.4 % with it.  Films leave two substeps, which are always
+// proportion to the speed: 99.9 % force of a ribbon at 394 r/min +5.2 % without, +1.4 % with it.  Films leave two substeps, which are always
 // stable, or more: films of the rate A that the substeps leave out 1/A; films in pockets 1/A too, or one substep where lands guide the
 // cage, whose RMS force would err by 3 %; films on bent rims STIFF_GAP.
 //
@@ -84,9 +84,8 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 //
 // Near the corners of a ribbon's pockets the place and the direction of a contact change over SEAT: k = Q/SEAT across a contact of the load Q,
 // at 140 N as much as along it, which does not follow either.  Equal steps were stable up to k h^2/m = 0.06 to 0.12, m the mass of a half.
-static const double SLOW = 60.0,
-                    LEAST_PART =
-                        1.0 / 3.0;  // [rad/s], part of the tolerance, of rigid halves of the step too
+// LEAST_PART: of the tolerance, of rigid halves of the step too.
+static const double SLOW = 60.0, LEAST_PART = 1.0 / 3.0;  // [rad/s], [1]
 static const double STIFF_GAP = 0.6, STIFF_CORNER = 0.06;
 
 double cage_part(const CageMemory *memory)

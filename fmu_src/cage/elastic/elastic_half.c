@@ -12,7 +12,8 @@
 static const double SUBSTEP_TURN = 1.55;
 
 // Substeps in the longest step: forces that are constant over it feed vibrations that turn by much more than pi.  They feed the light
-// halves of a ribbon more: with five the 99.9 % pocket force of quiet ribbons, 2 N, was 14 to 37 % too large, with four the RMS force at 12,000 r/min by 7 %.
+// halves of a ribbon more: with five the 99.9 % pocket force of quiet ribbons, 2 N, was 14 to 37 % too large,
+// with four the RMS force at 12,000 r/min by 7 %.
 static const double LONGEST = 5.0, LONGEST_RIBBON = 3.5;
 
 // Part of a wall's velocity that a film takes in the longest step, below which the film need not follow in the substeps.
