@@ -283,13 +283,12 @@ static void turn(double t, const double others[RELATIVE_MOTIONS], double rates[R
 
 // Films of bent rims at the time t of the step, where the joints have changed the relative velocities by `speed`.
 static void films_follow(const Model *model, double t, const double speed[RELATIVE_MOTIONS],
-                         const double pushed[CAGE_MOTIONS], bool last, RimFilmsStep *films, double *v,
-                         const Work *w)
+                         const double pushed[CAGE_MOTIONS], RimFilmsStep *films, double *v, const Work *w)
 {
     double halves[2 * RELATIVE_MOTIONS] = {0.0};
     to_halves(model, &w->half[0], 1.0, speed, 0, halves);
     for (int i = 0; i < CAGE_MOTIONS; i++) halves[i] += pushed[i];
-    rim_films_follow(model, w, t, v, halves, last, v, films);
+    rim_films_follow(model, w, t, halves, v, films);
 }
 
 void cage_substeps_advance(const Model *model, double h, const FastState *fast, const double *f,
@@ -335,6 +334,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     for (int step = 1; step <= steps; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
+        if (films) rim_films_kick(model, v, films);
         move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         if (loads.count + pockets->count > 0) {
@@ -382,7 +382,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
         ball_motions_push(0.5 * sub, &loads.balls);
         if (loads.count + pockets->count > 0) between_halves(model, &w->half[0], pushed, by_loads);
         turn((step < steps ? 0.5 : 0.25) * gyro * sub, by_loads, speed);
-        if (films) films_follow(model, step * sub, speed, pushed, step == steps, films, v, w);
+        if (films) films_follow(model, step * sub, speed, pushed, films, v, w);
         if (pockets->count > 0) {
             double halves[CAGE_MOTIONS];
             memcpy(halves, pushed, sizeof pushed);

@@ -86,7 +86,7 @@ static void land_velocity(const Model *model, const Work *w, int h, const double
     to[1] = b_z[1] * y + b_z[2] * z;
 }
 
-void rim_films_first(const Model *model, const Work *w, double d, const double *f, double *v,
+void rim_films_first(const Model *model, const Work *w, double d, const double *f, const double *v,
                      RimFilmsStep *step)
 {
     step->substep = d;
@@ -103,15 +103,19 @@ void rim_films_first(const Model *model, const Work *w, double d, const double *
         step->acceleration[h][0] += model->d->com_e * w->half[h].s * w->half[h].s;
         step->acceleration[h][1] -= model->d->com_e * f[Y_CAGE_S + h];
     }
-    rim_push(model, 0.5 * d, step->now, v);
 }
 
-void rim_films_follow(const Model *model, const Work *w, double t, const double *at,
-                      const double halves[2 * RELATIVE_MOTIONS], bool last, double *v, RimFilmsStep *step)
+void rim_films_kick(const Model *model, double *v, RimFilmsStep *step)
+{
+    rim_push(model, 0.5 * step->substep, step->now, v);
+}
+
+void rim_films_follow(const Model *model, const Work *w, double t, const double halves[2 * RELATIVE_MOTIONS],
+                      double *v, RimFilmsStep *step)
 {
     const double d = step->substep;
     double rim[2][RIM], more[2][RIM] = {{0.0}};
-    rim_motions(model, at, rim);
+    rim_motions(model, v, rim);
     for (int h = 0; h < 2; h++) {
         const double *by = step->mobility[h], *force = step->films->force[h];
         double *now = step->now[h], delta[SQUEEZE], change[SQUEEZE] = {0.0}, joints[2];
@@ -124,7 +128,7 @@ void rim_films_follow(const Model *model, const Work *w, double t, const double 
         for (int i = 0; i < 2; i++) step->by_film[h][i] += by[i] * change[i];
         for (int i = 0; i < RIM; i++) {
             const double impulse = d * force[i] + change[2 + i];
-            more[h][i] = impulse - 0.5 * d * now[i] + (last ? 0.0 : 0.5 * impulse);
+            more[h][i] = impulse - 0.5 * d * now[i];
             now[i] = impulse / d;
             step->impulse[h][i] += impulse;
         }

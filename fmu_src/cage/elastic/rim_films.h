@@ -30,12 +30,15 @@ void rim_motions(const Model *model, const double *modes, double rim[2][RIM]);
 // Adds a part of impulses on the rims' shapes to velocities of S and D.
 void rim_push(const Model *model, double part, double impulse[2][RIM], double *modes);
 
-// Before the first substep of length d: constants of the films at the step's start, and half of the first impulses to the velocities v of
-// S and D.  f: slow rates; w: kinematics of the halves.
-void rim_films_first(const Model *model, const Work *w, double d, const double *f, double *v,
+// Before the first substep of length d, with the velocities v of S and D: constants of the films at the step's start.  f: slow rates;
+// w: kinematics of the halves.
+void rim_films_first(const Model *model, const Work *w, double d, const double *f, const double *v,
                      RimFilmsStep *step);
 
-// The impulses of a substep at its end, t after the step's start, and half of the next one's unless it is the last.  at: velocities
-// of S and D with all other accelerations; halves: changes of the halves' velocities by the joints, in the order of the state.
-void rim_films_follow(const Model *model, const Work *w, double t, const double *at,
-                      const double halves[2 * RELATIVE_MOTIONS], bool last, double *v, RimFilmsStep *step);
+// Half of the impulses of the substep before, at a substep's start, to the velocities v of S and D.
+void rim_films_kick(const Model *model, double *v, RimFilmsStep *step);
+
+// The rest of the impulses of a substep at its end, t after the step's start.  halves: changes of the halves' velocities by the joints, in
+// the order of the state.
+void rim_films_follow(const Model *model, const Work *w, double t, const double halves[2 * RELATIVE_MOTIONS],
+                      double *v, RimFilmsStep *step);
