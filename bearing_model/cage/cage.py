@@ -236,15 +236,15 @@ def cage_part(memory):
 def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves five substeps, of a ribbon 3.5, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, or one in a pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at least,
-    one for pockets where lands guide the cage.  Slow rigid halves have a part of it.
+    not follow in the substeps, or one in a ribbon's pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at
+    least.  Slow rigid halves have a part of it.
     """
     if not model.modes:
         return cage_part(memory) * LONGEST_TURN / np.sqrt(rigid_fastest(model.p, model.d))
     bent = np.trace(memory.films.rates[:, :2, :2], axis1=1, axis2=2) > 0.0
     rate, d = np.max(np.where(bent, 0.0, np.trace(memory.film, axis1=1, axis2=2))), model.modes.substep
     by_gap = np.sqrt(memory.films.stiffness * model.modes.mobility[0] / STIFF_GAP)
-    films = (2.0, rate / model.p.cage.m), (1.0 if model.d.guided else 2.0, memory.pockets.rate), (2.0, by_gap)
+    films = (2.0, rate / model.p.cage.m), (2.0, memory.pockets.rate), (2.0, by_gap)
     if model.d.spheres:
         Q = max(np.max(touch[TOUCH.index("Q")]) for touch in memory.fast.touch)
         films += ((1.0, np.sqrt(Q / (STIFF_CORNER * model.p.cage.m * SEAT))),)

@@ -75,8 +75,8 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so that it has five
 // substeps at most, of a ribbon 3.5.  Below SLOW a cage's own speed is of the order of the tolerance's scale, so that the tolerance falls in
 // proportion to the speed: 99.9 % force of a ribbon at 394 r/min +5.2 % without, +1.4 % with it.  Films leave two substeps, which are always
-// stable, or more: films of the rate A that the substeps leave out 1/A; films in pockets 1/A too, or one substep where lands guide the
-// cage, whose RMS force would err by 3 %; films on bent rims STIFF_GAP.
+// stable, or more: films of the rate A that the substeps leave out 1/A; films in pockets of ribbons 1/A too, whose RMS force would err by
+// 3 to 5 % without; films on bent rims STIFF_GAP.
 //
 // A gap of the stiffness k, 3e8 N/m at 0.3 degrees of tilt and 1e6 at most without, is a slow force: the substeps follow the rim's velocity
 // alone.  It feeds a mode of the mobility Y and the frequency omega by k Y/omega^2 (wall_loads.c), less than its damping as long as
@@ -112,7 +112,7 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
         if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
     }
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
-    const double pockets = fmax(model->d->guided ? d : 2.0 * d, 1.0 / memory->halves.pockets.rate);
+    const double pockets = fmax(2.0 * d, 1.0 / memory->halves.pockets.rate);
     const double by_gap = memory->elastic.films.stiffness * model->modes->mobility[0];
     const double rims = fmax(2.0 * d, sqrt(STIFF_GAP / by_gap));
     const double loads = model->d->spheres.on ? corners_bear(model, &memory->elastic.fast.touch) : most;

@@ -205,11 +205,12 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
     middle_in, spin = w.v_j[1:], float(np.squeeze(h0.s))
     middle = np.array([0.0, about_y, about_z, *middle_in.mean(axis=-1), 0.0])
     rigid = turn_out(-0.5 * spin * h, fast.rigid)
-    v = v + films.first(w, sub, f, v)
+    films.first(w, sub, f, v)
 
     turn(0.25 * gyro * sub, np.zeros(6), speed)
     for step in range(1, steps + 1):
         # first half of the accelerations, drift
+        v = v + films.kick()
         v_m = (v + 0.5 * sub * (modes + held)) / (1.0 + 0.5 * sub * half.damping)
         q = q + sub * v_m
         v = v_m * (1.0 - 0.5 * sub * half.damping)
@@ -240,7 +241,7 @@ def cage_substeps_advance(model, h, memory, f, state, y, films, pockets, w):
         pushed = pushed + 0.5 * sub * push
         loads.speed = loads.speed + 0.5 * sub * loads.push
         turn((0.5 if step < steps else 0.25) * gyro * sub, between_halves(model, h0, pushed), speed)
-        v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed, last=step == steps)
+        v = v + films.follow(step * sub, v, to_halves(model, h0, speed) + pushed)
         by_films = pockets.follow(step * sub, sub, v, to_halves(model, h0, speed) + pushed)
         v, pushed = v + by_films[0], pushed + by_films[1]
     if loads.loads:  # as the evaluation has them, at the predicted velocities

@@ -67,7 +67,7 @@ class RimFilmsStep:
         return np.array(found)
 
     def first(self, w, d, f, v):
-        """Before the first substep of length d: changes of the velocities v of S and D [2, n]; f: slow rates, w: kinematics."""
+        """Before the first substep of length d, with the velocities v of S and D [2, n]; f: slow rates, w: kinematics."""
         self.w, self.d, self.mobility, self.by_film = w, d, mobilities(self.model), np.zeros((2, 2))
         self.begun = rim_motions(self.model, v)
         none = np.zeros(2)
@@ -77,19 +77,22 @@ class RimFilmsStep:
         self.acceleration += e * np.array([spin**2, -f[CAGE_S]]).T
         dD = d * self.rates
         self.answer = np.linalg.solve(np.eye(6) + dD * self.mobility[:, None, :], dD)
-        return 0.5 * d * rim_modes(self.model, self.now)
 
-    def follow(self, t, at, halves, last):
-        """Changes of the velocities of S and D at the end of a substep, the time t after the step's start.  at: velocities of S and D [2, n] with all other
-        accelerations; halves: changes of the halves' velocities by the joints [6, 2]; last: whether no substep follows.
+    def kick(self):
+        """Changes of the velocities of S and D [2, n] at a substep's start, by half of the impulses of the substep before."""
+        return 0.5 * self.d * rim_modes(self.model, self.now)
+
+    def follow(self, t, v, halves):
+        """Changes of the velocities v of S and D [2, n] at the end of a substep, the time t after the step's start, by the rest of its
+        impulses.  halves: changes of the halves' velocities by the joints [6, 2].
         """
         d, by = self.d, self.mobility
         of_land = t * self.acceleration + self.land_velocities(halves) + self.by_film
-        of_rim = rim_motions(self.model, at) - self.begun + by[:, 2:] * d * (self.force - 0.5 * self.now)
+        of_rim = rim_motions(self.model, v) - self.begun + by[:, 2:] * d * (self.force - 0.5 * self.now)
         change = -np.einsum("hik,hk->hi", self.answer, np.hstack([of_land, of_rim]))
         impulse = d * self.force + change[:, 2:]
         self.by_film = self.by_film + by[:, :2] * change[:, :2]
         self.impulse = self.impulse + impulse
-        more = impulse - 0.5 * d * self.now + (0.0 if last else 0.5 * impulse)
+        more = impulse - 0.5 * d * self.now
         self.now = impulse / d
         return rim_modes(self.model, more)
