@@ -236,7 +236,7 @@ def cage_part(memory):
 def cage_longest_step(model, memory):
     """The longest step that the cage bears from its memory [s]: of rigid halves the stable one of
     their fastest vibration, of elastic halves five substeps, of a ribbon 3.5, or the time 1/A that a film of the rate A allows which does
-    not follow in the substeps, or one in a ribbon's pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at
+    not follow in the substeps, or one in a pocket, or that of a stiff gap or of a ball that presses a ribbon, but two substeps at
     least.  Slow rigid halves have a part of it.
     """
     if not model.modes:

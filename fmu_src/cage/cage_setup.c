@@ -75,8 +75,8 @@ static double rigid_fastest(const Parameters *p, const Derived *d)
 // Slow forces that are constant over a step of elastic halves feed vibrations that turn by much more than pi in it, so that it has five
 // substeps at most, of a ribbon 3.5.  Below SLOW a cage's own speed is of the order of the tolerance's scale, so that the tolerance falls in
 // proportion to the speed: 99.9 % force of a ribbon at 394 r/min +5.2 % without, +1.4 % with it.  Films leave two substeps, which are always
-// stable, or more: films of the rate A that the substeps leave out 1/A; films in pockets of ribbons 1/A too, whose RMS force would err by
-// 3 to 5 % without; films on bent rims STIFF_GAP.
+// stable, or more: films of the rate A that the substeps leave out 1/A; films in pockets 1/A too, without which the RMS force of a ribbon would
+// err by 3 to 5 %, the dislocation of a guided cage under pulses by 22 %; films on bent rims STIFF_GAP.
 //
 // A gap of the stiffness k, 3e8 N/m at 0.3 degrees of tilt and 1e6 at most without, is a slow force: the substeps follow the rim's velocity
 // alone.  It feeds a mode of the mobility Y and the frequency omega by k Y/omega^2 (wall_loads.c), less than its damping as long as
