@@ -177,7 +177,8 @@ def pocket_films_arrive(model, gamma, step, before, y, w, f, films):
         u -= gamma * (of_wall * (new - F_f) + of_ball * (new - F_0))
         saved += F * films.u[i, k] - new * u
         films.F[i, k] = new
-        films.rate = max(films.rate, D * of_wall)
+        if model.modes:
+            films.rate = max(films.rate, D * of_wall)
     f[MODE_S_DOT][:n] += (more_modes[1] + more_modes[0]) / ROOT
     f[MODE_D_DOT][:n] += (more_modes[1] - more_modes[0]) / ROOT
     for block, change in zip(HALVES, more_rows, strict=True):
