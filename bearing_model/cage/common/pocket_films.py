@@ -178,7 +178,7 @@ def pocket_films_arrive(model, gamma, step, before, y, w, f, films):
         saved += F * films.u[i, k] - new * u
         films.F[i, k] = new
         if model.modes:
-            films.rate = max(films.rate, D * of_wall)
+            films.rate = max(films.rate, D * (model.modes.wall_mobility if model.d.guided else of_wall))
     f[MODE_S_DOT][:n] += (more_modes[1] + more_modes[0]) / ROOT
     f[MODE_D_DOT][:n] += (more_modes[1] - more_modes[0]) / ROOT
     for block, change in zip(HALVES, more_rows, strict=True):

@@ -227,7 +227,8 @@ static double solve_film(const Model *model, double gamma, const EndFilm *film, 
     pocket_films_add(films, h, k, F_new - F, w);
     u -= gamma * (of_wall * (F_new - F_f) + of_ball * (F_new - F_0));
     films->F[h][k] = F_new;
-    if (model->modes) films->rate = fmax(films->rate, D * of_wall);
+    if (model->modes)
+        films->rate = fmax(films->rate, D * (model->d->guided ? model->modes->wall_mobility : of_wall));
     return F * films->u[h][k] - F_new * u;
 }
 

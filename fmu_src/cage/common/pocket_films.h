@@ -11,7 +11,8 @@ typedef struct {
     double D[2][LANES], u[2][LANES], F[2][LANES];        // damping [N.s/m], speed of closing [m/s], force [N]
     double m_x[2][LANES], m_r[2][LANES], m_t[2][LANES];  // direction along the pocket's axes
     double shape[2][Z][N_MODES];                         // motion of the wall along it by each mode
-    double rate;  // largest D over the mass of its wall at the end of a step [1/s]
+    // largest D over the mass of its wall at the end of a step, over the least mass of any wall where lands guide the cage [1/s]
+    double rate;
 } PocketFilms;
 
 // Films that follow in the substeps of a step.
