@@ -239,7 +239,9 @@ INLINE void bent_load(const BentGrid *grid, const LandPressure *pressure, LandLo
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = first + i * LANE_WIDTH;
             wide b[SQUEEZE];
-            const wide film = bent_film_at(grid, pressure, m, b);
+            for (int k = 0; k < SQUEEZE; k++) b[k] = wide_load(&grid->b[k][m]);
+            const wide W = wide_max(bent_dot(pressure->V, pressure->rim_V, b), wide_set(0.0));
+            const wide film = wide_load(&grid->stiff[m]) * W;
             if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, film_re[i], film_im[i]);
             if (dry) add_harmonics(b[0], b[1], wide_load(&grid->behind[m]), dry_re[i], dry_im[i]);
         }

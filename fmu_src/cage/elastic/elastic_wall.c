@@ -211,24 +211,24 @@ INLINE void ribbon_motions(const ElasticHalf *half, int radii, const RibbonNodes
     }
 }
 
-void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike)
+void ribbon_alike(const ElasticHalf *half, const scalar *q, ribbon_motions_alike alike)
 {
     for (int row = 0; row < half->radii * half->nodes; row++)
         for (int part = 0; part < 8; part += LANE_WIDTH) {
             wide sum = wide_set(0.0);
             for (int i = 0; i < half->uniforms; i++)
                 sum = wide_fma(wide_set(q[half->uniform_at[i]]), wide_load(&half->alike[i][row][part]), sum);
-            wide_store(&alike->row[row][0][0] + part, sum);
+            wide_store(&alike[row][0][0] + part, sum);
         }
 }
 
 void ribbon_wall_alike(const ElasticHalf *half, int side, const RibbonNodes *nodes, int lane,
-                       const RibbonAlike *alike, scalar u[3])
+                       ribbon_motions_alike alike, scalar u[3])
 {
     const scalar front = nodes->front[lane], sign[3][2] = RIBBON_SIGNS(side, front);
     u[0] = u[1] = u[2] = 0.0;
     for (int a = 0; a < half->radii; a++) {
-        const scalar(*from)[4] = alike->row[a * half->nodes + nodes->node[lane]];
+        scalar(*from)[4] = alike[a * half->nodes + nodes->node[lane]];
         for (int t = 0; t < 4; t++)
             for (int c = 0; c < 3; c++) u[c] += nodes->row[a][t][lane] * from[t][c];
     }
@@ -271,7 +271,7 @@ void ribbon_wall_moved(const ElasticHalf *half, int side, int j, const RibbonNod
 // The slopes by the rows of the table: each row's motion along n, once for both.
 INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes,
                           int lane, const WallShape *shape, const scalar n[3], const scalar *q,
-                          const scalar *q_dot, RibbonWall *wall)
+                          const scalar *q_dot, scalar u_dot[3], scalar slope[3])
 {
     const scalar front = nodes->front[lane], sign[3][2] = RIBBON_SIGNS(side, front);
     wide rates[3][EIGHTHS], over_chi[EIGHTHS], over_radius[EIGHTHS];
@@ -303,9 +303,9 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, c
                 over_radius[i] = wide_fma(wide_set(nodes->along_slope[a][lane]), by_value, over_radius[i]);
             }
         }
-    for (int c = 0; c < 3; c++) wall->u_dot[c] = wide_eight_sum(rates[c]);
-    wall->over_chi = wide_eight_sum(over_chi);
-    wall->over_radius = wide_eight_sum(over_radius);
+    for (int c = 0; c < 3; c++) u_dot[c] = wide_eight_sum(rates[c]);
+    slope[0] = wide_eight_sum(over_chi);
+    slope[1] = wide_eight_sum(over_radius);
 }
 
 // Slope of the motion along n over the part `front`.
@@ -330,14 +330,14 @@ INLINE scalar over_front(const ElasticHalf *half, int radii, int side, int j, co
 
 void ribbon_wall(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
-                 RibbonWall *wall)
+                 scalar u_dot[3], scalar slope[3])
 {
     if (half->radii == WALL_RADII)
-        wall_of_radii(half, WALL_RADII, side, j, nodes, lane, shape, n, q, q_dot, wall);
+        wall_of_radii(half, WALL_RADII, side, j, nodes, lane, shape, n, q, q_dot, u_dot, slope);
     else
-        wall_of_radii(half, 1, side, j, nodes, lane, shape, n, q, q_dot, wall);
+        wall_of_radii(half, 1, side, j, nodes, lane, shape, n, q, q_dot, u_dot, slope);
     const bool between = fabs(scalar_value(nodes->front[lane])) < 1.0;
-    wall->over_front = between ? over_front(half, half->radii, side, j, nodes, lane, n, q) : 0.0 * n[0];
+    slope[2] = between ? over_front(half, half->radii, side, j, nodes, lane, n, q) : 0.0 * n[0];
 }
 
 // Stores the motion along n by a few a' and b', of which (x, r, t) are given, as that by a and b.
