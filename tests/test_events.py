@@ -164,9 +164,9 @@ def test_energy_is_off_beyond_its_limit(core, balance, limit):
     for sign in (-1.0, 1.0):
         for factor, off in ((1.0 - NEAR, 0), (1.0 + NEAR, 1)):
             residual = sign * factor * limit
-            found = core.lib.event_of_energy(core.ffi.new("EnergyBalance *", (residual, *balance, 5.0, 0.0)))
+            found = core.lib.event_of_energy(residual, *balance, 5.0, 0.0)
             assert found.count == energy_off(residual, *balance, 5.0) == off
-    found = core.lib.event_of_energy(core.ffi.new("EnergyBalance *", (0.0, *balance, -1e-9, 0.0)))
+    found = core.lib.event_of_energy(0.0, *balance, -1e-9, 0.0)
     assert found.count == energy_off(0.0, *balance, -1e-9) == 1
 
 

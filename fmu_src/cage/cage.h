@@ -13,7 +13,6 @@
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/elastic_step.h"
 #include "cage/two_half/two_half.h"
-#include "numbers/lanes.h"
 #include "physics/land_bent.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
@@ -46,11 +45,7 @@ bool cage_vibrates(const Parameters *p);
 
 // Error scales: of a ball's velocity along its orbit, in parts of that of velocities, because it decides how the ball meets
 // its pocket, less so where walls give way; of the friction states, in deflections at which the plates slip.
-typedef struct {
-    double orbit, friction;
-} CageScales;
-
-CageScales cage_scales(const Parameters *p);
+void cage_scales(const Parameters *p, double *orbit, double *friction);
 
 // Number of states of the scene.
 static inline int cage_states(const Model *model)
@@ -155,11 +150,6 @@ INLINE scalar cage_vibrations_lose(const Work *w)
 INLINE scalar cage_joints_damp(const Work *w)
 {
     return w->cage.two_half.dissipated;
-}
-
-INLINE scalar cage_losses(const Work *w)
-{
-    return cage_vibrations_lose(w) + cage_joints_damp(w);
 }
 
 // Motions of half h at the rivets by its modes, in the rivets' frames [m].

@@ -35,9 +35,10 @@ const ElasticHalf *cage_derive(const Parameters *p, const Derived *d, void *memo
     return memory;
 }
 
-CageScales cage_scales(const Parameters *p)
+void cage_scales(const Parameters *p, double *orbit, double *friction)
 {
-    return cage_vibrates(p) ? (CageScales){1.0 / 4.5, 300.0} : (CageScales){1.0 / 6.0, 130.0};
+    *orbit = cage_vibrates(p) ? 1.0 / 4.5 : 1.0 / 6.0;
+    *friction = cage_vibrates(p) ? 300.0 : 130.0;
 }
 
 // Elastic halves are as far apart as their bodies are under the centrifugal load.

@@ -90,7 +90,6 @@
 #define rigid_approach FOR_ISA(rigid_approach)
 #define rim_films_first FOR_ISA(rim_films_first)
 #define rim_films_follow FOR_ISA(rim_films_follow)
-#define rim_films_kick FOR_ISA(rim_films_kick)
 #define rim_motions FOR_ISA(rim_motions)
 #define rim_push FOR_ISA(rim_push)
 #define ring_acceleration FOR_ISA(ring_acceleration)

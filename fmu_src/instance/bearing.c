@@ -140,9 +140,7 @@ static Event energy_event(Bearing *b)
     const IntegratorState *i = &s->integrator;
     const double E = energy_total(&b->model, i->now.y, &b->w);
     const double residual = E - i->now.y[Y_WORK] - s->energy_start - s->energy_change;
-    const EnergyBalance balance = {residual, E + cage_widened(&b->w), s->exchanged, s->lost, i->sum.lost,
-                                   s->jumped};
-    return event_of_energy(&balance);
+    return event_of_energy(residual, E + cage_widened(&b->w), s->exchanged, s->lost, i->sum.lost, s->jumped);
 }
 
 // All kinds of events at the state whose results are w.  An energy that predicted velocities put off is no reason to warn.

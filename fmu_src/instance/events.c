@@ -138,13 +138,14 @@ void events_now(const Model *model, const Work *w, const MotionLag *lag, double 
     now[EVENT_MOTION_LAG] = (Event){lag->count, lag->motion, lag->x, lag->v};
 }
 
-Event event_of_energy(const EnergyBalance *balance)
+Event event_of_energy(double residual, double held, double exchanged, double lost, double lost_now,
+                      double jumped)
 {
-    const double OF_LOST = 0.02, OF_HELD = 0.01, OF_EXCHANGED = 0.004, residual = fabs(balance->residual);
-    if (balance->lost_now < 0.0) return (Event){1, 1, balance->lost_now, 0.0};
-    const double moved = scalar_max(OF_HELD * balance->held, OF_EXCHANGED * balance->exchanged);
-    const double limit = scalar_max(OF_LOST * balance->lost, moved) + balance->jumped;
-    return (Event){!(residual <= limit), 0, residual, limit};
+    const double OF_LOST = 0.02, OF_HELD = 0.01, OF_EXCHANGED = 0.004, off = fabs(residual);
+    if (lost_now < 0.0) return (Event){1, 1, lost_now, 0.0};
+    const double moved = scalar_max(OF_HELD * held, OF_EXCHANGED * exchanged);
+    const double limit = scalar_max(OF_LOST * lost, moved) + jumped;
+    return (Event){!(off <= limit), 0, off, limit};
 }
 
 bool event_onset(EventState *state, EventKind kind, const Event *now)

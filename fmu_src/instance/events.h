@@ -68,12 +68,9 @@ double ellipse_reach(const Model *model, const Work *w, bool outer, int j);
 void events_now(const Model *model, const Work *w, const MotionLag *lag, double error, double force_peak,
                 const double head_peak[Z], const double mid_peak[Z], Event now[EVENT_COUNT]);
 
-// Energies since the start and the one lost in the last communication step [J].
-typedef struct {
-    double residual, held, exchanged, lost, lost_now, jumped;
-} EnergyBalance;
-
-Event event_of_energy(const EnergyBalance *balance);
+// Of energies since the start and the one lost in the last communication step [J].
+Event event_of_energy(double residual, double held, double exchanged, double lost, double lost_now,
+                      double jumped);
 
 // Counts the event's onset if it has one; returns whether this onset is to be reported.
 bool event_onset(EventState *state, EventKind kind, const Event *now);

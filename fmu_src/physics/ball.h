@@ -1,7 +1,6 @@
 // Kinematics and equations of motion of the balls.  Equations in ball.c.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Copies the balls' states into w and computes cosine and sine of their azimuths.

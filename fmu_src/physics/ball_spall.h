@@ -29,10 +29,10 @@
 #include "physics/race_normal.h"
 #include "physics/traction.h"
 
-// Turn of a packet of balls: rolling axis, a_e.k, cos and sin of the angles from the contacts, their rates.
+// Turn of a packet of balls: rolling axis, a_e.k; cos and sin of the angles from the contacts with inner and outer race, their rates.
 typedef struct {
     vec k;
-    wide along, cos_i, sin_i, cos_e, sin_e, rate_i, rate_e;
+    wide along, cosine[2], sine[2], rate[2];
 } BallRoll;
 
 // angle: chi; turned: angle of the inner ring less that of the outer ring, from where the angles on the races count.
@@ -44,8 +44,8 @@ INLINE BallRoll ball_roll(const BallMotion *ball, const SurfacePlace *i, const S
     out.along = vec_dot(e->a, out.k);
     const wide phi_i = vec_dot(i->t, surface_approach(ball, i)) / i->r,
                phi_e = vec_dot(e->t, surface_approach(ball, e)) / e->r;
-    out.rate_e = vec_dot(out.k, vec_sub(ball->omega, e->Omega)) - out.along * phi_e;
-    out.rate_i = out.rate_e - (phi_i + i->s - (phi_e + e->s));
+    out.rate[1] = vec_dot(out.k, vec_sub(ball->omega, e->Omega)) - out.along * phi_e;
+    out.rate[0] = out.rate[1] - (phi_i + i->s - (phi_e + e->s));
 
     // exp(i g), of the angles on the races and of the rings'
     wide sine, cosine;
@@ -53,9 +53,9 @@ INLINE BallRoll ball_roll(const BallMotion *ball, const SurfacePlace *i, const S
     const wide c = wide_fma(i->cos_phi, e->cos_phi, i->sin_phi * e->sin_phi),
                s = wide_fma(i->sin_phi, e->cos_phi, -(i->cos_phi * e->sin_phi));
     const wide cos_g = wide_fma(c, cosine, -(s * sine)), sin_g = wide_fma(s, cosine, c * sine);
-    wide_sincos(angle, &out.sin_e, &out.cos_e);
-    out.cos_i = -wide_fma(out.cos_e, cos_g, out.sin_e * sin_g);
-    out.sin_i = -wide_fma(out.sin_e, cos_g, -(out.cos_e * sin_g));
+    wide_sincos(angle, &out.sine[1], &out.cosine[1]);
+    out.cosine[0] = -wide_fma(out.cosine[1], cos_g, out.sine[1] * sin_g);
+    out.sine[0] = -wide_fma(out.sine[1], cos_g, -(out.cosine[1] * sin_g));
     return out;
 }
 

@@ -382,16 +382,16 @@ static void derive_scales(const Parameters *p, Derived *d)
 {
     const bool equal = p->solver.method == METHOD_EXPLICIT;
     const double length = 1e-5, velocity = equal ? 0.1 : 0.5, r = 0.5 * p->bearing.d_m;
-    const CageScales scales = cage_scales(p);
-    const double orbit = velocity * scales.orbit;
+    double orbit, friction_scale;
+    cage_scales(p, &orbit, &friction_scale);
     const double slip =
         fmax(p->joint.mu * d->P_mean, 3.0);  // force at which plates slip; of a loose joint the default's
-    const double friction = equal ? slip : scales.friction * slip;
+    const double friction = equal ? slip : friction_scale * slip;
     d->scale[SCALE_LENGTH] = length;
     d->scale[SCALE_VELOCITY] = velocity;
     d->scale[SCALE_NORMAL] = equal ? velocity : 1.5 * velocity;
     d->scale[SCALE_RATE] = velocity / r;
-    d->scale[SCALE_ORBIT] = (equal ? velocity : orbit) / r;
+    d->scale[SCALE_ORBIT] = (equal ? velocity : velocity * orbit) / r;
     d->scale[SCALE_MODE] = velocity;
     d->scale[SCALE_SPIN] = velocity / (0.5 * p->bearing.D);
     d->scale[SCALE_ANGLE] = d->scale[SCALE_TILT] = length / r;
@@ -404,9 +404,9 @@ static void derive_relative(const Parameters *p, Derived *d)
 {
     const double translation = 2.0 / p->cage.m, c_x = d->com_x[1];
     const double across = translation + 2.0 * c_x * c_x / d->J_t;
-    d->relative = (RelativeInertia){{translation, 2.0 / d->J_t, 2.0 / d->J_t, across, across, 2.0 / d->J_p},
-                                    translation / across,
-                                    c_x / d->J_t / across};
+    const double inverse[] = {translation, 2.0 / d->J_t, 2.0 / d->J_t, across, across, 2.0 / d->J_p};
+    memcpy(d->relative_inverse, inverse, sizeof inverse);
+    d->relative_part = translation / across, d->relative_tilt = c_x / d->J_t / across;
 }
 
 static void fill(double *row, int count, double value)

@@ -1,7 +1,6 @@
 // Drag of balls, cage and inner ring in the mixture of oil and air.  Equations in drag.c.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Sets density and speed of the mixture.

@@ -56,46 +56,11 @@ INLINE scalar land_share(const Derived *d, const LandPressure *pressure)
     return smooth_part(load / (FAINT_LOAD * preload + 1e-30) - 1.0);
 }
 
-// Points of the sums: direction of e, eps, q.
-typedef struct {
-    wide u_y, u_z, eps, q;
-} BentPoints;
-
-INLINE BentPoints bent_points(const LandPressure *pressure)
-{
-    const scalar e = scalar_sqrt(pressure->e[0] * pressure->e[0] + pressure->e[1] * pressure->e[1] + 1e-30),
-                 inv_e = 1.0 / e;
-    const scalar eps = scalar_min(e / pressure->C, BENT_EPS);
-    return (BentPoints){wide_set(pressure->e[0] * inv_e), wide_set(pressure->e[1] * inv_e), wide_set(eps),
-                        wide_set(scalar_sqrt(1.0 - eps * eps))};
-}
-
-// A packet of points from m on: shapes b, weights dtheta/dpsi.
-INLINE wide bent_shapes(const Derived *d, const BentPoints *points, int m, wide b[SQUEEZE])
-{
-    const wide c_psi = wide_load(&d->bent_cos[m]), s_psi = wide_load(&d->bent_sin[m]);
-    const wide inv = 1.0 / (1.0 + points->eps * c_psi);
-    const wide cosine = (points->eps + c_psi) * inv, sine = points->q * s_psi * inv;
-    const wide y = cosine * points->u_y - sine * points->u_z, z = cosine * points->u_z + sine * points->u_y;
-    b[0] = y, b[1] = z;
-    b[2] = y * y - z * z, b[3] = 2.0 * y * z;
-    b[4] = y * b[2] - z * b[3], b[5] = y * b[3] + z * b[2];
-    return points->q * inv;
-}
-
 INLINE wide bent_dot(const scalar on_land[2], const scalar on_rim[RIM], const wide b[SQUEEZE])
 {
     wide sum = wide_set(on_land[0]) * b[0] + wide_set(on_land[1]) * b[1];
     for (int i = 0; i < RIM; i++) sum += wide_set(on_rim[i]) * b[2 + i];
     return sum;
-}
-
-// Gap of a film over the clearance, x of the geometry.
-INLINE wide bent_gap(wide x, double g_0)
-{
-    const double floor = 0.25 * g_0;
-    const wide above = x - floor;
-    return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
 }
 
 // A packet of points: shapes b, weight dtheta, gap by the geometry and of the film over the clearance, its inverse, dtheta over it,
@@ -104,13 +69,23 @@ typedef struct {
     wide b[SQUEEZE], weight, gap, open, inv_open, narrow, stiff;
 } BentPoint;
 
-INLINE BentPoint bent_point(const Model *model, const LandPressure *pressure, const BentPoints *points, int m)
+// From point m on; u, eps, q: direction of e, Sommerfeld's substitution.
+INLINE BentPoint bent_point(const Model *model, const LandPressure *pressure, const wide u[2], wide eps,
+                            wide q, int m)
 {
     BentPoint at;
-    const wide inv_C = wide_set(1.0 / pressure->C);
-    at.weight = (2.0 * PI / BENT_POINTS) * bent_shapes(model->d, points, m, at.b);
+    const wide c_psi = wide_load(&model->d->bent_cos[m]), s_psi = wide_load(&model->d->bent_sin[m]);
+    const wide inv = 1.0 / (1.0 + eps * c_psi), inv_C = wide_set(1.0 / pressure->C);
+    const wide cosine = (eps + c_psi) * inv, sine = q * s_psi * inv;
+    const wide y = cosine * u[0] - sine * u[1], z = cosine * u[1] + sine * u[0];
+    at.b[0] = y, at.b[1] = z;
+    at.b[2] = y * y - z * z, at.b[3] = 2.0 * y * z;
+    at.b[4] = y * at.b[2] - z * at.b[3], at.b[5] = y * at.b[3] + z * at.b[2];
+    at.weight = (2.0 * PI / BENT_POINTS) * (q * inv);
     at.gap = (wide_set(pressure->C) - bent_dot(pressure->e, pressure->rim, at.b)) * inv_C;
-    at.open = bent_gap(at.gap, model->p->cage.g_0);
+    const double floor = 0.25 * model->p->cage.g_0;
+    const wide above = at.gap - floor;
+    at.open = floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
     at.inv_open = 1.0 / at.open;
     const wide inv_h = inv_C * at.inv_open;
     at.narrow = at.weight * at.inv_open;
@@ -187,34 +162,25 @@ INLINE void bent_film(const Model *model, const LandPressure *pressure, const Be
     sum[BENT_ROUGH + 2] += rough * b[1];
 }
 
-INLINE void bent_keep(const BentPoint *at, int m, BentGrid *grid)
-{
-    for (int i = 0; i < SQUEEZE; i++) wide_store(&grid->b[i][m], at->b[i]);
-    wide_store(&grid->stiff[m], at->stiff);
-    wide_store(&grid->behind[m], at->weight * wide_max(-at->gap, wide_set(0.0)));
-}
-
-// A packet of kept points: shapes, loads of the film at the velocities of on.
-INLINE wide bent_film_at(const BentGrid *grid, const LandPressure *pressure, int m, wide b[SQUEEZE])
-{
-    for (int i = 0; i < SQUEEZE; i++) b[i] = wide_load(&grid->b[i][m]);
-    return wide_load(&grid->stiff[m]) * wide_max(bent_dot(pressure->V, pressure->rim_V, b), wide_set(0.0));
-}
-
 // Sets all sums of one land and its points.
 INLINE void bent_sums(const Model *model, const LandPressure *pressure, BentGrid *grid,
                       scalar total[BENT_SUMS])
 {
-    const BentPoints points = bent_points(pressure);
+    const scalar e = scalar_sqrt(pressure->e[0] * pressure->e[0] + pressure->e[1] * pressure->e[1] + 1e-30),
+                 inv_e = 1.0 / e, eps = scalar_min(e / pressure->C, BENT_EPS);
+    const wide u[2] = {wide_set(pressure->e[0] * inv_e), wide_set(pressure->e[1] * inv_e)};
+    const wide eps_wide = wide_set(eps), q = wide_set(scalar_sqrt(1.0 - eps * eps));
     wide sum[EIGHTHS][BENT_SUMS];
     bool dry = false;
     for (int part = 0; part < EIGHTHS; part++) {
         wide to[BENT_SUMS];
         for (int n = 0; n < BENT_SUMS; n++) to[n] = wide_set(0.0);
         for (int m = part * LANE_WIDTH; m < BENT_POINTS; m += 8) {
-            const BentPoint at = bent_point(model, pressure, &points, m);
+            const BentPoint at = bent_point(model, pressure, u, eps_wide, q, m);
             bent_film(model, pressure, &at, to);
-            bent_keep(&at, m, grid);
+            for (int i = 0; i < SQUEEZE; i++) wide_store(&grid->b[i][m], at.b[i]);
+            wide_store(&grid->stiff[m], at.stiff);
+            wide_store(&grid->behind[m], at.weight * wide_max(-at.gap, wide_set(0.0)));
             if (!wide_any(wide_above(-at.gap, 0.0))) continue;
             bent_dry(model->p, pressure, &at, to);
             dry = true;

@@ -59,59 +59,32 @@ INLINE wide land_film_gap(wide eps, double g_0)
     return floor + 0.5 * (above + wide_sqrt(above * above + 8.0 * floor * floor));
 }
 
-// The integrals at the head of this file, times q^4.
+// A film's force F and its rates -dF/dV.
 typedef struct {
-    wide I_c, I_s, I_t;
-} FilmIntegrals;
-
-INLINE FilmIntegrals land_film_integrals(wide a, wide b, wide q2, wide inv_q)
-{
-    const wide inv_c2 = 1.0 / (q2 + a * a);                    // c^2 = 1 - b^2
-    const wide S = inv_q * (0.5 * PI + wide_atan(a * inv_q));  // S/q
-    return (FilmIntegrals){3.0 * a + S * (q2 + 3.0 * a * a), 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S,
-                           a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b)};
-}
-
-// A film where it is: direction n of V, kappa/q^4, integrals over the closing half.
-typedef struct {
-    wide n_y, n_z, kappa;
-    FilmIntegrals over;
+    wide F_y, F_z, yy, yz, zz;
 } JournalFilm;
 
 // cap: limiter of the eccentricity over the clearance; eta: kappa of the head of this file.
 INLINE JournalFilm journal_film(wide e_y, wide e_z, wide V_y, wide V_z, wide cap, wide q2, wide eta)
 {
     const wide inv_V = 1.0 / wide_sqrt(V_y * V_y + V_z * V_z + 1e-30);
-    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q;
+    const wide inv_q = 1.0 / wide_sqrt(q2), inv_q2 = inv_q * inv_q, kappa = eta * inv_q2 * inv_q2;
     const wide n_y = V_y * inv_V, n_z = V_z * inv_V;
     const wide a = (e_y * n_y + e_z * n_z) * cap, b = (e_z * n_y - e_y * n_z) * cap;
-    return (JournalFilm){n_y, n_z, eta * inv_q2 * inv_q2, land_film_integrals(a, b, q2, inv_q)};
-}
 
-typedef struct {
-    wide y, z;
-} JournalForce;
+    // the integrals at the head of this file, times q^4
+    const wide inv_c2 = 1.0 / (q2 + a * a);                    // c^2 = 1 - b^2
+    const wide S = inv_q * (0.5 * PI + wide_atan(a * inv_q));  // S/q
+    const wide I_c = 3.0 * a + S * (q2 + 3.0 * a * a);
+    const wide I_s = 2.0 * b + a * a * b * inv_c2 + 3.0 * a * b * S;
+    const wide I_t = a * inv_c2 * (q2 + b * b * (3.0 + 2.0 * q2 * inv_c2)) + S * (q2 + 3.0 * b * b);
 
-INLINE JournalForce journal_force(const JournalFilm *film, wide V_y, wide V_z)
-{
-    const FilmIntegrals *over = &film->over;
-    return (JournalForce){-film->kappa * (over->I_c * V_y - over->I_s * V_z),
-                          -film->kappa * (over->I_c * V_z + over->I_s * V_y)};
-}
-
-// -dF/dV.
-typedef struct {
-    wide yy, yz, zz;
-} JournalRates;
-
-INLINE JournalRates journal_rates(const JournalFilm *film)
-{
-    const wide I_c = film->over.I_c, I_s = film->over.I_s, I_t = film->over.I_t, n_y = film->n_y,
-               n_z = film->n_z;
-    return (JournalRates){
-        film->kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
-        film->kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
-        film->kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
+    return (JournalFilm){
+        -kappa * (I_c * V_y - I_s * V_z),
+        -kappa * (I_c * V_z + I_s * V_y),
+        kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
+        kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
+        kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
     };
 }
 
@@ -199,17 +172,11 @@ INLINE void sum_load(wide re[EIGHTHS][LAND_HARMONICS], wide im[EIGHTHS][LAND_HAR
     wide_column_sums(LAND_HARMONICS, LAND_HARMONICS, im[0], load->im);
 }
 
-// Variables of the pressure on a round rim, along the half's axes: eccentricity [m], pure squeeze velocity [m/s], gap function q^2,
-// sizes of the film's force and of the dry contact's [N].
-typedef struct {
-    scalar e[2], V[2], q2, force, dry;
-} RoundPressure;
-
-// Harmonics of the load on a round rim.
-INLINE void land_load(const Derived *d, const RoundPressure *pressure, LandLoad *load)
+// Harmonics of the load on a round rim.  e, V: eccentricity [m] and pure squeeze velocity [m/s] along the half's axes; q2: gap function;
+// force, dry: sizes of the film's force and of the dry contact's [N].
+INLINE void land_load(const Derived *d, const scalar e[2], const scalar V[2], scalar q2, scalar force,
+                      scalar dry, LandLoad *load)
 {
-    const scalar *e = pressure->e, *V = pressure->V, q2 = pressure->q2, force = pressure->force,
-                 dry = pressure->dry;
     const scalar inv_e = 1.0 / scalar_sqrt(e[0] * e[0] + e[1] * e[1] + 1e-30);
     const scalar inv_V = 1.0 / scalar_sqrt(V[0] * V[0] + V[1] * V[1] + 1e-30);
     const scalar u[2] = {e[0] * inv_e, e[1] * inv_e}, n[2] = {V[0] * inv_V, V[1] * inv_V};
@@ -272,7 +239,9 @@ INLINE void bent_load(const BentGrid *grid, const LandPressure *pressure, LandLo
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = first + i * LANE_WIDTH;
             wide b[SQUEEZE];
-            const wide film = bent_film_at(grid, pressure, m, b);
+            for (int k = 0; k < SQUEEZE; k++) b[k] = wide_load(&grid->b[k][m]);
+            const wide W = wide_max(bent_dot(pressure->V, pressure->rim_V, b), wide_set(0.0));
+            const wide film = wide_load(&grid->stiff[m]) * W;
             if (wide_any(wide_above(film, 0.0))) add_harmonics(b[0], b[1], film, film_re[i], film_im[i]);
             if (dry) add_harmonics(b[0], b[1], wide_load(&grid->behind[m]), dry_re[i], dry_im[i]);
         }
@@ -406,91 +375,55 @@ INLINE LandForce bent_land(const Model *model, Work *w, int h, const Rotor *oute
     return force;
 }
 
-// Round lands of HALVES halves: geometry of their gap, force of the film (y, z), its size and Couette's torque per speed, load
-// of the dry contact without and with damping, and of all that rubs.
-typedef struct {
-    wide e, u_y, u_z, eps, narrow, q2;
-    JournalFilm film;
-    JournalForce by_film;
-    wide size, couette, pen, pen_dot, N_0, N, N_mu;
-} RoundLands;
-
-// Film: direction n of V, eccentricity (a, b) along and across V, gap function q^2.
-INLINE void round_film(const Model *model, const LandMotion *land, const wide V[2], wide C, wide heated,
-                       RoundLands *lands)
-{
-    const Derived *d = model->d;
-    const wide e_2 = land->e_y * land->e_y + land->e_z * land->e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2);
-    const wide inv_C = 1.0 / C, cap = wide_min(inv_C, EPS_CAP * inv_e);
-    lands->e = e_2 * inv_e, lands->eps = lands->e * inv_C;
-    lands->u_y = land->e_y * inv_e, lands->u_z = land->e_z * inv_e;
-    lands->narrow = d->C_land * inv_C;
-    lands->q2 = land_film_gap(lands->eps, model->p->cage.g_0);
-    const wide eta = d->kappa * heated * (lands->narrow * lands->narrow * lands->narrow);
-    lands->film = journal_film(land->e_y, land->e_z, V[0], V[1], cap, lands->q2, eta);
-    lands->by_film = journal_force(&lands->film, V[0], V[1]);
-    lands->couette = d->couette * heated * (1.0 / wide_sqrt(lands->q2)) * lands->narrow;
-    lands->size =
-        wide_sqrt(lands->by_film.y * lands->by_film.y + lands->by_film.z * lands->by_film.z + 1e-30);
-}
-
-// Dry contact where the gap is smallest; in mixed lubrication asperities also carry their share of the film force.
-INLINE void round_contact(const Model *model, const LandMotion *land, wide C, RoundLands *lands)
-{
-    const Parameters *p = model->p;
-    const JournalForce *by_film = &lands->by_film;
-    lands->pen = lands->e - C;
-    lands->pen_dot = land->v_y * lands->u_y + land->v_z * lands->u_z;
-    lands->N_0 = hertz_load(wide_set(p->cage.K_land), lands->pen);
-    lands->N = hertz_damped(lands->N_0, wide_set(p->cage.lambda), lands->pen_dot);
-    lands->N_mu = lands->N;
-    if (p->scene.lubrication != LUBRICATION_MIXED) return;
-    const wide ln_Lambda = model->d->ln_land + wide_log(lands->q2 / (lands->narrow * (1.0 + lands->eps)));
-    lands->N_mu +=
-        traction_asperity_share(ln_Lambda) * wide_sqrt(by_film->y * by_film->y + by_film->z * by_film->z);
-}
-
-// The lands of HALVES rigid halves side by side, beginning with half `first`.  e, V: vectors (y, z).
+// The lands of HALVES rigid halves side by side, beginning with half `first`.  V: vector (y, z).
 INLINE void round_lands(const Model *model, Work *w, int first, const Rotor *outer, const LandMotion *land,
                         const wide V[2], wide C, wide heated, LandForce force[HALVES])
 {
     const Parameters *p = model->p;
-    RoundLands lands;
-    round_film(model, land, V, C, heated, &lands);
-    round_contact(model, land, C, &lands);
+    const Derived *d = model->d;
+
+    // film
+    const wide e_2 = land->e_y * land->e_y + land->e_z * land->e_z + 1e-30, inv_e = 1.0 / wide_sqrt(e_2);
+    const wide inv_C = 1.0 / C, e = e_2 * inv_e, eps = e * inv_C, narrow = d->C_land * inv_C;
+    const wide u_y = land->e_y * inv_e, u_z = land->e_z * inv_e;
+    const wide q2 = land_film_gap(eps, p->cage.g_0), cap = wide_min(inv_C, EPS_CAP * inv_e);
+    const JournalFilm film = journal_film(land->e_y, land->e_z, V[0], V[1], cap, q2,
+                                          d->kappa * heated * (narrow * narrow * narrow));
+    const wide size_2 = film.F_y * film.F_y + film.F_z * film.F_z;
+    const wide couette = d->couette * heated * (1.0 / wide_sqrt(q2)) * narrow;  // torque / speed
+
+    // dry contact where the gap is smallest, which stores a part of the power; N_mu: all that rubs, in mixed lubrication asperities too,
+    // with their share of the film's force
+    const wide K = wide_set(p->cage.K_land), pen = e - C, pen_dot = land->v_y * u_y + land->v_z * u_z;
+    const wide N_0 = hertz_load(K, pen), N = hertz_damped(N_0, wide_set(p->cage.lambda), pen_dot);
+    wide N_mu = N;
+    if (p->scene.lubrication == LUBRICATION_MIXED)
+        N_mu +=
+            traction_asperity_share(d->ln_land + wide_log(q2 / (narrow * (1.0 + eps)))) * wide_sqrt(size_2);
+    const wide stored = hertz_energy(K, pen), stored_rate = N_0 * pen_dot;
 
     // friction along t = e_x x u
-    const wide u_y = lands.u_y, u_z = lands.u_z, R = wide_set(0.5 * p->cage.D_o);
-    const wide slip = land->v_z * u_y - land->v_y * u_z + land->omega * R;
-    const wide g = p->cage.mu_land * lands.N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
+    const wide R = wide_set(0.5 * p->cage.D_o), slip = land->v_z * u_y - land->v_y * u_z + land->omega * R;
+    const wide g = p->cage.mu_land * N_mu / wide_sqrt(slip * slip + p->cage.v_c * p->cage.v_c);
     const wide F_t = -g * slip;
-    const wide F_y = lands.by_film.y + (-lands.N * u_y - F_t * u_z);
-    const wide F_z = lands.by_film.z + (-lands.N * u_z + F_t * u_y);
-    const wide M_x = R * F_t - lands.couette * land->omega +
-                     0.5 * (lands.by_film.y * land->e_z - lands.by_film.z * land->e_y);
+    const wide F_y = film.F_y + (-N * u_y - F_t * u_z), F_z = film.F_z + (-N * u_z + F_t * u_y);
+    const wide M_x = R * F_t - couette * land->omega + 0.5 * (film.F_y * land->e_z - film.F_z * land->e_y);
 
-    // the dry contact stores a part of the power
-    const wide stored = hertz_energy(wide_set(p->cage.K_land), lands.pen),
-               stored_rate = lands.N_0 * lands.pen_dot;
-
-    const JournalRates rates = journal_rates(&lands.film);
+    const wide size = wide_sqrt(size_2 + 1e-30), spin = couette + g * R * R;
     for (int i = 0; i < HALVES; i++) {
         const int h = first + i;
-        const Rotor *half = &w->half[h];
-        const scalar R_h = wide_lane(R, i);
         force[i] = (LandForce){{wide_lane(F_y, i), wide_lane(F_z, i)},
                                wide_lane(M_x, i),
-                               wide_lane(lands.N_0, i),
-                               wide_lane(lands.couette, i) + wide_lane(g, i) * R_h * R_h,
+                               wide_lane(N_0, i),
+                               wide_lane(spin, i),
                                wide_lane(stored, i),
                                wide_lane(stored_rate, i)};
         w->film[h] =
-            (LandFilm){wide_lane(rates.yy, i), wide_lane(rates.yz, i), wide_lane(rates.zz, i), force[i].spin};
-        RoundPressure pressure = {
-            .q2 = wide_lane(lands.q2, i), .force = wide_lane(lands.size, i), .dry = wide_lane(lands.N, i)};
-        land_turn(outer, half, wide_lane(land->e_y, i), wide_lane(land->e_z, i), pressure.e);
-        land_turn(outer, half, wide_lane(V[0], i), wide_lane(V[1], i), pressure.V);
-        land_load(model->d, &pressure, &w->land[h]);
+            (LandFilm){wide_lane(film.yy, i), wide_lane(film.yz, i), wide_lane(film.zz, i), force[i].spin};
+        scalar e_h[2], V_h[2];
+        land_turn(outer, &w->half[h], wide_lane(land->e_y, i), wide_lane(land->e_z, i), e_h);
+        land_turn(outer, &w->half[h], wide_lane(V[0], i), wide_lane(V[1], i), V_h);
+        land_load(d, e_h, V_h, wide_lane(q2, i), wide_lane(size, i), wide_lane(N, i), &w->land[h]);
     }
 }
 

@@ -1,7 +1,6 @@
 // Oil film between the lands of the cage halves and the outer ring.  Equations in land_film.c.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Part of the clearance at rest below which a half's growth does not narrow it: a half that would fill its clearance is

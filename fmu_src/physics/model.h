@@ -99,12 +99,6 @@ typedef struct {
 // halves, in the order of their velocities in the state.
 enum { RELATIVE_MOTIONS = 6, CAGE_MOTIONS = 2 * RELATIVE_MOTIONS, BALL_MOTIONS = 3 * Z };
 
-// Inverse inertia of these motions as the joints feel it [1/kg, 1/(kg.m2)]; share of a relative y/z displacement that moves
-// the centres of mass; common tilt [rad] by unit of y or z at the joints (cage_substeps.c).
-typedef struct {
-    double inverse[RELATIVE_MOTIONS], part, tilt;
-} RelativeInertia;
-
 enum { SQUEEZE_NODES = 9 };  // of the polynomials of a pocket's film
 
 // Films of oil in the pockets (pocket_squeeze.h).
@@ -191,7 +185,9 @@ typedef struct {
     double c_joint;              // axial damping of one closed joint [N.s/m]
     double centrifugal[ROWS];    // rows of bonded joints (half_path.h) under that load, per (rad/s)^2
 
-    RelativeInertia relative;  // of the halves, for the substeps of elastic ones
+    // relative motions of elastic halves (cage_substeps.c): inverse inertia as the joints feel it [1/kg, 1/(kg.m2)]; share of a relative
+    // y/z displacement that moves the centres of mass; common tilt [rad] by unit of y or z at the joints
+    double relative_inverse[RELATIVE_MOTIONS], relative_part, relative_tilt;
 
     // whole state
     double scale[SCALE_COUNT];  // error that tolerance 1 allows, by class of state

@@ -57,10 +57,12 @@ static inline scalar shaft_power(const Work *w)
     return -dot3(w->ring.F, w->ring.v) - dot3(w->ring.M, w->ring.Omega);
 }
 
-// Power dissipated in contacts, films, drag and by damping; the joints' friction is beside it (cage_losses).
+// Power dissipated in contacts, films, drag and by damping; the joints' friction is beside it: the work of
+// a step's slip (cage_end).
 static inline scalar power_loss(const Work *w)
 {
-    return ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated + cage_losses(w);
+    return ball_array_sum(w->dissipated) + w->cage_dissipated + w->ring_drag_dissipated +
+           (cage_vibrations_lose(w) + cage_joints_damp(w));
 }
 
 // Torque of the shaft about its axis.

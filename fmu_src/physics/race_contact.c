@@ -151,34 +151,34 @@ INLINE void surface_places(const Model *model, const Work *w, wide R_g, const Ro
     }
 }
 
-// Contacts of all balls with a race; cosine, sine, rate: of their spalls' angles from the contact, two: whether there are
-// any; stored: elastic energies, P: moments on the balls by their spalls.
-INLINE void surface_contacts(const Model *model, const Work *w, const Race *race,
-                             const SurfacePlace at[PACKETS], bool two, const wide cosine[PACKETS],
-                             const wide sine[PACKETS], const wide rate[PACKETS], Contact c[PACKETS],
-                             wide stored[PACKETS], wide P[PACKETS])
+// Contacts of all balls with the inner (0) or outer race (1); roll: turns of balls with spalls, else NULL; stored: elastic energies,
+// P: moments on the balls by their spalls.
+INLINE void surface_contacts(const Model *model, const Work *w, int side, const SurfacePlace at[PACKETS],
+                             const BallRoll *roll, Contact c[PACKETS], wide stored[PACKETS], wide P[PACKETS])
 {
+    const Race *race = side == 0 ? &model->d->inner : &model->d->outer;
     wide cos_phi[PACKETS], sin_phi[PACKETS], height[PACKETS], slope[PACKETS];
     for (int b = 0; b < PACKETS; b++) cos_phi[b] = at[b].cos_phi, sin_phi[b] = at[b].sin_phi;
     race_surface_waves(&race->surface, cos_phi, sin_phi, height, slope);
     for (int b = 0; b < PACKETS; b++) {
         const BallMotion ball = ball_motion(model, w, b * LANE_WIDTH);
         const wide none = wide_set(0.0);
-        SpallPlace in = {.f = none, .df = none, .f_ball = none, .df_ball = none, .two = two};
+        SpallPlace in = {.f = none, .df = none, .f_ball = none, .df_ball = none, .two = roll != NULL};
         in.race = race_spall(&race->surface);
         in.ball = (SpallLanes){none, none, none, none, none, none, none, none};
         if (race->surface.spalled) race_surface_drop(&race->surface, cos_phi[b], sin_phi[b], &in.f, &in.df);
-        if (two) {
+        if (roll) {
             in.ball = ball_spall(race, ball.R, b * LANE_WIDTH);
-            spall_drop(&in.ball, cosine[b], sine[b], &in.f_ball, &in.df_ball);
-            in.rate = rate[b];
+            spall_drop(&in.ball, roll[b].cosine[side], roll[b].sine[side], &in.f_ball, &in.df_ball);
+            in.rate = roll[b].rate[side];
         }
         c[b] = surface_contact(model, race, &ball, &at[b], height[b], slope[b], &in, &stored[b], &P[b]);
     }
 }
 
-// Balls between races that are not perfect, or with spalls (two).
-INLINE void rough_balls(const Model *model, Work *w, scalar inner_R_g, bool mixed, bool sliced, bool two)
+// Balls between races that are not perfect, or with spalls.
+static __attribute__((noinline)) void race_contact_force_rough(const Model *model, Work *w, scalar inner_R_g,
+                                                               bool mixed, bool sliced)
 {
     const RingLoad *given = model->ring_load;
     const Derived *d = model->d;
@@ -190,42 +190,28 @@ INLINE void rough_balls(const Model *model, Work *w, scalar inner_R_g, bool mixe
     surface_places(model, w, wide_set(d->outer.R_g), &outer, at_e);
 
     // turns of the balls
-    BallRoll roll[PACKETS];
-    wide cos_i[PACKETS], sin_i[PACKETS], rate_i[PACKETS], cos_e[PACKETS], sin_e[PACKETS], rate_e[PACKETS];
-    for (int b = 0; two && b < PACKETS; b++) {
+    BallRoll rolls[PACKETS];
+    const BallRoll *const roll = d->spalled ? rolls : NULL;
+    for (int b = 0; roll && b < PACKETS; b++) {
         const int j = b * LANE_WIDTH;
         const BallMotion ball = ball_motion(model, w, j);
-        roll[b] = ball_roll(&ball, &at_i[b], &at_e[b], ball_angles(model, j),
-                            given->inner_angle - given->outer_angle);
-        cos_i[b] = roll[b].cos_i, sin_i[b] = roll[b].sin_i, rate_i[b] = roll[b].rate_i;
-        cos_e[b] = roll[b].cos_e, sin_e[b] = roll[b].sin_e, rate_e[b] = roll[b].rate_e;
-        wide_store(&w->turn_rate[j], rate_e[b]);
+        rolls[b] = ball_roll(&ball, &at_i[b], &at_e[b], ball_angles(model, j),
+                             given->inner_angle - given->outer_angle);
+        wide_store(&w->turn_rate[j], rolls[b].rate[1]);
     }
 
     Contact inner_contact[PACKETS], outer_contact[PACKETS];
     Tangential T_i[PACKETS], T_e[PACKETS];
     wide stored_i[PACKETS], stored_e[PACKETS], P_i[PACKETS], P_e[PACKETS];
-    surface_contacts(model, w, &d->inner, at_i, two, cos_i, sin_i, rate_i, inner_contact, stored_i, P_i);
-    surface_contacts(model, w, &d->outer, at_e, two, cos_e, sin_e, rate_e, outer_contact, stored_e, P_e);
+    surface_contacts(model, w, 0, at_i, roll, inner_contact, stored_i, P_i);
+    surface_contacts(model, w, 1, at_e, roll, outer_contact, stored_e, P_e);
     race_tractions(model, inner_contact, outer_contact, mixed, sliced, T_i, T_e);
     for (int b = 0; b < PACKETS; b++) {
-        if (two) add_ball_spalls(&roll[b], &at_i[b], &at_e[b], P_i[b], P_e[b], &T_i[b], &T_e[b]);
+        if (roll) add_ball_spalls(&roll[b], &at_i[b], &at_e[b], P_i[b], P_e[b], &T_i[b], &T_e[b]);
         wide_store(&w->race_stored[b * LANE_WIDTH], stored_i[b] + stored_e[b]);
         store_contacts(w, b * LANE_WIDTH, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
         store_forces(w, b * LANE_WIDTH, at_i[b].p, &inner_contact[b], &outer_contact[b], &T_i[b], &T_e[b]);
     }
-}
-
-static __attribute__((noinline)) void race_contact_force_rough(const Model *model, Work *w, scalar inner_R_g,
-                                                               bool mixed, bool sliced)
-{
-    rough_balls(model, w, inner_R_g, mixed, sliced, false);
-}
-
-static __attribute__((noinline)) void race_contact_force_spalled(const Model *model, Work *w,
-                                                                 scalar inner_R_g, bool mixed, bool sliced)
-{
-    rough_balls(model, w, inner_R_g, mixed, sliced, true);
 }
 
 void race_contact_force(const Model *model, Work *w)
@@ -234,9 +220,7 @@ void race_contact_force(const Model *model, Work *w)
     const bool sliced = model->p->scene.traction == TRACTION_SLICED;
     const scalar growth = ring_fit_growth(&model->d->fit, ring_fit_speed(model->ring_load));
     const scalar R_g = model->d->inner.R_g + growth;
-    if (model->d->spalled)
-        race_contact_force_spalled(model, w, R_g, mixed, sliced);
-    else if (model->d->rough)
+    if (model->d->rough)
         race_contact_force_rough(model, w, R_g, mixed, sliced);
     else if (outer_ring_moves(model->ring_load))
         race_contact_force_moving(model, w, R_g, mixed, sliced);

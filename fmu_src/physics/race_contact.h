@@ -1,7 +1,6 @@
 // Contact of the balls with both races.  Equations in race_contact.c.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Sets the forces, moments, stiff rates and contact results of all balls, and the wrench on the inner ring.

@@ -61,13 +61,9 @@ typedef struct {
     wide side, near, far, w, side_w;
 } Slice;
 
-// Sums over the slices of g x^n, g = |traction| / |slip|.  The traction is -g times the slip, and the slip a
+// Sums over the slices of g x^n, n < MOMENTS, g = |traction| / |slip|.  The traction is -g times the slip, and the slip a
 // polynomial in x: forces, moments and power follow from these sums.
 enum { MOMENTS = 5 };
-
-typedef struct {
-    wide of[MOMENTS];
-} SliceMoments;
 
 // Place x_0 = -s_1 k/(k^2 + b_1^2) where the slip s_1 + k x + b_1 x^2 changes its sign, within the ellipse.
 INLINE wide split_place(wide s_1, wide k, wide b_1)
@@ -76,65 +72,61 @@ INLINE wide split_place(wide s_1, wide k, wide b_1)
     return wide_max(wide_min(x_0, wide_set(1.0)), wide_set(-1.0));
 }
 
-// g x^m of n <= ABREAST packets of slices, slice[i] of contact c[i].
-INLINE void slice_tractions(const Parameters *p, int n, const SlicedContact *const c[], const Slice slice[],
-                            bool mixed, SliceMoments g[])
+// g x^m of n <= ABREAST packets of a contact's slices.
+INLINE void slice_tractions(const Parameters *p, int n, const SlicedContact *c, const Slice slice[],
+                            bool mixed, wide g[][MOMENTS])
 {
     wide x[ABREAST], slip_2[ABREAST], inv_slip[ABREAST], s[ABREAST], f_a[ABREAST], mu[ABREAST];
     for (int i = 0; i < n; i++) {
-        x[i] = wide_fma(c[i]->x_0, slice[i].near, slice[i].far);
-        const wide s_1 = wide_fma(x[i], wide_fma(x[i], c[i]->b_1, c[i]->k), c[i]->s_1);
-        const wide s_2 = wide_fma(x[i] * x[i], c[i]->b_2, c[i]->s_2);
+        x[i] = wide_fma(c->x_0, slice[i].near, slice[i].far);
+        const wide s_1 = wide_fma(x[i], wide_fma(x[i], c->b_1, c->k), c->s_1);
+        const wide s_2 = wide_fma(x[i] * x[i], c->b_2, c->s_2);
         slip_2[i] = wide_fma(s_1, s_1, wide_fma(s_2, s_2, wide_set(p->oil.v_0 * p->oil.v_0)));
     }
     wide_inv_sqrt(n, slip_2, inv_slip);
-    for (int i = 0; i < n; i++) s[i] = slip_2[i] * inv_slip[i] * c[i]->inv_U, f_a[i] = c[i]->f_a;
+    for (int i = 0; i < n; i++) s[i] = slip_2[i] * inv_slip[i] * c->inv_U, f_a[i] = c->f_a;
     traction_mu(p, n, s, f_a, mixed, mu);
     for (int i = 0; i < n; i++) {
-        const wide half = 1.0 - slice[i].side * c[i]->x_0, load = 0.75 * c[i]->Q * (half * half);
-        g[i].of[0] = wide_fma(slice[i].side_w, x[i], slice[i].w) * load * (mu[i] * inv_slip[i]);
-        for (int m = 1; m < MOMENTS; m++) g[i].of[m] = g[i].of[m - 1] * x[i];
+        const wide half = 1.0 - slice[i].side * c->x_0, load = 0.75 * c->Q * (half * half);
+        g[i][0] = wide_fma(slice[i].side_w, x[i], slice[i].w) * load * (mu[i] * inv_slip[i]);
+        for (int m = 1; m < MOMENTS; m++) g[i][m] = g[i][m - 1] * x[i];
     }
 }
 
-INLINE wide sum_of_three(const SliceMoments g[THIRDS], int m)
+INLINE wide sum_of_three(wide g[][MOMENTS], int m)
 {
-    return g[0].of[m] + g[1].of[m] + g[2].of[m];
+    return g[0][m] + g[1][m] + g[2][m];
 }
 
 // Sums slice by slice, all slices of one side together.
-INLINE SliceMoments slice_by_slice(const Parameters *p, const SlicedContact *c, bool mixed)
+INLINE void slice_by_slice(const Parameters *p, const SlicedContact *c, bool mixed, wide out[MOMENTS])
 {
-    SliceMoments part[SIDES], out;
+    wide part[SIDES][MOMENTS];
     for (int side = 0; side < SIDES; side++) {
         const wide sign = wide_set(side == 0 ? -1.0 : 1.0);
-        const SlicedContact *same[ONE_SIDE];
         Slice slice[ONE_SIDE];
-        SliceMoments g[ONE_SIDE];
+        wide g[ONE_SIDE][MOMENTS];
         for (int i = 0; i < ONE_SIDE; i++) {
             const int third = i % THIRDS, three = THREES / SIDES * side + i / THIRDS;
-            same[i] = c;
             slice[i] = (Slice){sign, wide_set(SLICE.near[third][three]), wide_set(SLICE.far[third][three]),
                                wide_set(SLICE.w[third][three]), wide_set(SLICE.side_w[third][three])};
         }
-        slice_tractions(p, ONE_SIDE, same, slice, mixed, g);
+        slice_tractions(p, ONE_SIDE, c, slice, mixed, g);
         for (int m = 0; m < MOMENTS; m++)
-            part[side].of[m] = sum_of_three(&g[0], m) + sum_of_three(&g[THIRDS], m);
+            part[side][m] = sum_of_three(&g[0], m) + sum_of_three(&g[THIRDS], m);
     }
-    for (int m = 0; m < MOMENTS; m++) out.of[m] = part[0].of[m] + part[1].of[m];
-    return out;
+    for (int m = 0; m < MOMENTS; m++) out[m] = part[0][m] + part[1][m];
 }
 
 // The same sums, in the same order, where a quarter of a packet with four lanes, or half of one with eight,
 // has the slices of one contact: THIRDS packets for each lane with a contact among the first four.
-INLINE SliceMoments contact_by_contact(const Parameters *p, const SlicedContact *all, int lanes, int balls,
-                                       bool mixed)
+INLINE void contact_by_contact(const Parameters *p, const SlicedContact *all, int lanes, int balls,
+                               bool mixed, wide out[MOMENTS])
 {
     static const double LANE[ROW] = {0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0};
     static const double SIDE[ROW] = {-1.0, -1.0, 1.0, 1.0, -1.0, -1.0, 1.0, 1.0};
 
-    SliceMoments out;
-    for (int m = 0; m < MOMENTS; m++) out.of[m] = wide_set(0.0);
+    for (int m = 0; m < MOMENTS; m++) out[m] = wide_set(0.0);
     for (int k = 0; k < lanes; k++) {
         const int lane = k % balls + k / balls * (LANE_WIDTH / 2);
         const SlicedContact c = {.s_1 = wide_fill(all->s_1, lane),
@@ -146,20 +138,16 @@ INLINE SliceMoments contact_by_contact(const Parameters *p, const SlicedContact 
                                  .f_a = wide_fill(all->f_a, lane),
                                  .x_0 = wide_fill(all->x_0, lane),
                                  .Q = wide_fill(all->Q, lane)};
-        const SlicedContact *same[THIRDS];
         Slice slice[THIRDS];
-        SliceMoments g[THIRDS];
-        for (int i = 0; i < THIRDS; i++) {
-            same[i] = &c;
+        wide g[THIRDS][MOMENTS];
+        for (int i = 0; i < THIRDS; i++)
             slice[i] = (Slice){wide_load(SIDE), wide_load(SLICE.near[i]), wide_load(SLICE.far[i]),
                                wide_load(SLICE.w[i]), wide_load(SLICE.side_w[i])};
-        }
-        slice_tractions(p, THIRDS, same, slice, mixed, g);
+        slice_tractions(p, THIRDS, &c, slice, mixed, g);
         const bits here = wide_above(0.5 - wide_abs(wide_load(LANE) - (double)lane), 0.0);
         for (int m = 0; m < MOMENTS; m++)
-            out.of[m] = wide_select(here, wide_sum_fours(sum_of_three(g, m)), out.of[m]);
+            out[m] = wide_select(here, wide_sum_fours(sum_of_three(g, m)), out[m]);
     }
-    return out;
 }
 
 // Traction over the long axis of the ellipse, of a packet's contacts: `balls` at one race or at each of both.
@@ -181,17 +169,21 @@ INLINE Tangential sliced_traction(const Parameters *p, const RaceConstants *race
                                   .Q = c->Q};
     // lanes with contacts among the first four: with fewer than four, contact by contact takes fewer packets
     const int lanes = LANE_WIDTH == 8 ? balls : LANE_WIDTH == 4 ? contacts : THREES;
-    const SliceMoments g = lanes < THREES ? contact_by_contact(p, &common, lanes, balls, mixed)
-                                          : slice_by_slice(p, &common, mixed);
+    wide g[MOMENTS];
+    if (lanes < THREES)
+        contact_by_contact(p, &common, lanes, balls, mixed, g);
+    else
+        slice_by_slice(p, &common, mixed, g);
+
     // sums of -F_1 x^n and -F_2 x^n, F = -g slip
     wide F_1[3], F_2[3];
     for (int n = 0; n < 3; n++) {
-        F_1[n] = wide_fma(b_1, g.of[n + 2], wide_fma(k, g.of[n + 1], s_1 * g.of[n]));
-        F_2[n] = wide_fma(b_2, g.of[n + 2], s_2 * g.of[n]);
+        F_1[n] = wide_fma(b_1, g[n + 2], wide_fma(k, g[n + 1], s_1 * g[n]));
+        F_2[n] = wide_fma(b_2, g[n + 2], s_2 * g[n]);
     }
     // a slice's lever about the ball's centre: (R - sagitta x^2) n + a x t_2
     Tangential out;
-    out.g = g.of[0], out.g_spin = a * a * g.of[2];
+    out.g = g[0], out.g_spin = a * a * g[2];
     out.dissipated =
         wide_fma(s_1, F_1[0], k * F_1[1]) + wide_fma(b_1, F_1[2], wide_fma(s_2, F_2[0], b_2 * F_2[2]));
     const wide spin_M = a * F_1[1];

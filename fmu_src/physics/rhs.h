@@ -1,7 +1,6 @@
 // The right-hand side: y -> dy/dt.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 typedef void Rhs(const Model *model, double t, const scalar *y, scalar *y_dot, Work *w);

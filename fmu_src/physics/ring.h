@@ -1,7 +1,6 @@
 // The inner ring: equations of motion.  Equations in ring.c.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Pose and velocity of the ring from y, or as its motion is prescribed.

@@ -34,7 +34,6 @@
 #include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
 #include "cage/two_half/half_path.h"
-#include "numbers/lanes.h"
 
 // Loads of all joints and of their rivets [N, N.m], on the +x half in the frames (x, r, t) of the rivets.
 typedef struct {

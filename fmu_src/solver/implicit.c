@@ -407,18 +407,6 @@ static void solve_coupled_ring(const Model *model, const Work *w, const double s
         }
 }
 
-// The ring's stiff rates are those of its support's dampers.  A prescribed tilt follows its filter, whose
-// acceleration is not damped further.
-static void stiff_part_of_ring(const Model *model, double gamma, double *v)
-{
-    const Parameters *p = model->p;
-    const double support = gamma * p->ring.c / p->ring.m;
-    const double tilt = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? gamma * p->ring.c_tilt / p->ring.J_t : 0.0;
-    for (int i = 0; i < 3; i++) v[Y_RING_V_X + i] *= support / (1.0 + support);
-    v[Y_RING_BETA_DOT] *= tilt / (1.0 + tilt);
-    v[Y_RING_GAMMA_DOT] *= tilt / (1.0 + tilt);
-}
-
 // ---- all --------------------------------------------------------------------------------------------------
 
 void implicit_solve(const Model *model, const Work *w, double gamma, double *v)
@@ -480,8 +468,15 @@ void implicit_ring_wrench(const Model *model, double gamma, const double *delta,
     }
 }
 
+// The ring's stiff rates are those of its support's dampers.  A prescribed tilt follows its filter, whose
+// acceleration is not damped further.
 void implicit_stiff_part(const Model *model, const Work *w, double gamma, double *v)
 {
+    const Parameters *p = model->p;
+    const double support = gamma * p->ring.c / p->ring.m;
+    const double tilt = p->ring.tilt_mode == TILT_MODE_SUPPORTED ? gamma * p->ring.c_tilt / p->ring.J_t : 0.0;
     stiff_part_of_balls(model, w, gamma, v);
-    stiff_part_of_ring(model, gamma, v);
+    for (int i = 0; i < 3; i++) v[Y_RING_V_X + i] *= support / (1.0 + support);
+    v[Y_RING_BETA_DOT] *= tilt / (1.0 + tilt);
+    v[Y_RING_GAMMA_DOT] *= tilt / (1.0 + tilt);
 }

@@ -3,7 +3,6 @@
 // with them.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // v = (1 + gamma A + gamma^2 K)^-1 v of balls and ring, A and K at the evaluation w.  v has the rows of the state vector;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "cage/cage.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // A state and the method's memory of the way there.

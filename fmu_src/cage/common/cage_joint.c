@@ -87,10 +87,17 @@ typedef struct {
 // Part of the square of a capacity up to which friction sticks, so that mapping changes nothing: less than 1, for rounding.
 static const double STICKS = 1.0 - 1e-9;
 
-INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, const wide joint[2],
-                 const wide head[2])
+enum { JOINT, HEAD = 2, STATES = 4 };  // blocks of the friction states, of each y and z
+
+_Static_assert(Y_JOINT_HEAD_Y == Y_JOINT_PLATE_Y + HEAD * Z && Y_JOINT_HEAD_Z == Y_JOINT_PLATE_Y + 3 * Z,
+               "the friction states stand in a row");
+
+// z: friction states, padded; of the packet from joint j on.
+INLINE Held hold(const JointStiffness *k_in, wide C_plates, wide C_heads, ball_array z[STATES], int j)
 {
     Held on;
+    const wide joint[2] = {wide_load(&z[JOINT][j]), wide_load(&z[JOINT + 1][j])};
+    const wide head[2] = {wide_load(&z[HEAD][j]), wide_load(&z[HEAD + 1][j])};
     const double k = k_in->stick, k_h = k_in->head;
     const wide zero = wide_set(0.0), H_y = k_h * head[0], H_z = k_h * head[1];
     const wide X_y = k * joint[0] - H_y, X_z = k * joint[1] - H_z;
@@ -134,30 +141,12 @@ INLINE wide bearing_of(wide slip, wide gap, wide k_hole)
     return k_hole * wide_max(slip - gap, wide_set(0.0)) / slip;
 }
 
-enum { JOINT, HEAD = 2, STATES = 4 };  // blocks of the friction states, of each y and z
-
-_Static_assert(Y_JOINT_HEAD_Y == Y_JOINT_PLATE_Y + HEAD * Z && Y_JOINT_HEAD_Z == Y_JOINT_PLATE_Y + 3 * Z,
-               "the friction states stand in a row");
-
-// Friction states, padded: deflections of the joints and of their heads.
-typedef struct {
-    ball_array row[STATES];
-} FrictionStates;
-
-INLINE void load_friction(const scalar *rows, FrictionStates *z)
+INLINE void load_friction(const scalar *rows, ball_array z[STATES])
 {
     for (int i = 0; i < STATES; i++) {
-        for (int k = Z; k < LANES; k++) z->row[i][k] = 0.0;
-        memcpy(z->row[i], &rows[i * Z], Z * sizeof *rows);
+        for (int k = Z; k < LANES; k++) z[i][k] = 0.0;
+        memcpy(z[i], &rows[i * Z], Z * sizeof *rows);
     }
-}
-
-INLINE Held hold_packet(const JointStiffness *k_in, wide C_plates, wide C_heads, const FrictionStates *z,
-                        int k)
-{
-    const wide joint[2] = {wide_load(&z->row[JOINT][k]), wide_load(&z->row[JOINT + 1][k])};
-    const wide head[2] = {wide_load(&z->row[HEAD][k]), wide_load(&z->row[HEAD + 1][k])};
-    return hold(k_in, C_plates, C_heads, joint, head);
 }
 
 #ifndef DUAL
@@ -173,30 +162,29 @@ double cage_joint_slide(const Model *model, const JointStiffness *k_in, const do
                         const double *N_plate, double *y, JointStep *step)
 {
     const double mu = model->p->joint.mu, floor = model->p->joint.F_floor;
-    FrictionStates z, z_0;
-    ball_array lost;
-    load_friction(&y[Y_JOINT_PLATE_Y], &z);
-    load_friction(step->before, &z_0);
+    ball_array z[STATES], z_0[STATES], lost;
+    load_friction(&y[Y_JOINT_PLATE_Y], z);
+    load_friction(step->before, z_0);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide N = wide_load(&N_plate[k]), tension = wide_load(&T[k]);
-        const Held on = hold_packet(k_in, mu * N + floor, mu * tension + floor, &z, k);
+        const Held on = hold(k_in, mu * N + floor, mu * tension + floor, z, k);
 
         // slips of plates and heads, and the work of the mean forces over them
         wide plates[2], heads[2], work = wide_set(0.0);
         for (int i = 0; i < 2; i++) {
-            const wide head_0 = wide_load(&z_0.row[HEAD + i][k]), joint_0 = wide_load(&z_0.row[JOINT + i][k]);
-            plates[i] = wide_load(&z.row[JOINT + i][k]) - on.joint[i];
+            const wide head_0 = wide_load(&z_0[HEAD + i][k]), joint_0 = wide_load(&z_0[JOINT + i][k]);
+            plates[i] = wide_load(&z[JOINT + i][k]) - on.joint[i];
             heads[i] = plates[i] - (on.head[i] - head_0);
             work += 0.5 * (k_in->stick * (joint_0 + on.joint[i]) * plates[i] -
                            k_in->head * (head_0 + on.head[i]) * (on.head[i] - head_0));
-            wide_store(&z.row[JOINT + i][k], on.joint[i]);
-            wide_store(&z.row[HEAD + i][k], on.head[i]);
+            wide_store(&z[JOINT + i][k], on.joint[i]);
+            wide_store(&z[HEAD + i][k], on.head[i]);
         }
         wide_store(&lost[k], wide_max(work, wide_set(0.0)));
         wide_store(&step->rubbed[k], wide_load(&step->rubbed[k]) + N * wide_hypot(plates[0], plates[1]) +
                                          tension * wide_hypot(heads[0], heads[1]));
     }
-    for (int i = 0; i < STATES; i++) memcpy(&y[Y_JOINT_PLATE_Y + i * Z], z.row[i], Z * sizeof *y);
+    for (int i = 0; i < STATES; i++) memcpy(&y[Y_JOINT_PLATE_Y + i * Z], z[i], Z * sizeof *y);
     return ball_array_sum(lost);
 }
 
@@ -237,9 +225,8 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
 {
     const Parameters *p = model->p;
     const Derived *d = model->d;
-    FrictionStates z;
-    ball_array F_x, M_x, M_y, M_z;
-    load_friction(&y[Y_JOINT_PLATE_Y], &z);
+    ball_array z[STATES], F_x, M_x, M_y, M_z;
+    load_friction(&y[Y_JOINT_PLATE_Y], z);
     const wide zero = wide_set(0.0), floor = wide_set(p->joint.F_floor), mu = wide_set(p->joint.mu);
     const double k_h = k_in->head, part = k_in->stick / (k_in->stick + k_h);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
@@ -249,7 +236,7 @@ void cage_joint_force(const Model *model, const scalar *y, const JointStiffness 
         // friction; plates whose heads still stick slip with a part of the motion
         const wide C_plates = mu * wide_load(&at->N_plate[k]) + floor;
         const wide C_heads = mu * wide_load(&at->T[k]) + floor;
-        const Held on = hold_packet(k_in, C_plates, C_heads, &z, k);
+        const Held on = hold(k_in, C_plates, C_heads, z, k);
         const wide H_y = k_h * on.head[0], H_z = k_h * on.head[1];
         const wide by_heads = sliding_power(C_heads, H_y, H_z, v_y, v_z);
         const wide by_plates = sliding_power(C_plates, on.plates[0], on.plates[1], v_y, v_z);

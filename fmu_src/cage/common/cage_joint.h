@@ -1,7 +1,6 @@
 // The riveted joints between the cage halves: the part that both kinds of halves share.  Equations in cage_joint.c.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 

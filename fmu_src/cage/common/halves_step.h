@@ -4,7 +4,6 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/common/pocket_films.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Carried from an evaluation to the next step: -dF/dv of each land's film yy, yz, zz [N.s/m]; films in pockets.  Part of the saved

@@ -22,7 +22,6 @@
 #pragma once
 
 #include "numbers/elimination.h"
-#include "numbers/lanes.h"
 #include "numbers/octet.h"
 
 enum { AXIS_TAU, AXIS_Q, AXIS_PSI, LAW_AXES };

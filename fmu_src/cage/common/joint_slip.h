@@ -7,7 +7,6 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/common/joint_law.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Capacity of joints for transverse loads: friction of plates and heads [N], play [m]; stiffness of heads

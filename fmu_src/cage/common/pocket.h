@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cage/common/pocket_forces.h"
-#include "numbers/lanes.h"
 #include "physics/hertz.h"
 
 // Contacts of all pockets of two rigid or two elastic halves: add to the balls' forces, moments, rates and dissipation, set

@@ -2,7 +2,6 @@
 // bearing_model/cage/common/pocket_films.py.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // The films of both halves at an evaluation, D = 0 where there is none.  Part of the saved state: no member is aligned beyond a

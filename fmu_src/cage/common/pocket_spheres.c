@@ -269,7 +269,7 @@ static void take(ball_array q[3], int k, int side, const scalar u[3])
 // pockets alike cost little and move the walls most: the others are left out where they cannot close the gap.  Returns
 // the bits of the others; the approach where there are none.
 static int move_walls(const Model *model, const Work *w, int h, int j, int near, wide ahead,
-                      const RibbonAlike *by_alike, SphereGap *gap, SpherePlaces *at,
+                      ribbon_motions_alike by_alike, SphereGap *gap, SpherePlaces *at,
                       WallShape shape[LANE_WIDTH], wide *delta)
 {
     const int side = 2 * h - 1;
@@ -321,15 +321,14 @@ static void pressed_walls(const Model *model, const Work *w, int h, int j, int m
         if (!(mask >> lane & 1)) continue;
         const int k = j + lane;
         const scalar along[3] = {side * n[0][k], n[1][k], n[2][k]};
-        RibbonWall wall;
+        scalar u_dot[3], slope[3];  // slopes over chi, radius, front
         ribbon_wall(model->modes, side, k, &at->nodes, lane, &shape[lane], along, w->cage.elastic.q[h],
-                    w->cage.elastic.q_dot[h], &wall);
+                    w->cage.elastic.q_dot[h], u_dot, slope);
         for (int i = 0; i < 3; i++) {
-            walls->u_dot[i][k] = wall.u_dot[i];
-            walls->slope[i][k] =
-                wall.over_chi * at->chi_slope[i][lane] + wall.over_radius * at->radius_slope[i][lane];
+            walls->u_dot[i][k] = u_dot[i];
+            walls->slope[i][k] = slope[0] * at->chi_slope[i][lane] + slope[1] * at->radius_slope[i][lane];
         }
-        walls->slope[2][k] += wall.over_front * at->front_slope[lane];
+        walls->slope[2][k] += slope[2] * at->front_slope[lane];
     }
 }
 
@@ -432,8 +431,8 @@ void spheres_elastic(const Model *model, Work *w)
     squeeze_clear(model, w);
     for (int h = 0; h < 2; h++) {
         bool touched = false;
-        RibbonAlike alike;
-        ribbon_alike(model->modes, w->cage.elastic.q[h], &alike);
+        ribbon_motions_alike alike;
+        ribbon_alike(model->modes, w->cage.elastic.q[h], alike);
         for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
             SphereGap gap = sphere_gap(model->d, w, h, j);
             const wide slack = wide_load(&s->slack[j]);
@@ -446,7 +445,7 @@ void spheres_elastic(const Model *model, Work *w)
             int near = wide_mask(wide_above(contact.delta + (ahead + w->cage.elastic.reach[h]), 0.0)) |
                        sphere_wet(model->d, j, &gap, w->cage.elastic.reach[h]);
             if (near != 0)
-                near = move_walls(model, w, h, j, near, ahead, &alike, &gap, &at, shape, &contact.delta);
+                near = move_walls(model, w, h, j, near, ahead, alike, &gap, &at, shape, &contact.delta);
             const int wet = near & sphere_wet(model->d, j, &gap, 0.0);
             if (near != 0 && sphere_reached(s, slack, &gap, &contact.delta)) {
                 contact = sphere_approach(s, slack, c, &gap);

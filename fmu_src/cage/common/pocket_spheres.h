@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cage/common/pocket_forces.h"
-#include "numbers/lanes.h"
 
 // Constants of the pockets of a ribbon cage; d->R and d->R_c are known.
 void spheres_derive(const Parameters *p, double E_star, Derived *d);

@@ -1,7 +1,6 @@
 // How balls approach a half of the cage along given directions, both as rigid bodies.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Rates and accelerations of the balls of a packet against half h along given directions, both as rigid bodies.

@@ -3,7 +3,6 @@
 
 #include "cage/common/cage_joint.h"
 #include "cage/elastic/elastic_half.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Coordinates of both halves from y, and the elastic part of the pads' motions against each other.

@@ -55,12 +55,13 @@ static const double ROUNDING = 1e-9;         // part of a substep by which the l
 static void to_halves(const Model *model, const Rotor *h0, double h, const double relative[RELATIVE_MOTIONS],
                       int first, double *y)
 {
-    const RelativeInertia *inertia = &model->d->relative;
-    const double *b_y = h0->b_y, *b_z = h0->b_z, e = model->d->com_e;
+    const Derived *d = model->d;
+    const double *b_y = h0->b_y, *b_z = h0->b_z, e = d->com_e;
     const double along = relative[MOTION_X] - e * relative[MOTION_ABOUT_Z],
                  across = relative[MOTION_ACROSS_Z] + e * relative[MOTION_SPIN];
-    const double across_y = inertia->part * relative[MOTION_ACROSS_Y], across_z = inertia->part * across;
-    const double about_y = inertia->tilt * across, about_z = -inertia->tilt * relative[MOTION_ACROSS_Y];
+    const double across_y = d->relative_part * relative[MOTION_ACROSS_Y],
+                 across_z = d->relative_part * across;
+    const double about_y = d->relative_tilt * across, about_z = -d->relative_tilt * relative[MOTION_ACROSS_Y];
     const double change[6] = {along,  // x, y, z, beta, gamma, s
                               b_y[1] * across_y + b_z[1] * across_z,
                               b_y[2] * across_y + b_z[2] * across_z,
@@ -126,7 +127,7 @@ static void fast_accelerations(const Model *model, const double *y, const Elasti
     for (int i = 0; i < RELATIVE_MOTIONS; i++) sum[i] = ball_array_sum(force[i]);
     sum[MOTION_ABOUT_Z] += d->com_e * sum[MOTION_X];
     sum[MOTION_SPIN] -= d->com_e * sum[MOTION_ACROSS_Z];
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative.inverse[i] * sum[i];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rigid[i] = d->relative_inverse[i] * sum[i];
     rigid[MOTION_X] += d->com_e * rigid[MOTION_ABOUT_Z];
     rigid[MOTION_ACROSS_Z] -= d->com_e * rigid[MOTION_SPIN];
 }
@@ -233,30 +234,17 @@ static void move_joints(const Model *model, double h, const JointVelocities *v,
     }
 }
 
-// The modes' damping over half a substep: 1/(1 + d/2 c) before its middle, 1 - d/2 c after it.
-typedef struct {
-    double before[N_MODES], after[N_MODES];
-} HalfDamping;
-
-static void half_damping(const ElasticHalf *half, double h, HalfDamping *damping)
-{
-    for (int i = 0; i < N_MODES; i++) {
-        const double damped = 0.5 * h * half->damping[i];
-        damping->before[i] = 1.0 / (1.0 + damped);
-        damping->after[i] = 1.0 - damped;
-    }
-}
-
-// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, after the damping, to v.
-static void move_modes(const HalfDamping *damping, double h, const double *fast, const double *slow,
+// Moves the modes by the first half of a substep and the drift: from velocities v to v_m and, after the damping, to v.  damping: over half
+// a substep, before its middle and after it.
+static void move_modes(double damping[2][N_MODES], double h, const double *fast, const double *slow,
                        double *q, double *v, double *v_m)
 {
     for (int first = 0; first < 2 * N_MODES; first += N_MODES)
         for (int i = 0; i < N_MODES; i++) {
             const int k = first + i;
-            v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) * damping->before[i];
+            v_m[k] = (v[k] + 0.5 * h * (fast[k] + slow[k])) * damping[0][i];
             q[k] += h * v_m[k];
-            v[k] = v_m[k] * damping->after[i];
+            v[k] = v_m[k] * damping[1][i];
         }
 }
 
@@ -307,7 +295,7 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     ball_array P;
     const double gyro = model->d->J_p / model->d->J_t * 0.5 * (w->half[0].s + w->half[1].s);
     WallLoads loads;
-    HalfDamping damping;
+    double damping[2][N_MODES];
 
     // the joints at the step's start
     ElasticJoints joints;
@@ -324,7 +312,10 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     cage_elastic_preload(model, fast->omega_2, P);
     rigid_velocities(model, w, &middle);
     between_halves(model, &w->half[0], &f[Y_CAGE_V_X], slow);
-    half_damping(half, sub, &damping);
+    for (int i = 0; i < N_MODES; i++) {
+        const double damped = 0.5 * sub * half->damping[i];
+        damping[0][i] = 1.0 / (1.0 + damped), damping[1][i] = 1.0 - damped;
+    }
     wall_loads_find(model, h, fast, f, state, y, w, &loads);
     memcpy(foreseen->modes, &f[Y_MODE_S_DOT], sizeof modes);
     if (films) rim_films_first(model, w, sub, f, v, films);
@@ -334,8 +325,8 @@ void cage_substeps_advance(const Model *model, double h, const FastState *fast, 
     for (int step = 1; step <= steps; step++) {
         // first half of the accelerations, drift
         double relative[RELATIVE_MOTIONS];
-        if (films) rim_films_kick(model, v, films);
-        move_modes(&damping, sub, modes, foreseen->modes, q, v, v_m);
+        if (films) rim_push(model, 0.5 * sub, films->now, v);  // of the substep before
+        move_modes(damping, sub, modes, foreseen->modes, q, v, v_m);
         for (int i = 0; i < RELATIVE_MOTIONS; i++) speed[i] += 0.5 * sub * rigid[i];
         if (loads.count + pockets->count > 0) {
             for (int i = 0; i < CAGE_MOTIONS; i++) {

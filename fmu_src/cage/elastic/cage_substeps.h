@@ -5,7 +5,6 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/pocket_films.h"
 #include "cage/elastic/rim_films.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part

@@ -358,15 +358,15 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     take_residual(&table->law, half);
     if (ribbon) take_alike(half);
     find_reach(p, d, ribbon, half);
-    half->of.body = body_of(p, d);
-    half->of.k_hole = -1.0;
+    half->of_body = body_of(p, d);
+    half->of_k_hole = -1.0;
 }
 
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfModes *table = &rivet_table.modes;
     const ElasticBody body = body_of(p, d);
-    if (memcmp(&half->of.body, &body, sizeof body) != 0) derive_body(p, d, half);
+    if (memcmp(&half->of_body, &body, sizeof body) != 0) derive_body(p, d, half);
     take_forces(p, half);
 
     // mean over r and t, of both halves
@@ -375,9 +375,9 @@ void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *hal
     double k_hole = 0.0;
     for (int k = 0; k < LANES; k++) half->k_hole[k] = d->k_hole[k] / (1.0 + shear * d->k_hole[k]);
     for (int k = 0; k < Z; k++) k_hole = fmax(k_hole, half->k_hole[k]);
-    if (half->of.k_hole == k_hole) return;
+    if (half->of_k_hole == k_hole) return;
     half->substep = longest_substep(p, d, half);
     half->longest_step = (d->spheres.on ? LONGEST_RIBBON : LONGEST) * half->substep;
     half->weak_film = WEAK_FILM / (half->longest_step * half->wall_mobility);
-    half->of.k_hole = k_hole;
+    half->of_k_hole = k_hole;
 }

@@ -22,7 +22,6 @@
 
 #include "cage/common/joint_law.h"
 #include "cage/elastic/half_modes.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 enum { MODES = N_MODES };
@@ -85,10 +84,8 @@ struct ElasticHalf {
     double substep, longest_step;  // of the default method, at most [s]
 
     // from which all this was derived: the body, the largest stiffness of the holes
-    struct {
-        ElasticBody body;
-        double k_hole;
-    } of;
+    ElasticBody of_body;
+    double of_k_hole;
 
     // the joints' law over L_K = L + K delta, which gives L; the fourth number is U, whose slope is delta
     const JointLaw *law;
@@ -152,29 +149,23 @@ typedef struct {
 // The nodes around the angles chi at the radii, of the part `front`.
 void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide front, RibbonNodes *nodes);
 
-// Motions at all nodes, radius by radius, value and slope, (x, r, t), by those coordinates q that move all pockets alike.
-typedef struct {
-    scalar row[WALL_RADII * WALL_NODES][2][4];
-} RibbonAlike;
+// Motions at all nodes, radius by radius, value and slope, (x, r, t) and 0, by those coordinates q that move all pockets alike.
+typedef scalar ribbon_motions_alike[WALL_RADII * WALL_NODES][2][4];
 
-void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike);
+void ribbon_alike(const ElasticHalf *half, const scalar *q, ribbon_motions_alike alike);
 
 // Motion (x, r, t) by these coordinates at the place of a lane.
 void ribbon_wall_alike(const ElasticHalf *half, int side, const RibbonNodes *nodes, int lane,
-                       const RibbonAlike *alike, scalar u[3]);
+                       ribbon_motions_alike alike, scalar u[3]);
 
 // Motion there by all coordinates q, in pocket j; shapes for ribbon_wall and elastic_wall_force.
 void ribbon_wall_moved(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                        const scalar *q, scalar u[3], WallShape *shape);
 
 // Velocity there, slopes of the motion along n (x, r, t) over chi, radius and front.
-typedef struct {
-    scalar u_dot[3], over_chi, over_radius, over_front;
-} RibbonWall;
-
 void ribbon_wall(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
-                 RibbonWall *wall);
+                 scalar u_dot[3], scalar slope[3]);
 
 // Motion along n (x, r, t) by each mode there, and the same bits by the shapes of ribbon_wall_moved.
 void ribbon_wall_shape(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,

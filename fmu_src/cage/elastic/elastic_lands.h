@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of their rivets.

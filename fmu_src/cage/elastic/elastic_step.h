@@ -4,7 +4,6 @@
 #include "cage/common/halves_step.h"
 #include "cage/elastic/cage_substeps.h"
 #include "cage/elastic/rim_films.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 
 // Carried from an evaluation to the next step.  Part of the saved state: no member is aligned beyond a double, so that nothing

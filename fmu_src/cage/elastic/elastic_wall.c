@@ -46,117 +46,78 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wid
     }
 }
 
-// Signs of the motions (x, r, t) by the real parts a' on that side of the pocket and of the split; those by the imaginary parts b'
-// have them times `by_b`.
-typedef struct {
-    double of[3], by_b;
-} WallSigns;
-
-INLINE WallSigns wall_signs(bool back, int side)
+// The coordinates a' and b' in pocket j of the coordinates q from m on: those of a pair turned by nu.
+INLINE void wall_turned(const ElasticHalf *half, int j, int m, const scalar *q, wide to[2])
 {
-    const double mirrored = back ? -1.0 : 1.0;
-    return (WallSigns){{side, 1.0, mirrored}, mirrored};
+    const double (*turn)[ENTRIES] = half->turn[j];
+    const wide a = wide_load(&q[m]), b = wide_load(&q[half->count[0] + m]), sin_nu = wide_load(&turn[2][m]);
+    to[0] = wide_fma(wide_load(&turn[0][m]), a, sin_nu * b);
+    to[1] = wide_fma(wide_load(&turn[1][m]), b, -sin_nu * a);
 }
 
-// The coordinates a' and b' in a pocket of the coordinates q, and back for forces: those of a pair turned by nu.
-typedef struct {
-    const double *cos_a, *cos_b, *sin_nu;
-    int b;  // where the coordinates b begin
-} Turn;
-
-INLINE Turn turn_of(const ElasticHalf *half, int j)
+// And back, for forces by a' and b'.
+INLINE void wall_turned_back(const ElasticHalf *half, int j, int m, const wide by[2], wide to[2])
 {
-    return (Turn){half->turn[j][0], half->turn[j][1], half->turn[j][2], half->count[0]};
+    const double (*turn)[ENTRIES] = half->turn[j];
+    const wide sin_nu = wide_load(&turn[2][m]);
+    to[0] = wide_fma(wide_load(&turn[0][m]), by[0], -sin_nu * by[1]);
+    to[1] = wide_fma(wide_load(&turn[1][m]), by[1], sin_nu * by[0]);
 }
 
-INLINE wide turned_a(const Turn *turn, int m, const scalar *q)
+// On the side t < 0 of a pocket the motions along t by the real parts a' have the other sign, and all motions by the imaginary parts b'.
+INLINE double wall_sign(bool back)
 {
-    return wide_fma(wide_load(&turn->cos_a[m]), wide_load(&q[m]),
-                    wide_load(&turn->sin_nu[m]) * wide_load(&q[turn->b + m]));
-}
-
-INLINE wide turned_b(const Turn *turn, int m, const scalar *q)
-{
-    return wide_fma(wide_load(&turn->cos_b[m]), wide_load(&q[turn->b + m]),
-                    -wide_load(&turn->sin_nu[m]) * wide_load(&q[m]));
-}
-
-INLINE wide back_to_a(const Turn *turn, int m, wide a, wide b)
-{
-    return wide_fma(wide_load(&turn->cos_a[m]), a, -wide_load(&turn->sin_nu[m]) * b);
-}
-
-INLINE wide back_to_b(const Turn *turn, int m, wide a, wide b)
-{
-    return wide_fma(wide_load(&turn->cos_b[m]), b, wide_load(&turn->sin_nu[m]) * a);
-}
-
-// Motions of a wall along the contact's normal by a few a' or b' side by side; by b' without their sign.
-typedef struct {
-    const double (*from)[3][2][ENTRIES];
-    wide weight[2][4];  // [x, t][term]
-    double by_b;
-} NormalMotion;
-
-INLINE NormalMotion normal_motion(const ElasticHalf *half, int side, int j, const WallPlaces *at)
-{
-    const WallSigns sign = wall_signs(at->back[j], side);
-    NormalMotion n = {half->wall[at->node[j]], {{wide_set(0.0)}}, sign.by_b};
-    const scalar n_x = sign.of[0] * at->n_x[j], n_t = sign.of[2] * at->n_t[j];
-    for (int t = 0; t < 4; t++) {
-        n.weight[0][t] = wide_set(n_x * at->value[t][j]);
-        n.weight[1][t] = wide_set(n_t * at->value[t][j]);
-    }
-    return n;
-}
-
-// By those from m on.
-INLINE wide normal_motions(const NormalMotion *n, int part, int m)
-{
-    wide by[2] = {wide_set(0.0), wide_set(0.0)};
-    for (int t = 0; t < 4; t++)
-        for (int c = 0; c < 2; c++)
-            by[c] = wide_fma(n->weight[c][t], wide_load(&n->from[t][2 * c][part][m]), by[c]);
-    return by[0] + by[1];
+    return back ? -1.0 : 1.0;
 }
 
 void elastic_wall_shape(const ElasticHalf *half, int side, int j, const WallPlaces *at, mode_array shape)
 {
-    const NormalMotion normal = normal_motion(half, side, j, at);
-    const Turn turn = turn_of(half, j);
+    const double (*from)[3][2][ENTRIES] = half->wall[at->node[j]], sign = wall_sign(at->back[j]);
+    const scalar n_x = side * at->n_x[j], n_t = sign * at->n_t[j];
     scalar b[ENTRIES];
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        const wide by_a = normal_motions(&normal, 0, m), by_b = normal.by_b * normal_motions(&normal, 1, m);
-        wide_store(&shape[m], back_to_a(&turn, m, by_a, by_b));
-        wide_store(&b[m], back_to_b(&turn, m, by_a, by_b));
+        wide by[2], to[2];
+        for (int part = 0; part < 2; part++) {
+            wide along_x = wide_set(0.0), along_t = wide_set(0.0);
+            for (int t = 0; t < 4; t++) {
+                along_x = wide_fma(wide_set(n_x * at->value[t][j]), wide_load(&from[t][0][part][m]), along_x);
+                along_t = wide_fma(wide_set(n_t * at->value[t][j]), wide_load(&from[t][2][part][m]), along_t);
+            }
+            by[part] = along_x + along_t;
+        }
+        by[1] *= sign;
+        wall_turned_back(half, j, m, by, to);
+        wide_store(&shape[m], to[0]);
+        wide_store(&b[m], to[1]);
     }
-    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
+    memcpy(&shape[half->count[0]], b, ENTRIES * sizeof *b);
 }
 
 void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at, const scalar *q,
                   const scalar *q_dot, scalar S, WallMotion *wall, WallShape *shape)
 {
     const double (*from)[3][2][ENTRIES] = half->wall[at->node[j]];
-    const Turn turn = turn_of(half, j);
-    const WallSigns sign = wall_signs(at->back[j], side);
-    const double inward = at->inside[j] ? sign.by_b * side : 0.0;
+    const double sign = wall_sign(at->back[j]), signs[3] = {side, 1.0, sign};
+    const double inward = at->inside[j] ? sign * side : 0.0;
 
     // motion of a component by the value's weights; the normal's turn n_t u_x - n_x u_t + inward (n_x u_chi,x + n_t u_chi,t)
     const wide n_x = wide_set(at->n_x[j]), n_t = wide_set(at->n_t[j]);
     wide value[3][4], slope[2][4], rates[3][EIGHTHS], tilts[EIGHTHS];
     for (int t = 0; t < 4; t++) {
         const scalar along = inward * at->slope[t][j];
-        for (int c = 0; c < 3; c++) value[c][t] = wide_set(sign.of[c] * at->value[t][j]);
-        slope[0][t] = wide_set(sign.of[0] * at->n_x[j] * along);
-        slope[1][t] = wide_set(sign.of[2] * at->n_t[j] * along);
+        for (int c = 0; c < 3; c++) value[c][t] = wide_set(signs[c] * at->value[t][j]);
+        slope[0][t] = wide_set(side * at->n_x[j] * along);
+        slope[1][t] = wide_set(sign * at->n_t[j] * along);
     }
-    shape->by_b = sign.by_b;
+    shape->by_b = sign;
     for (int i = 0; i < EIGHTHS; i++) rates[0][i] = rates[1][i] = rates[2][i] = tilts[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), sign.by_b * turned_b(&turn, m, q)};
-            const wide rate[2] = {turned_a(&turn, m, q_dot), sign.by_b * turned_b(&turn, m, q_dot)};
+            wide place[2], rate[2];
+            wall_turned(half, j, m, q, place);
+            wall_turned(half, j, m, q_dot, rate);
+            place[1] *= sign, rate[1] *= sign;
             for (int part = 0; part < 2; part++) {
                 wide u[3];
                 for (int c = 0; c < 3; c++) {
@@ -182,34 +143,28 @@ void elastic_wall(const ElasticHalf *half, int side, int j, const WallPlaces *at
 void elastic_wall_force(const ElasticHalf *half, int j, const WallShape *shape, const scalar F[3],
                         mode_array modal)
 {
-    const Turn turn = turn_of(half, j);
-    scalar b[ENTRIES];
+    scalar b[ENTRIES], *modal_b = &modal[half->count[0]];
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        wide by[2];
+        wide by[2], to[2];
         for (int part = 0; part < 2; part++)
             by[part] = F[0] * wide_load(&shape->motion[0][part][m]) +
                        F[1] * wide_load(&shape->motion[1][part][m]) +
                        F[2] * wide_load(&shape->motion[2][part][m]);
         by[1] *= shape->by_b;
-        wide_store(&modal[m], wide_load(&modal[m]) + back_to_a(&turn, m, by[0], by[1]));
-        wide_store(&b[m], back_to_b(&turn, m, by[0], by[1]));
+        wall_turned_back(half, j, m, by, to);
+        wide_store(&modal[m], wide_load(&modal[m]) + to[0]);
+        wide_store(&b[m], to[1]);
     }
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH)
-        wide_store(&modal[turn.b + m], wide_load(&modal[turn.b + m]) + wide_load(&b[m]));
+        wide_store(&modal_b[m], wide_load(&modal_b[m]) + wide_load(&b[m]));
 }
 
 // ---- ribbons --------------------------------------------------------------------------------------------------------
-// Factors of the motions (x, r, t) by the real parts a' and the imaginary parts b' at a place of the part `front`, and their slopes over it.
-typedef struct {
-    scalar of[3][2];
-} RibbonSigns;
+// Factors of the motions (x, r, t) by the real parts a' and the imaginary parts b' at a place of the part `front`; its slopes over this
+// part, of x times the side.
+#define RIBBON_SIGNS(side, front) {{side, (side) * (front)}, {1.0, front}, {front, 1.0}}
 
-INLINE RibbonSigns ribbon_signs(int side, scalar front)
-{
-    return (RibbonSigns){{{side, side * front}, {1.0, front}, {front, 1.0}}};
-}
-
-static const double SLOPE[3][2] = {{0.0, 1.0}, {0.0, 1.0}, {1.0, 0.0}};  // of x times the side
+static const double SLOPE[3][2] = {{0.0, 1.0}, {0.0, 1.0}, {1.0, 0.0}};
 
 void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide front, RibbonNodes *nodes)
 {
@@ -256,35 +211,34 @@ INLINE void ribbon_motions(const ElasticHalf *half, int radii, const RibbonNodes
     }
 }
 
-void ribbon_alike(const ElasticHalf *half, const scalar *q, RibbonAlike *alike)
+void ribbon_alike(const ElasticHalf *half, const scalar *q, ribbon_motions_alike alike)
 {
     for (int row = 0; row < half->radii * half->nodes; row++)
         for (int part = 0; part < 8; part += LANE_WIDTH) {
             wide sum = wide_set(0.0);
             for (int i = 0; i < half->uniforms; i++)
                 sum = wide_fma(wide_set(q[half->uniform_at[i]]), wide_load(&half->alike[i][row][part]), sum);
-            wide_store(&alike->row[row][0][0] + part, sum);
+            wide_store(&alike[row][0][0] + part, sum);
         }
 }
 
 void ribbon_wall_alike(const ElasticHalf *half, int side, const RibbonNodes *nodes, int lane,
-                       const RibbonAlike *alike, scalar u[3])
+                       ribbon_motions_alike alike, scalar u[3])
 {
-    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
+    const scalar front = nodes->front[lane], sign[3][2] = RIBBON_SIGNS(side, front);
     u[0] = u[1] = u[2] = 0.0;
     for (int a = 0; a < half->radii; a++) {
-        const scalar(*from)[4] = alike->row[a * half->nodes + nodes->node[lane]];
+        scalar(*from)[4] = alike[a * half->nodes + nodes->node[lane]];
         for (int t = 0; t < 4; t++)
             for (int c = 0; c < 3; c++) u[c] += nodes->row[a][t][lane] * from[t][c];
     }
-    for (int c = 0; c < 3; c++) u[c] *= sign.of[c][0];
+    for (int c = 0; c < 3; c++) u[c] *= sign[c][0];
 }
 
 INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes, int lane,
                      const scalar *q, scalar u[3], WallShape *shape)
 {
-    const Turn turn = turn_of(half, j);
-    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
+    const scalar front = nodes->front[lane], sign[3][2] = RIBBON_SIGNS(side, front);
     wide sums[3][EIGHTHS];
     shape->by_b = 1.0;
     for (int c = 0; c < 3; c++)
@@ -292,12 +246,12 @@ INLINE void moved_by(const ElasticHalf *half, int radii, int side, int j, const 
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
-            wide by[3][2];
+            wide place[2], by[3][2];
+            wall_turned(half, j, m, q, place);
             ribbon_motions(half, radii, nodes, lane, m, by);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    const wide motion = wide_set(sign.of[c][part]) * by[c][part];
+                    const wide motion = wide_set(sign[c][part]) * by[c][part];
                     wide_store(&shape->motion[c][part][m], motion);
                     sums[c][i] = wide_fma(motion, place[part], sums[c][i]);
                 }
@@ -317,22 +271,21 @@ void ribbon_wall_moved(const ElasticHalf *half, int side, int j, const RibbonNod
 // The slopes by the rows of the table: each row's motion along n, once for both.
 INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes,
                           int lane, const WallShape *shape, const scalar n[3], const scalar *q,
-                          const scalar *q_dot, RibbonWall *wall)
+                          const scalar *q_dot, scalar u_dot[3], scalar slope[3])
 {
-    const Turn turn = turn_of(half, j);
-    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
+    const scalar front = nodes->front[lane], sign[3][2] = RIBBON_SIGNS(side, front);
     wide rates[3][EIGHTHS], over_chi[EIGHTHS], over_radius[EIGHTHS];
     for (int i = 0; i < EIGHTHS; i++)
         rates[0][i] = rates[1][i] = rates[2][i] = over_chi[i] = over_radius[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
-            const wide rate[2] = {turned_a(&turn, m, q_dot), turned_b(&turn, m, q_dot)};
-            wide along[3][2];
+            wide place[2], rate[2], along[3][2];
+            wall_turned(half, j, m, q, place);
+            wall_turned(half, j, m, q_dot, rate);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++) {
-                    along[c][part] = (sign.of[c][part] * n[c]) * place[part];
+                    along[c][part] = (sign[c][part] * n[c]) * place[part];
                     rates[c][i] = wide_fma(wide_load(&shape->motion[c][part][m]), rate[part], rates[c][i]);
                 }
             for (int a = 0; a < radii; a++) {
@@ -350,24 +303,23 @@ INLINE void wall_of_radii(const ElasticHalf *half, int radii, int side, int j, c
                 over_radius[i] = wide_fma(wide_set(nodes->along_slope[a][lane]), by_value, over_radius[i]);
             }
         }
-    for (int c = 0; c < 3; c++) wall->u_dot[c] = wide_eight_sum(rates[c]);
-    wall->over_chi = wide_eight_sum(over_chi);
-    wall->over_radius = wide_eight_sum(over_radius);
+    for (int c = 0; c < 3; c++) u_dot[c] = wide_eight_sum(rates[c]);
+    slope[0] = wide_eight_sum(over_chi);
+    slope[1] = wide_eight_sum(over_radius);
 }
 
 // Slope of the motion along n over the part `front`.
 INLINE scalar over_front(const ElasticHalf *half, int radii, int side, int j, const RibbonNodes *nodes,
                          int lane, const scalar n[3], const scalar *q)
 {
-    const Turn turn = turn_of(half, j);
     const scalar along[3] = {side * n[0], n[1], n[2]};
     wide sum[EIGHTHS];
     for (int i = 0; i < EIGHTHS; i++) sum[i] = wide_set(0.0);
     for (int block = 0; block < ENTRY_OCTETS; block++)
         for (int i = 0; i < EIGHTHS; i++) {
             const int m = 8 * block + i * LANE_WIDTH;
-            const wide place[2] = {turned_a(&turn, m, q), turned_b(&turn, m, q)};
-            wide by[3][2];
+            wide place[2], by[3][2];
+            wall_turned(half, j, m, q, place);
             ribbon_motions(half, radii, nodes, lane, m, by);
             for (int c = 0; c < 3; c++)
                 for (int part = 0; part < 2; part++)
@@ -378,63 +330,53 @@ INLINE scalar over_front(const ElasticHalf *half, int radii, int side, int j, co
 
 void ribbon_wall(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                  const WallShape *shape, const scalar n[3], const scalar *q, const scalar *q_dot,
-                 RibbonWall *wall)
+                 scalar u_dot[3], scalar slope[3])
 {
     if (half->radii == WALL_RADII)
-        wall_of_radii(half, WALL_RADII, side, j, nodes, lane, shape, n, q, q_dot, wall);
+        wall_of_radii(half, WALL_RADII, side, j, nodes, lane, shape, n, q, q_dot, u_dot, slope);
     else
-        wall_of_radii(half, 1, side, j, nodes, lane, shape, n, q, q_dot, wall);
+        wall_of_radii(half, 1, side, j, nodes, lane, shape, n, q, q_dot, u_dot, slope);
     const bool between = fabs(scalar_value(nodes->front[lane])) < 1.0;
-    wall->over_front = between ? over_front(half, half->radii, side, j, nodes, lane, n, q) : 0.0 * n[0];
+    slope[2] = between ? over_front(half, half->radii, side, j, nodes, lane, n, q) : 0.0 * n[0];
 }
 
 // Stores the motion along n by a few a' and b', of which (x, r, t) are given, as that by a and b.
-INLINE void store_along(const Turn *turn, int m, wide motion[3][2], double by_b, const scalar n[3],
-                        scalar *shape, scalar *b)
+INLINE void store_along(const ElasticHalf *half, int j, int m, wide motion[3][2], double by_b,
+                        const scalar n[3], scalar *shape, scalar *b)
 {
-    wide by[2] = {wide_set(0.0), wide_set(0.0)};
+    wide by[2] = {wide_set(0.0), wide_set(0.0)}, to[2];
     for (int part = 0; part < 2; part++)
         for (int c = 0; c < 3; c++) by[part] = wide_fma(wide_set(n[c]), motion[c][part], by[part]);
     by[1] *= by_b;
-    wide_store(&shape[m], back_to_a(turn, m, by[0], by[1]));
-    wide_store(&b[m], back_to_b(turn, m, by[0], by[1]));
-}
-
-INLINE void shape_of_radii(const ElasticHalf *half, int radii, int side, const Turn *turn,
-                           const RibbonNodes *nodes, int lane, const scalar n[3], scalar *shape, scalar *b)
-{
-    const RibbonSigns sign = ribbon_signs(side, nodes->front[lane]);
-    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
-        wide motion[3][2];
-        ribbon_motions(half, radii, nodes, lane, m, motion);
-        for (int c = 0; c < 3; c++)
-            for (int part = 0; part < 2; part++) motion[c][part] *= wide_set(sign.of[c][part]);
-        store_along(turn, m, motion, 1.0, n, shape, b);
-    }
+    wall_turned_back(half, j, m, by, to);
+    wide_store(&shape[m], to[0]);
+    wide_store(&b[m], to[1]);
 }
 
 void ribbon_wall_shape(const ElasticHalf *half, int side, int j, const RibbonNodes *nodes, int lane,
                        const scalar n[3], mode_array shape)
 {
-    const Turn turn = turn_of(half, j);
+    const scalar front = nodes->front[lane], sign[3][2] = RIBBON_SIGNS(side, front);
     scalar b[ENTRIES];
-    if (half->radii == WALL_RADII)
-        shape_of_radii(half, WALL_RADII, side, &turn, nodes, lane, n, shape, b);
-    else
-        shape_of_radii(half, 1, side, &turn, nodes, lane, n, shape, b);
-    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
+    for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
+        wide motion[3][2];
+        ribbon_motions(half, half->radii, nodes, lane, m, motion);
+        for (int c = 0; c < 3; c++)
+            for (int part = 0; part < 2; part++) motion[c][part] *= wide_set(sign[c][part]);
+        store_along(half, j, m, motion, 1.0, n, shape, b);
+    }
+    memcpy(&shape[half->count[0]], b, ENTRIES * sizeof *b);
 }
 
 void elastic_wall_along(const ElasticHalf *half, int j, const WallShape *moved, const scalar n[3],
                         mode_array shape)
 {
-    const Turn turn = turn_of(half, j);
     scalar b[ENTRIES];
     for (int m = 0; m < ENTRIES; m += LANE_WIDTH) {
         wide motion[3][2];
         for (int c = 0; c < 3; c++)
             for (int part = 0; part < 2; part++) motion[c][part] = wide_load(&moved->motion[c][part][m]);
-        store_along(&turn, m, motion, moved->by_b, n, shape, b);
+        store_along(half, j, m, motion, moved->by_b, n, shape, b);
     }
-    memcpy(&shape[turn.b], b, ENTRIES * sizeof *b);
+    memcpy(&shape[half->count[0]], b, ENTRIES * sizeof *b);
 }

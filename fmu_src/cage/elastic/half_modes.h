@@ -5,7 +5,6 @@
 #pragma once
 
 #include "cage/common/joint_law.h"
-#include "numbers/lanes.h"
 
 // Displacements (x, r, t) and rotations about them of a pad, work-conjugate to the loads of the bonded joint, at the
 // rivet.

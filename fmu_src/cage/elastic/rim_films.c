@@ -105,11 +105,6 @@ void rim_films_first(const Model *model, const Work *w, double d, const double *
     }
 }
 
-void rim_films_kick(const Model *model, double *v, RimFilmsStep *step)
-{
-    rim_push(model, 0.5 * step->substep, step->now, v);
-}
-
 void rim_films_follow(const Model *model, const Work *w, double t, const double halves[2 * RELATIVE_MOTIONS],
                       double *v, RimFilmsStep *step)
 {

@@ -1,7 +1,6 @@
 // Films on bent rims within a step.  Equations in rim_films.c; twin: bearing_model/cage/elastic/rim_films.py.
 #pragma once
 
-#include "numbers/lanes.h"
 #include "physics/land_bent.h"
 #include "physics/model.h"
 
@@ -17,7 +16,7 @@ typedef struct {
     double substep;                      // [s]
     double answer[2][SQUEEZE][SQUEEZE];  // (1 + d D Y)^-1 d D
     double mobility[2][SQUEEZE];         // Y
-    double now[2][RIM];                  // forces in the present substep
+    double now[2][RIM];                  // forces in the present substep, at its start of the one before
     double begun[2][RIM];                // velocities of the shapes at the start
     double acceleration[2][2],
         by_film[2][2];       // of the lands along their half's axes by slow forces; their change by films
@@ -34,9 +33,6 @@ void rim_push(const Model *model, double part, double impulse[2][RIM], double *m
 // w: kinematics of the halves.
 void rim_films_first(const Model *model, const Work *w, double d, const double *f, const double *v,
                      RimFilmsStep *step);
-
-// Half of the impulses of the substep before, at a substep's start, to the velocities v of S and D.
-void rim_films_kick(const Model *model, double *v, RimFilmsStep *step);
 
 // The rest of the impulses of a substep at its end, t after the step's start.  halves: changes of the halves' velocities by the joints, in
 // the order of the state.

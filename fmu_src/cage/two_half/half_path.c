@@ -7,12 +7,6 @@ enum { TERMS = 6, NODE = TERMS * Z * ROWS };  // of a node: terms, numbers of al
 
 _Static_assert(ROWS == 8, "the rows of a joint are an octet");
 
-// A touched pocket: its node in the table, and the weights of the terms of this node and of the next one, on one radius.
-typedef struct {
-    const float *node;
-    scalar weight[2 * TERMS];
-} Touch;
-
 // Weight of the radius `node` at the place r, Lagrange's polynomial.
 static scalar radius_weight(const HalfPath *path, scalar r, int node)
 {
@@ -24,7 +18,9 @@ static scalar radius_weight(const HalfPath *path, scalar r, int node)
     return weight;
 }
 
-static Touch touch_of(const HalfPath *path, int side, const PathForces *on, scalar chi, int j, int radius)
+// Adds the rows of all joints by the touched pocket j: its node in the table and the next one, on one radius.
+static void add_touch(const HalfPath *path, int side, const PathForces *on, scalar chi, int j, int radius,
+                      octet joint[Z])
 {
     const bool back = scalar_value(on->push_t[j]) < 0.0;
     int i = 0;
@@ -35,23 +31,17 @@ static Touch touch_of(const HalfPath *path, int side, const PathForces *on, scal
     const scalar spline[4] = {v * v * (1.0 + 2.0 * u), h * u * v * v, u * u * (1.0 + 2.0 * v),
                               -h * u * u * v};
     const scalar force[3] = {side * on->F_x[j], on->F_r[j], back ? -on->F_t[j] : on->F_t[j]};
-    Touch touch = {.node = path->rows + ((2 * radius + back) * path->nodes + i) * NODE};
+    const float *node = path->rows + ((2 * radius + back) * path->nodes + i) * NODE;
+    scalar weight[2 * TERMS];
     for (int n = 0; n < 4; n++)
-        for (int f = 0; f < 3; f++) touch.weight[3 * n + f] = spline[n] * force[f];
+        for (int f = 0; f < 3; f++) weight[3 * n + f] = spline[n] * force[f];
     if (path->radii > 0) {
-        const scalar weight = radius_weight(path, on->radius[j], radius);
-        for (int n = 0; n < 2 * TERMS; n++) touch.weight[n] *= weight;
+        const scalar part = radius_weight(path, on->radius[j], radius);
+        for (int n = 0; n < 2 * TERMS; n++) weight[n] *= part;
     }
-    return touch;
-}
-
-// Adds the rows of all joints by the touched pocket j.
-static void add_touch(const Touch *touch, int j, octet joint[Z])
-{
     for (int k = 0; k < Z; k++) {
         octet rows = joint[(j + k) % Z];
-        for (int t = 0; t < 2 * TERMS; t++)
-            octet_add_floats(touch->weight[t], touch->node + (t * Z + k) * ROWS, &rows);
+        for (int t = 0; t < 2 * TERMS; t++) octet_add_floats(weight[t], node + (t * Z + k) * ROWS, &rows);
         joint[(j + k) % Z] = rows;
     }
 }
@@ -84,11 +74,8 @@ bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows
                 if (!(mask & 1)) continue;
                 if (!touched) memset(joint, 0, sizeof joint);
                 touched = true;
-                for (int radius = 0; radius < (path->radii > 0 ? path->radii : 1); radius++) {
-                    const Touch touch =
-                        touch_of(path, h == 0 ? -1 : 1, &on[h], chi[j - p * LANE_WIDTH], j, radius);
-                    add_touch(&touch, j, joint);
-                }
+                for (int radius = 0; radius < (path->radii > 0 ? path->radii : 1); radius++)
+                    add_touch(path, 2 * h - 1, &on[h], chi[j - p * LANE_WIDTH], j, radius, joint);
             }
         }
         if (h == 0 && touched)  // of the mirrored forces

@@ -37,16 +37,12 @@ typedef struct {
     ball_array trial[3], *rivet;
 } Opening;
 
-// The joints to be found by the law.
-typedef struct {
-    int count, joint[Z];
-} Wanted;
-
-// Wants the joints k, k + 1, ... whose bit of the mask is set.
-INLINE void want(Wanted *wanted, int k, int mask)
+// Adds the joints k, k + 1, ... whose bit of the mask is set to those to be found by the law; returns how many these are.
+INLINE int want(int count, int k, int mask, int wanted[Z])
 {
     for (; mask != 0; mask >>= 1, k++)
-        if (mask & 1 && k < Z) wanted->joint[wanted->count++] = k;
+        if (mask & 1 && k < Z) wanted[count++] = k;
+    return count;
 }
 
 // Loads L_0 where all joints move alike: the bonded loads less those that the moves of the other joints relieve.
@@ -62,13 +58,13 @@ static void find_trial_uniform(const JointLaw *law, ball_array bonded[3], const 
 
 // Joints near the state where all are alike answer to L_0 by their tangent there, unless they are broken.  The
 // others keep their last answer, and those of them are wanted whose L_0 has changed since; in the first sweep
-// all others are.
-static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
-                        scalar spin_P, const scalar at[UNIFORM_WIDTH], bool first, wide trial[PACKETS][3],
-                        Opening *o, Wanted *wanted)
+// all others are.  Returns how many are wanted.
+static int answer_near(const JointLaw *law, ball_array bonded[3], const ball_array P, const constants intact,
+                       scalar spin_P, const scalar at[UNIFORM_WIDTH], bool first, wide trial[PACKETS][3],
+                       Opening *o, int wanted[Z])
 {
     wide move[PACKETS][3];
-    wanted->count = 0;
+    int count = 0;
     for (int p = 0; p < PACKETS; p++) {
         const int k = p * LANE_WIDTH;
         const wide *L = trial[p];
@@ -95,7 +91,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
         const wide beyond = joint_size(law, N, M_r, M_t) + wide_abs(more_P) - NEAR * s;
         const bits far = wide_above(wide_max(beyond, 0.5 - wide_load(&intact[k])), 0.0);
         if (first)
-            want(wanted, k, wide_mask(far));
+            count = want(count, k, wide_mask(far), wanted);
         else if (wide_any(far)) {
             wide before[9];
             for (int i = 0; i < 3; i++) {
@@ -105,7 +101,7 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
             }
             const bits changed = wide_above(
                 joint_size(law, L[0] - before[6], L[1] - before[7], L[2] - before[8]) - CHANGE * s, 0.0);
-            want(wanted, k, wide_mask(far & changed));
+            count = want(count, k, wide_mask(far & changed), wanted);
             for (int i = 0; i < 6; i++) near[i] = wide_select(far, before[i], near[i]);
             for (int i = 6; i < 9; i++)
                 near[i] = wide_select(far, wide_select(changed, near[i], before[i]), near[i]);
@@ -119,16 +115,17 @@ static void answer_near(const JointLaw *law, ball_array bonded[3], const ball_ar
     for (int turn = 0; turn < 2; turn++)
         for (int p = 0; p < PACKETS; p++)
             for (int i = 0; i < 3; i++) wide_store(&o->move[i][turn * Z + p * LANE_WIDTH], move[p][i]);
+    return count;
 }
 
 // Asks the law for the joints that are wanted.
-static void ask_law(const JointLaw *law, const ball_array P, const constants intact, const Wanted *wanted,
-                    Opening *o)
+static void ask_law(const JointLaw *law, const ball_array P, const constants intact, int count,
+                    const int wanted[Z], Opening *o)
 {
     LawPlaces at;
     int placed = 0;  // packets whose places are found
-    for (int n = 0; n < wanted->count; n++) {
-        const int k = wanted->joint[n];
+    for (int n = 0; n < count; n++) {
+        const int k = wanted[n];
         scalar move[3], carried[3] = {0.0, 0.0, 0.0}, energy;
         if (intact[k] > 0.0) {
             for (; placed <= k; placed += LANE_WIDTH) {
@@ -155,17 +152,17 @@ void joints_open(const JointLaw *law, ball_array bonded[3], const ball_array P, 
     scalar at[UNIFORM_WIDTH];
     wide L[PACKETS][3];
     Opening o;
-    Wanted wanted;
+    int wanted[Z];
     o.rivet = rivet;
     find_uniform(law, (scalar_value(spin_M) < 0.0 ? -spin_M : spin_M) / law->length, spin_P, at);
     find_trial_uniform(law, bonded, at, L);
-    answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, &wanted);
-    for (int sweep = 0; sweep < SWEEPS && wanted.count > 0; sweep++) {
+    int count = answer_near(law, bonded, P, intact, spin_P, at, true, L, &o, wanted);
+    for (int sweep = 0; sweep < SWEEPS && count > 0; sweep++) {
         if (sweep > 0) {
             law_trials(law, bonded, o.move, L);
-            answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, &wanted);
+            count = answer_near(law, bonded, P, intact, spin_P, at, false, L, &o, wanted);
         }
-        ask_law(law, P, intact, &wanted, &o);
+        ask_law(law, P, intact, count, wanted, &o);
     }
     for (int i = 0; i < 3; i++) {
         const wide K[3] = {wide_set(-law->K_0[i][0]), wide_set(-law->K_0[i][1]), wide_set(-law->K_0[i][2])};

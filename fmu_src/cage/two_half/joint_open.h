@@ -13,7 +13,6 @@
 #pragma once
 
 #include "cage/common/joint_law.h"
-#include "numbers/lanes.h"
 
 // Loads (N, M_r, M_t) of the joints and (T, m_r, m_t) of the rivets [N, N.m], from bonded loads and preloads
 // P >= 0.  intact: 1, or 0 for a joint that carries nothing, whose move takes all of L_0; spin_M, spin_P: bonded

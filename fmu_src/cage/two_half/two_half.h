@@ -5,7 +5,6 @@
 #include "cage/common/cage_joint.h"
 #include "cage/common/films.h"
 #include "cage/common/halves_step.h"
-#include "numbers/lanes.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
