@@ -313,9 +313,9 @@ def scale(symbol: Any, scales: Any) -> Any:
     return found[0] * factor, found[1] + found[0] * offset
 
 
-def three_digits(number: float) -> float:
-    """A computed number that nobody knows better."""
-    return float(f"{number:.3g}")
+def rounded(number: float, digits: int = 6) -> float:
+    """A computed number with so many digits: six are enough for an assumption."""
+    return float(f"{number:.{digits}g}")
 
 
 def hours_text(hours: Any, digits: int = 3) -> str:
@@ -341,11 +341,8 @@ def to_si(value: Any, scales: Any) -> float:
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
         if not match:
-            raise UserError(
-                "not a number"
-                if "1" in scales
-                else f'not a number with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"'
-            )
+            example = f' with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"'
+            raise UserError(f"not a number{'' if '1' in scales else example}")
         factor, offset = scale(match[2] or "", scales)
         value = (float(match[1]) - offset) / factor
     if isinstance(value, bool) or not isinstance(value, Real) or not is_finite(value):
@@ -419,6 +416,6 @@ def certain(value: float, half: float) -> str:
     return placed(value, math.floor(math.log10(half)))
 
 
-def placed(value, place):
-    """A value rounded to a power of ten."""
+def placed(value: float, place: int) -> str:
+    """A value rounded to a power of ten, without a minus sign before zero."""
     return f"{round(value, -place) + 0.0:.{max(0, -place)}f}"

@@ -15,8 +15,8 @@ from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
 from ..base.toml_files import read_toml, section_of
-from ..base.units import check_alike, to_si
-from . import catalogue, materials, oil, ribbon, rivet_heads, scaling, seats
+from ..base.units import check_alike, rounded, to_si
+from . import catalogue, materials, oil, ribbon, rivet_heads, seats
 from .bearing_keys import RIVET_MATERIAL, RIVET_SIZES, BearingFile, RivetFile
 from .case import Case
 from .designations import find_bearing, shipped_bearings, unknown_designation
@@ -236,7 +236,7 @@ def called(name, prefix):
 
 def ratings(Z, D, d_m):
     """C and C_0 [N] by ISO 281 and ISO 76 for Z balls [m], where no catalogue's hold."""
-    return {"C": scaling.rounded(dynamic_rating(Z, D, d_m)), "C_0": scaling.rounded(static_rating(Z, D, d_m))}
+    return {"C": rounded(dynamic_rating(Z, D, d_m)), "C_0": rounded(static_rating(Z, D, d_m))}
 
 
 def plain_names(tree):

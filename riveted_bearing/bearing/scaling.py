@@ -19,6 +19,7 @@ from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
+from ..base.units import rounded
 from . import oil, ribbon
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
@@ -58,11 +59,6 @@ SETTLED = 15.0  # revolutions of the shaft before statistics begin, as the 6207'
 def start(name):
     """Default of a parameter, the 6207's."""
     return variables.PARAMETERS[name].start
-
-
-def rounded(value):
-    """Six digits: enough for an assumption."""
-    return float(f"{value:.6g}")
 
 
 def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None, designation=""):
@@ -207,4 +203,4 @@ def scaled_inputs(Z, D, d_m, inputs, C=None):
     if any(name in inputs for name in LOADS):
         return speed | dict.fromkeys(LOADS[:2], 0.0)
     F_y = 0.1 * (C or dynamic_rating(Z, D, d_m))
-    return speed | {"shaft.F_y": float(f"{F_y:.3g}"), "shaft.F_x": float(f"{F_y / 6.0:.3g}")}
+    return speed | {"shaft.F_y": rounded(F_y, 3), "shaft.F_x": rounded(F_y / 6.0, 3)}

@@ -23,21 +23,17 @@ from rivet_model.load_cases import Joint
 
 from ..base.errors import UserError, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
-from ..base.toml_files import positive, read_toml
+from ..base.schema import Number
+from ..base.toml_files import read_toml
 from ..bearing.bearing_file import bearing_case
 from ..bearing.bearing_keys import BALLS, RIVET_SIZES
 from ..bearing.file_values import is_number, unit_scales
 from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
+from ..bearing.scaling import SHAPE
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
-CAGE_NAMES = {  # key of a geometry file -> of a bearing file
-    "Z": "Z",
-    "d_m": "bearing.d_m",
-    "ball_diameter": "bearing.D",
-    "pocket_clearance": "cage.pocket_clearance",
-    "cage_outer_diameter": "cage.D_o",
-    "cage_inner_diameter": "cage.D_i",
-}
+# key of a geometry file -> of a bearing file
+CAGE_NAMES = {key: name for key, name in SHAPE.items() if key not in ("cage_half_width", "rho_flange")}
 
 
 @threadpool_limits.wrap(limits=1)  # small matrices
@@ -119,7 +115,7 @@ def cage_sizes(path, section):
         if name not in CAGE_SIZES:
             continue
         with refusing(path, name, value):
-            yield name, BALLS.read(value) if name == "Z" else positive(value, unit_scales("m"))
+            yield name, BALLS.read(value) if name == "Z" else Number(unit_scales("m"), above=0.0).read(value)
 
 
 def called(name):

@@ -107,6 +107,11 @@ class Model:
         self.locals = {v.name: v for v in variables if v.causality == "local"}
 
     @property
+    def Z(self):
+        """Number of balls, and of rivets."""
+        return sum(name.startswith("ball[") and name.endswith("].Q_i") for name in self.outputs)
+
+    @property
     def bearing(self):
         """The FMU's description of its bearing, without the sentence about all bearings before it."""
         whole = self.description.description or self.description.modelName

@@ -87,9 +87,7 @@ class Sweep:
 def load_sweep(path: str | Path, model: Model) -> Sweep:
     """Read a sweep's TOML file; raises UserError naming file, key, value and what is allowed."""
     path = Path(path)
-    if not path.is_file():
-        raise UserError(f"{path}: no such sweep file")
-    return plan_sweep(path.stem, read_toml(path), model, path)
+    return plan_sweep(path.stem, read_toml(path, "sweep file"), model, path)
 
 
 def plan_sweep(name, document, model, path):
