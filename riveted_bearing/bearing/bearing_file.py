@@ -176,7 +176,8 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     origin |= dict.fromkeys((name for name in iso if name not in data), "rule")
     data = iso | data
     inside = "" if prefix else in_cage(designation)
-    check_limits(path, document, parts, lambda name: called(name, prefix), inside)
+    called = lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
+    check_limits(path, document, parts, called, inside)
     check_guidance(path, values)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     rivet, given_values = (
@@ -227,11 +228,6 @@ def check_boundary(path, document, data, entry):
             allowed = shown(f"catalogue.{key}", entry.data[key], written)
             reason = f"{allowed} is allowed, of the {entry.designation} ({SOURCE}); leave designation or {key} out"
             raise refusal(path, f"catalogue.{key}", written, reason)
-
-
-def called(name, prefix):
-    """What a file calls a value that belongs to the rivet, or to the bearing."""
-    return prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
 
 
 def ratings(Z, D, d_m):

@@ -171,23 +171,17 @@ def scaled_rivet(Z, D, d_m, given, rivet, bore=None, designation=""):
     if ribbon.is_ribbon(given):
         bore = d_m - (start("bearing.d_m") - BORE) * r if bore is None else bore
         values = ribbon.rivet_sizes(D, bore, given, rivet, designation)
-        s = values["shank_diameter"] / RIVET["shank_diameter"]
-        values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
-        return {name: value for name, value in values.items() if name not in rivet}
-    values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
+    else:
+        values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
     s = values["shank_diameter"] / RIVET["shank_diameter"]
     values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
-    shape = shape_of(
-        {"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given, values
-    )
-    across = min(
-        d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m, 2.0 * half_shape.narrowest_half_bar(shape)
-    )
-    if "seat_diameter" not in rivet:
+    if "seat_diameter" not in values:
+        known = {"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given
+        shape = shape_of(known, values)
+        sides = d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m
+        across = min(*sides, 2.0 * half_shape.narrowest_half_bar(shape)) - 2.0 * half_shape.LEAST_WALL
         usual = values["head_diameter"] * RIVET["seat_diameter"] / RIVET["head_diameter"]
-        values["seat_diameter"] = rounded(
-            max(values["head_diameter"], min(usual, across - 2.0 * half_shape.LEAST_WALL))
-        )
+        values["seat_diameter"] = rounded(max(values["head_diameter"], min(usual, across)))
     return {name: value for name, value in values.items() if name not in rivet}
 
 

@@ -159,7 +159,7 @@ CHARTS = {  # name: draw(figure, result), size, label, channels that the chart n
     "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", "shaft.F_x shaft.F_y shaft.omega"),
     "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", "rivet.sigma_head_max rivet.sigma_mid_max"),
     "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", "rivet[*].sigma_head rivet[*].sigma_mid"),
-    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", ""),
+    "bars": (charts.untitled(plot.rivet_bars), WIDE, "Stress of each rivet", ""),
     "map": (
         charts.stress_over_azimuth,
         HIGH,
@@ -177,7 +177,7 @@ CHARTS = {  # name: draw(figure, result), size, label, channels that the chart n
     "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", "ball[*].Q_c"),
     "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", "cage.F_pocket_peak"),
     "section": (charts.section, SQUARE, "Section of the bearing with its dimensions", ""),
-    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", "cage.y cage.z"),
+    "orbit": (charts.untitled(plot.cage_orbit), SQUARE, "Orbit of the cage's centre", "cage.y cage.z"),
     "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", "rivet[*].T rivet[*].M_y rivet[*].M_z"),
     "slip": (PANELS["slip"], LOW, "Cage slip over time", "cage.slip_ratio"),
     "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", "ring.x ring.y ring.z"),

@@ -151,7 +151,8 @@ def values_of(path, name, value, model):
         reason = 'a list of values or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed'
         raise refusal(path, f"vary.{name}", value, reason)
     low, high = bounds(path, name, (value["from"], value["to"]), model)
-    count = points_of(path, f"vary.{name}.count", value["count"])
+    count = count_of(path, f"vary.{name}.count", value["count"])
+    limit_runs(path, f"vary.{name}.count = {count}", count)  # before there is memory for them
     spacing = value.get("spacing", "linear")
     if spacing not in ("linear", "log"):
         raise refusal(path, f"vary.{name}.spacing", spacing, "allowed: linear, log")
@@ -194,12 +195,6 @@ def count_of(path: Path, name: str, value: Any) -> Any:
     """A whole number of at least 1."""
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
         raise refusal(path, name, value, "a whole number from 1 on is needed")
-    return value
-
-
-def points_of(path, name, value):
-    """A number of points of a design, checked before there is memory for them."""
-    limit_runs(path, f"{name} = {value}", count_of(path, name, value))
     return value
 
 
