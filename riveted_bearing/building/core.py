@@ -19,9 +19,13 @@ from typing import Any
 from ..base.files import cache_folder, cache_path, make_folder, write_atomically
 from .compiler import alone_in, compile_command, configure, execute, finish, identity, start, stop
 
-# the last four make variables.h and limits.c
-SOURCES = "CMakeLists.txt", "cmake/*.[ch]*", "fmu_src/**/*.[ch]"
-SOURCES += "fmus/generate.py", "fmus/limits.py", "fmus/variables.toml", "fmus/templates/*.[ch]"
+MAKERS = (
+    "fmus/generate.py",
+    "fmus/limits.py",
+    "fmus/variables.toml",
+    "fmus/templates/*.[ch]",
+)  # of variables.h, limits.c
+SOURCES = ("CMakeLists.txt", "cmake/*.[ch]*", "fmu_src/**/*.[ch]", *MAKERS)
 
 
 @dataclass(frozen=True)

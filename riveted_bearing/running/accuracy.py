@@ -216,10 +216,8 @@ def found_in(plain: Any, fine: Any = (), confidence: float = CONFIDENCE) -> dict
     names = [name for name in FIGURES if all(name in run.values for run in [*plain, *fine])]
     found = {}
     for name in names:
-        blocks = [run.blocks[name] for run in plain if name in run.blocks]
-        found[name] = found_of(
-            name, *([run.values[name] for run in runs] for runs in (plain, fine)), blocks, confidence
-        )
+        x, y = ([run.values[name] for run in runs] for runs in (plain, fine))
+        found[name] = found_of(name, x, y, [run.blocks[name] for run in plain if name in run.blocks], confidence)
     return found
 
 
