@@ -88,6 +88,8 @@ def read_geometry(path, bearing=None):
         "parameters": {CAGE_NAMES[name]: document[name] for name in own if name in CAGE_NAMES},
     }
     parts = own.get("Z", case.Z), given, case.rivet, {}, {}, None
+    keys = {name: key for key, name in CAGE_NAMES.items()}
+    called = lambda name: keys.get(name, name.removeprefix("rivet."))
     check_limits(path, written, parts, called, in_cage(case.designation))
     try:
         return Geometry(**(case.joint | own))
@@ -118,11 +120,6 @@ def cage_sizes(path, section):
             yield name, BALLS.read(value) if name == "Z" else Number(unit_scales("m"), above=0.0).read(value)
 
 
-def called(name):
-    """What a geometry file calls a value of a bearing file."""
-    return next((key for key, of in CAGE_NAMES.items() if of == name), name.removeprefix("rivet."))
-
-
 def geometry_of(case):
     """Geometry of a Case; UserError if it cannot be made."""
     try:
@@ -139,15 +136,6 @@ def read_table(path, Z=None):
         raise UserError(f"{path}: {problem.strerror}") from None
     except ValueError as problem:
         raise UserError(str(problem)) from None
-
-
-def is_table(path):
-    """Whether there is a table that is not damaged."""
-    try:
-        rivet_table.read(path)
-    except (OSError, ValueError):
-        return False
-    return True
 
 
 def condensed(geometry, path):
@@ -172,7 +160,10 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
     kind = kind or ("full" if shipped else "coarse")
     name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
     target = cache_path("tables") / f"{name}.json"
-    if is_table(target):  # perhaps of another user, in whose cache nothing can be written
+    with contextlib.suppress(
+        OSError, ValueError
+    ):  # there and whole, perhaps of another user, whose cache takes no files
+        rivet_table.read(target)
         return target
     cache_folder("tables")
 

@@ -247,7 +247,7 @@ class Instance:
             self.fmu.instantiate(callbacks=self.callbacks(), loggingOn=True)
             self.fmu.setDebugLogging(True, KEPT)
         except Exception as problem:
-            self.forget()
+            LOGS.pop(id(self), None)
             raise UserError(
                 f"{self.model.path}: cannot be loaded: {'; '.join([str(problem), *(message for _, message in self.log)])}"
             ) from None
@@ -255,7 +255,7 @@ class Instance:
 
     def __exit__(self, *_):
         self.fmu.freeInstance()
-        self.forget()
+        LOGS.pop(id(self))
 
     def callbacks(self):
         """Memory and logging functions for the FMU."""
@@ -267,10 +267,6 @@ class Instance:
         addLoggerProxy(ctypes.byref(callbacks))
         callbacks.componentEnvironment = id(self)
         return callbacks
-
-    def forget(self):
-        """Remove the log's registration."""
-        LOGS.pop(id(self), None)
 
     def complaints(self):
         """The FMU's messages about its failure, oldest first."""

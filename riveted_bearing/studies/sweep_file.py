@@ -40,7 +40,7 @@ class Settings(Section):
 
     description: Text = ""
     scene: Any = Field(
-        None, description="shipped name or file, beside this one; default: the FMU's own parameters and inputs"
+        None, description="shipped name or file, beside this one; default: the FMU's parameters and inputs"
     )
     simulation: Named = Field({}, description="as in a scene file, for all runs; so are the two below")
     parameters: Named = {}
