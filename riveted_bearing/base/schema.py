@@ -12,6 +12,7 @@ A number is SI in the model, a number or a text with its unit in the file.
 import types
 from collections.abc import Callable
 from dataclasses import dataclass
+from operator import ge, gt, le, lt
 from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, StrictBool, ValidationError
@@ -51,14 +52,8 @@ class Number(Rule):
     def read(self, value: Any) -> float:
         """The SI value; UserError for one that is not allowed."""
         number = to_si(value, self.scales or PLAIN)
-        low = -float("inf") if self.least is None else self.least
-        high = float("inf") if self.most is None else self.most
-        inside = low <= number <= high
-        if self.above is not None:
-            inside = inside and number > self.above
-        if self.below is not None:
-            inside = inside and number < self.below
-        if not inside:
+        limits = (ge, self.least), (gt, self.above), (le, self.most), (lt, self.below)
+        if not all(limit is None or holds(number, limit) for holds, limit in limits):
             raise UserError(self.words or self.limits())
         return number
 
@@ -74,12 +69,8 @@ class Number(Rule):
         return f"from {self.least or 0.0:g} {'to ' if self.most is None else ''}{high} is allowed"
 
     def __get_pydantic_json_schema__(self, schema: Any, handler: Any) -> dict[str, Any]:
-        limits = {
-            "minimum": self.least,
-            "exclusiveMinimum": self.above,
-            "maximum": self.most,
-            "exclusiveMaximum": self.below,
-        }
+        limits = {"minimum": self.least, "exclusiveMinimum": self.above}
+        limits |= {"maximum": self.most, "exclusiveMaximum": self.below}
         units = [symbol for symbol in self.scales or () if symbol != "1"]
         found: dict[str, Any] = {"type": ["number", "string"] if units else "number"}
         found |= {key: limit for key, limit in limits.items() if limit is not None}

@@ -81,7 +81,7 @@ class Table:
     def unit(self, wanted):
         """The unit in which a Wanted column is read, "" for SI and for dates."""
         place = self.place(wanted.name)
-        if self.is_timed(wanted) and self.source.is_stamped(place):
+        if wanted.scales is SECONDS and self.source.is_stamped(place):
             return ""
         head = self.heads[place]
         own, certain = unit_of(head, wanted.scales)
@@ -100,14 +100,10 @@ class Table:
             raise UserError(f"{where}: {problem}") from None
         return unit
 
-    def is_timed(self, wanted):
-        """Whether a Wanted column may hold dates."""
-        return wanted.scales is SECONDS
-
     def blocks(self, *wanted):
         """Pieces of the Wanted columns: row numbers, and numbers in SI [n, columns]."""
         places = [self.place(one.name) for one in wanted]
-        timed = {place for place, one in zip(places, wanted, strict=True) if self.is_timed(one)}
+        timed = {place for place, one in zip(places, wanted, strict=True) if one.scales is SECONDS}  # may hold dates
         units = [self.unit(one) for one in wanted]
         scales = [scale(u, one.scales) if u else (1.0, 0.0) for u, one in zip(units, wanted, strict=True)]
         try:

@@ -8,14 +8,17 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from .errors import UserError, refusal
-from .units import SECONDS, to_si
+from .errors import UserError, is_file, refusal
+from .schema import Number
+from .units import SECONDS
 
 DEEPEST = 50  # tables or lists in each other
 
 
-def read_toml(path: Path) -> dict[str, Any]:
-    """The document of a TOML file, UTF-8 with or without a mark; UserError if it cannot be read."""
+def read_toml(path: Path, what: str = "") -> dict[str, Any]:
+    """The document of a TOML file, UTF-8 with or without a mark; UserError if it cannot be read; what: file is meant."""
+    if what and not is_file(path):
+        raise UserError(f"{path}: no such {what}")
     try:
         data = path.read_bytes()
         text = data.decode("utf-8-sig").replace("\r\n", "\n")
@@ -84,21 +87,10 @@ def leaves(tree: Any, names: Any, prefix: str = "") -> Iterator[Any]:
             yield name, value
 
 
-def positive(value: Any, scales: Any) -> Any:
-    """SI value of a number or text, which must be greater than zero."""
-    number = to_si(value, scales)
-    if number <= 0.0:
-        raise UserError("must be greater than 0")
-    return number
-
-
 def seconds(key: Any, value: Any) -> Any:
     """A time [s] of zero or more from a number or a text with a unit; UserError naming the key."""
     try:
-        time = to_si(value, SECONDS)
-        if time < 0.0:
-            raise UserError("must not be negative")
-        return time
+        return Number(SECONDS, least=0.0).read(value)
     except UserError as problem:
         raise UserError(f"{key} = {reprlib.repr(value)}: {problem}") from None
 

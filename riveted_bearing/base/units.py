@@ -10,103 +10,28 @@ from __future__ import annotations
 
 import math
 import re
+import tomllib
 from functools import cache
+from importlib.resources import files
 from numbers import Real
 from typing import Any
 
 from .errors import UserError
 
-# m, kg, m/s2: exact by definition; rev/min per rad/s
-INCH, POUND, GRAVITY, RPM = 0.0254, 0.45359237, 9.80665, 30.0 / math.pi
+# m/s2, exact by definition; rev/min per rad/s
+GRAVITY, RPM = 9.80665, 30.0 / math.pi
 BASE = ("kg", "m", "s", "K", "rad")
 PREFIXES = {"T": 1e12, "G": 1e9, "M": 1e6, "k": 1e3, "K": 1e3, "h": 1e2, "da": 1e1, "d": 1e-1, "c": 1e-2, "m": 1e-3}
 PREFIXES |= {"u": 1e-6, "n": 1e-9, "p": 1e-12}
 WORD_PREFIXES = {"giga": 1e9, "mega": 1e6, "kilo": 1e3, "centi": 1e-2, "milli": 1e-3, "micro": 1e-6, "nano": 1e-9}
-FORCE, PRESSURE, TORQUE = (1, 1, -2, 0, 0), (1, -1, -2, 0, 0), (1, 2, -2, 0, 0)
-LENGTH, TIME, MASS, ANGLE = (0, 1, 0, 0, 0), (0, 0, 1, 0, 0), (1, 0, 0, 0, 0), (0, 0, 0, 0, 1)
-PREFIXED = {  # symbol -> exponents of BASE and SI value; SI prefixes may stand before it
-    "m": (LENGTH, 1.0),
-    "g": (MASS, 1e-3),
-    "s": (TIME, 1.0),
-    "sec": (TIME, 1.0),
-    "K": ((0, 0, 0, 1, 0), 1.0),
-    "rad": (ANGLE, 1.0),
-    "Hz": ((0, 0, -1, 0, 0), 1.0),
-    "N": (FORCE, 1.0),
-    "dyn": (FORCE, 1e-5),
-    "Pa": (PRESSURE, 1.0),
-    "bar": (PRESSURE, 1e5),
-    "J": (TORQUE, 1.0),
-    "W": ((1, 2, -3, 0, 0), 1.0),
-    "L": ((0, 3, 0, 0, 0), 1e-3),
-    "l": ((0, 3, 0, 0, 0), 1e-3),
-    "P": ((1, -1, -1, 0, 0), 0.1),
-    "St": ((0, 2, -1, 0, 0), 1e-4),
-    "Nm": (TORQUE, 1.0),
-    "Nmm": (TORQUE, 1e-3),
-    "Ncm": (TORQUE, 1e-2),
-    "Pas": ((1, -1, -1, 0, 0), 1.0),
-}
-PLAIN = {  # no prefix stands before these
-    "in": (LENGTH, INCH),
-    "ft": (LENGTH, 12.0 * INCH),
-    "mil": (LENGTH, 1e-3 * INCH),
-    "micron": (LENGTH, 1e-6),
-    "lb": (MASS, POUND),
-    "oz": (MASS, POUND / 16.0),
-    "t": (MASS, 1e3),
-    "lbf": (FORCE, POUND * GRAVITY),
-    "ozf": (FORCE, POUND * GRAVITY / 16.0),
-    "kip": (FORCE, 1e3 * POUND * GRAVITY),
-    "kgf": (FORCE, GRAVITY),
-    "psi": (PRESSURE, POUND * GRAVITY / INCH**2),
-    "ksi": (PRESSURE, 1e3 * POUND * GRAVITY / INCH**2),
-    "atm": (PRESSURE, 101325.0),
-    "hp": ((1, 2, -3, 0, 0), 550.0 * 12.0 * INCH * POUND * GRAVITY),
-    "min": (TIME, 60.0),
-    "h": (TIME, 3600.0),
-    "day": (TIME, 86400.0),
-    "deg": (ANGLE, math.pi / 180.0),
-    "arcmin": (ANGLE, math.pi / 10800.0),
-    "arcsec": (ANGLE, math.pi / 648000.0),
-    "rev": (ANGLE, 2.0 * math.pi),
-    "rpm": ((0, 0, -1, 0, 1), 1.0 / RPM),
-    "krpm": ((0, 0, -1, 0, 1), 1e3 / RPM),
-    "gmm": ((1, 1, 0, 0, 0), 1e-6),
-    "%": ((0, 0, 0, 0, 0), 1e-2),
-    "‰": ((0, 0, 0, 0, 0), 1e-3),
-    "ppm": ((0, 0, 0, 0, 0), 1e-6),
-}
-NAMES = {  # other names of an atom
-    "m": "metre meter",
-    "s": "second",
-    "g": "gram gramme",
-    "N": "newton",
-    "Pa": "pascal",
-    "Hz": "hertz cps",
-    "J": "joule",
-    "W": "watt",
-    "L": "litre liter",
-    "K": "kelvin",
-    "rad": "radian",
-    "in": 'inch inches "',
-    "ft": "foot feet",
-    "mil": "mils thou",
-    "lb": "lbs lbm pound",
-    "lbf": "lbsf",
-    "kgf": "kp",
-    "psi": "PSI",
-    "min": "minute",
-    "h": "hr hrs hour",
-    "day": "d days",
-    "deg": "° degree",
-    "rev": "r revs U tr turn revolution",
-    "rpm": "RPM Rpm",
-    "micron": "microns",
-    "%": "percent",
-}
+TABLE = tomllib.loads((files("riveted_bearing") / "data" / "units.toml").read_text(encoding="utf-8"))
+PREFIXED, PLAIN = (  # symbol -> exponents of BASE and SI value
+    {symbol: (tuple(TABLE["quantities"][of]), value) for symbol, (of, value, *_) in TABLE[part].items()}
+    for part in ("prefixed", "plain")
+)
 ATOMS = PREFIXED | PLAIN
-ALIASES = {name: symbol for symbol, names in NAMES.items() for name in names.split()}
+NAMED = TABLE["prefixed"] | TABLE["plain"]
+ALIASES = {name: symbol for symbol, (_, _, *names) in NAMED.items() for name in " ".join(names).split()}
 REVOLUTION = 2.0 * math.pi
 # what a symbol means where another quantity than its own is wanted: SI unit -> {symbol: SI value}
 MEANT = {
@@ -119,42 +44,7 @@ TEMPERATURES = {  # symbol -> (factor, offset): value in it = factor * K + offse
     "degC": (1.0, -273.15),
     "degF": (1.8, -459.67),
 }
-SPELLINGS = {  # how a symbol is shown -> how else people write it
-    "rev/min": "rpm RPM Rpm r/min U/min tr/min",
-    "krpm": "krev/min",
-    "um": "micron",
-    "in": 'inch inches "',
-    "deg": "°",
-    "degC": "°C C ℃ celsius Celsius",
-    "degF": "°F F fahrenheit Fahrenheit",
-    "kgf": "kp",
-    "N.m": "Nm",
-    "N.mm": "Nmm",
-    "MPa": "N/mm2",
-    "mm2/s": "cSt",
-    "L/min": "l/min",
-    "Pa.s": "Pas",
-    "mPa.s": "mPas",
-    "s": "sec",
-}
-SYMBOLS = {spelling: symbol for symbol, spellings in SPELLINGS.items() for spelling in spellings.split()}
-# shown as allowed beside the display units of the variable table
-MULTIPLES = {
-    "m": ("cm", "in"),
-    "m/s": ("mm/s", "in/s"),
-    "m/s2": ("g", "mm/s2"),
-    "N": ("kN", "kgf", "lbf"),
-    "N.m": ("N.mm", "kN.m", "lbf.in"),
-    "rad": ("mrad",),
-    "rad/s": ("krpm", "rev/s", "deg/s"),
-    "Pa": ("bar", "psi"),
-    "Pa.s": ("cP",),
-    "kg": ("lb",),
-    "kg/m3": ("g/cm3",),
-    "s": ("us", "min", "h"),
-    "K": ("degF",),
-    "1": ("%",),
-}
+SYMBOLS = {name: symbol for symbol, names in TABLE["spellings"].items() for name in names.split()}
 WRITTEN = str.maketrans("µμ·⋅×*−℃", "uu....-C") | {ord("²"): "2", ord("³"): "3", ord("⁻"): "-", ord("¹"): "1"}
 TERM = re.compile(r"([^\d^+\-()]+)\^?([+-]?\d+(?:\.\d+)?)?")
 SHORT = 0.1  # h: a shorter life is told in minutes or seconds
@@ -188,8 +78,8 @@ def unit_table(unit_definitions: Any) -> Any:
 
 
 def scales_of(unit: str, displays: Any) -> Any:
-    """Scales of an SI unit: its own, those of its display units, and its MULTIPLES."""
-    more = {symbol: conversion(symbol, unit) for symbol in MULTIPLES.get(unit, ())}
+    """Scales of an SI unit: its own, those of its display units, and its multiples in data/units.toml."""
+    more = {symbol: conversion(symbol, unit) for symbol in TABLE["multiples"].get(unit, "").split()}
     return Scales({unit: (1.0, 0.0)} | displays | more)
 
 
@@ -313,9 +203,9 @@ def scale(symbol: Any, scales: Any) -> Any:
     return found[0] * factor, found[1] + found[0] * offset
 
 
-def three_digits(number: float) -> float:
-    """A computed number that nobody knows better."""
-    return float(f"{number:.3g}")
+def rounded(number: float, digits: int = 6) -> float:
+    """A computed number with so many digits: six are enough for an assumption."""
+    return float(f"{number:.{digits}g}")
 
 
 def hours_text(hours: Any, digits: int = 3) -> str:
@@ -341,11 +231,8 @@ def to_si(value: Any, scales: Any) -> float:
     if isinstance(value, str):
         match = NUMBER.fullmatch(value)
         if not match:
-            raise UserError(
-                "not a number"
-                if "1" in scales
-                else f'not a number with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"'
-            )
+            example = f' with a unit such as "1.5 {list(scales)[min(1, len(scales) - 1)]}"'
+            raise UserError(f"not a number{'' if '1' in scales else example}")
         factor, offset = scale(match[2] or "", scales)
         value = (float(match[1]) - offset) / factor
     if isinstance(value, bool) or not isinstance(value, Real) or not is_finite(value):
@@ -419,6 +306,6 @@ def certain(value: float, half: float) -> str:
     return placed(value, math.floor(math.log10(half)))
 
 
-def placed(value, place):
-    """A value rounded to a power of ten."""
+def placed(value: float, place: int) -> str:
+    """A value rounded to a power of ten, without a minus sign before zero."""
     return f"{round(value, -place) + 0.0:.{max(0, -place)}f}"

@@ -130,12 +130,16 @@ def all_assumed(about: Any, parameters: Any) -> Iterator[Assumed]:
         if name not in own and (name.startswith("rivet.") or name in parameters):
             unit, factor, _ = shown_in(name)
             value = sizes.get(name) if name.startswith("rivet.") else parameters[name]
-            yield assumed(name, unit, factor, value, each, parameters, screening)
+            told = each.source, (each.low, each.high), *known_effect(name, screening)
+            if value is None:
+                yield Assumed(name, unit, None, None, None, *told)
+            else:
+                yield Assumed(name, unit, *(factor * x for x in (value, *ends(name, value, each, parameters))), *told)
     for name, (low, high, source) in TEMPERATURES.items():
         if name in temperatures and name not in given and name not in own:
             T, of_oil = (temperatures[n] - 273.15 for n in (name, "oil.T"))
-            ends = min(T, of_oil + low), max(T, of_oil + high)
-            yield Assumed(name, "degC", T, *ends, source, (low, high), *known_effect(name, screening))
+            reached = min(T, of_oil + low), max(T, of_oil + high)
+            yield Assumed(name, "degC", T, *reached, source, (low, high), *known_effect(name, screening))
     values = parameters | sizes | temperatures
     for name, pair in own.items():
         if name in values:
@@ -166,15 +170,6 @@ def known_effect(name, screening):
     if entry := screening["entries"].get(name):
         return entry["effect"], "", f"screened in this bearing at its own loads and speed, {screening['seeds']} seeds"
     return None, screening["not_covered"].get(name, UNKNOWN), ""
-
-
-def assumed(name, unit, factor, value, each, parameters=None, screening=None):
-    """An Assumed of a value in SI."""
-    factors, told = (each.low, each.high), known_effect(name, screening or {})
-    if value is None:
-        return Assumed(name, unit, None, None, None, each.source, factors, *told)
-    low, high = (factor * end for end in ends(name, value, each, parameters))
-    return Assumed(name, unit, factor * value, low, high, each.source, factors, *told)
 
 
 def ends(name, value, each, parameters):

@@ -15,8 +15,8 @@ from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys
 from ..base.schema import checked
 from ..base.toml_files import read_toml, section_of
-from ..base.units import check_alike, to_si
-from . import catalogue, materials, oil, ribbon, rivet_heads, scaling, seats
+from ..base.units import check_alike, rounded, to_si
+from . import catalogue, materials, oil, ribbon, rivet_heads, seats
 from .bearing_keys import RIVET_MATERIAL, RIVET_SIZES, BearingFile, RivetFile
 from .case import Case
 from .designations import find_bearing, shipped_bearings, unknown_designation
@@ -176,7 +176,8 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     origin |= dict.fromkeys((name for name in iso if name not in data), "rule")
     data = iso | data
     inside = "" if prefix else in_cage(designation)
-    check_limits(path, document, parts, lambda name: called(name, prefix), inside)
+    called = lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
+    check_limits(path, document, parts, called, inside)
     check_guidance(path, values)
     found["cage"] = found["cage"].with_density(values["cage.rho"])
     rivet, given_values = (
@@ -229,14 +230,9 @@ def check_boundary(path, document, data, entry):
             raise refusal(path, f"catalogue.{key}", written, reason)
 
 
-def called(name, prefix):
-    """What a file calls a value that belongs to the rivet, or to the bearing."""
-    return prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
-
-
 def ratings(Z, D, d_m):
     """C and C_0 [N] by ISO 281 and ISO 76 for Z balls [m], where no catalogue's hold."""
-    return {"C": scaling.rounded(dynamic_rating(Z, D, d_m)), "C_0": scaling.rounded(static_rating(Z, D, d_m))}
+    return {"C": rounded(dynamic_rating(Z, D, d_m)), "C_0": rounded(static_rating(Z, D, d_m))}
 
 
 def plain_names(tree):

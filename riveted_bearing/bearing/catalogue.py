@@ -30,17 +30,13 @@ BALL_SIZES = sorted(
 # angle of the arc that the balls take when they are filled in: usual 180 to 200 degrees
 LARGEST_FILL = math.radians(205.0)
 THICKEST_BALL = 0.325  # ball diameter over the difference of the bearing's diameters: usual 0.28 to 0.32
-# class: least and largest radial internal clearance [um] for bores up to UP_TO: ISO 5753-1:2009; CM, of electric motors:
-# makers' tables (NSK, Mitsubishi Electric)
-CLEARANCE = {
-    "C2": ((0, 7), (0, 9), (0, 10), (1, 11), (1, 11), (1, 11), (1, 15), (1, 15), (1, 18), (2, 20)),
-    "CN": ((2, 13), (3, 18), (5, 20), (5, 20), (6, 20), (6, 23), (8, 28), (10, 30), (12, 36), (15, 41)),
-    "C3": ((8, 23), (11, 25), (13, 28), (13, 28), (15, 33), (18, 36), (23, 43), (25, 51), (30, 58), (36, 66)),
-    "C4": ((14, 29), (18, 33), (20, 36), (23, 41), (28, 46), (30, 51), (38, 61), (46, 71), (53, 84), (61, 97)),
-    "C5": ((20, 37), (25, 45), (28, 48), (30, 53), (40, 64), (45, 73), (55, 90), (65, 105), (75, 120), (90, 140)),
-    "CM": ((4, 11), (4, 11), (5, 12), (5, 12), (9, 17), (9, 17), (12, 22), (12, 22), (18, 30), (18, 30)),
+ROWS = csv_rows(files("riveted_bearing") / "data" / "clearance.csv")
+UP_TO = [int(row["up_to"]) for row in ROWS]  # mm
+CLEARANCE = {  # class: least and largest radial internal clearance [um] for bores up to UP_TO
+    name.removesuffix("_least"): [(int(row[name]), int(row[name.replace("least", "largest")])) for row in ROWS]
+    for name in ROWS[0]
+    if name.endswith("_least")
 }
-UP_TO = (10, 18, 24, 30, 40, 50, 65, 80, 100, 120)  # mm
 
 
 @dataclass(frozen=True)

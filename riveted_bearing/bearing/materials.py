@@ -19,8 +19,8 @@ from importlib.resources import files
 from bearing_model.generated import variables
 
 from ..base.errors import UserError, refusal, refusing, unknown
-from ..base.toml_files import positive
-from ..base.units import scales_of, symbol_of
+from ..base.schema import Number
+from ..base.units import rounded, scales_of, symbol_of
 from .file_values import span
 
 TABLE = files("riveted_bearing") / "data" / "materials.toml"
@@ -164,7 +164,7 @@ def scaled_endurance(values, own):
     """The endurance of a material whose strength alone is another one: it keeps its ratio to the strength."""
     if "strength" not in own or "endurance" in own or not values.keys() >= set(OPTIONAL):
         return {}
-    return {"endurance": float(f"{own['strength'] / values['strength'] * values['endurance']:.6g}")}
+    return {"endurance": rounded(own["strength"] / values["strength"] * values["endurance"])}
 
 
 def only_one(path, key, value, other, other_value, written=None, other_written=None):
@@ -209,7 +209,7 @@ def property_of(path, where, key, value):
     """SI value of a property, checked."""
     unit = UNITS[key]
     with refusing(path, where, value):
-        number = positive(value, scales_of(unit, variables.UNITS[unit]))
+        number = Number(scales_of(unit, variables.UNITS[unit]), above=0.0).read(value)
         if key == "nu" and number >= 0.5:
             raise UserError("below 0.5 is allowed")
         variable = variables.PARAMETERS.get(PARTS[where.partition(".")[0]].parameters.get(key))

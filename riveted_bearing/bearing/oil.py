@@ -23,6 +23,7 @@ from bearing_model.physics.temperature import oil_ratios
 from bearing_model.physics.viscosity import Oil
 
 from ..base.errors import UserError, refusal, unknown
+from ..base.units import rounded
 
 TABLE = files("riveted_bearing") / "data" / "oils.toml"
 KEYS = ("kind", "grade")
@@ -133,7 +134,7 @@ def named(where: Any, written: Any, given: Any, start: Any) -> Any:
         raise
     except ValueError as problem:  # of Oil
         raise UserError(f"{where}: oil.nu_1, oil.nu_2: {problem}") from None
-    return name, {key: float(f"{value:.6g}") for key, value in found.items() if key not in given}
+    return name, {key: rounded(value) for key, value in found.items() if key not in given}
 
 
 def kind_and_grade(where, written):
@@ -195,7 +196,7 @@ def points_of(where, written, kind, grade, given, values):
         allowed = f'as "{kind} {VG}32", or by oil.nu_1 or oil.nu_2 in [parameters]'
         raise refusal(where, "oil", written, f"its viscosity is needed: {allowed}")
     oil = Oil(1e-6 * nu_40, T_40, 1e-6 * nu_100, T_100)
-    return {point: float(f"{oil.nu(values[point.replace('nu', 'T')]):.6g}") for point in POINTS}
+    return {point: rounded(oil.nu(values[point.replace("nu", "T")])) for point in POINTS}
 
 
 def at_100(table, nu_40):

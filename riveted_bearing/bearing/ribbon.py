@@ -12,9 +12,12 @@ head's room on the land and a contact beside the fillet allow.
 """
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 from rivet_model import ribbon_shape
+
+from ..base.units import rounded
 
 MATERIAL, RIVET_MATERIAL = "DC04", "C10C"
 STOCK = (0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 1.8, 2.0, 2.5, 3.0)  # mm
@@ -101,17 +104,11 @@ def fillet(Z, D, d_m, values, rivet):
     by_seam = max((most * Rc - e) / (1.0 - most), 0.0) if most < 1.0 else Rc
     needed = 0.5 * rivet["head_diameter"] + ROOM * rivet["shank_diameter"]
 
-    class Shape:
-        """The members that ribbon_shape.land_half_length needs."""
-
-        ball_diameter, pocket_clearance, cage_half_width, flange_thickness = D, clearance, depth + S, S
-        cage_outer_diameter, cage_inner_diameter = values["cage.D_o"], values["cage.D_i"]
-
-    Shape.Z, Shape.d_m = Z, d_m
+    sizes = {"Z": Z, "d_m": d_m, "ball_diameter": D, "pocket_clearance": clearance, "cage_half_width": depth + S}
+    sizes |= {"cage_outer_diameter": values["cage.D_o"], "cage_inner_diameter": values["cage.D_i"]}
 
     def land(f):
-        Shape.pocket_fillet = f
-        return ribbon_shape.land_half_length(Shape)
+        return ribbon_shape.land_half_length(SimpleNamespace(**sizes, flange_thickness=S, pocket_fillet=f))
 
     low, high = BEND * S, max(by_seam, BEND * S)
     if not land(high) >= needed:
@@ -119,4 +116,4 @@ def fillet(Z, D, d_m, values, rivet):
             middle = 0.5 * (low + high)
             low, high = (middle, high) if land(middle) >= needed else (low, middle)
         high = low
-    return float(f"{high:.4g}")
+    return rounded(high, 4)

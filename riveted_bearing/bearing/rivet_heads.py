@@ -40,10 +40,6 @@ def head_of(path, standard, sizes):
         raise refusal(path, "rivet.head", standard, f"rivet.shank_diameter is needed too; {standard} has {shanks} mm")
     shank = next((shank for shank in rows if math.isclose(shank, 1e3 * sizes["shank_diameter"], rel_tol=1e-6)), None)
     if shank is None:
-        raise refusal(
-            path,
-            "rivet.head",
-            standard,
-            f"it has shanks of {shanks} mm, but rivet.shank_diameter = {1e3 * sizes['shank_diameter']:g} mm",
-        )
+        given = f"rivet.shank_diameter = {1e3 * sizes['shank_diameter']:g} mm"
+        raise refusal(path, "rivet.head", standard, f"it has shanks of {shanks} mm, but {given}")
     return dict(zip(("head_diameter", "head_height"), rows[shank], strict=True))

@@ -14,17 +14,7 @@ from . import catalogue, limits, materials, ribbon, scaling
 from .file_values import defaults, flat, is_number, shown
 
 # a bearing's own
-CAGE_SIZES = (
-    "Z",
-    "d_m",
-    "ball_diameter",
-    "pocket_clearance",
-    "cage_outer_diameter",
-    "cage_inner_diameter",
-    "cage_half_width",
-    "shape",
-    "pocket_fillet",
-)
+CAGE_SIZES = (*(name for name in scaling.SHAPE if name != "rho_flange"), "shape", "pocket_fillet")
 CAGE_MATERIAL = tuple(materials.PARTS["cage"].geometry.values())
 # the rivet's own, with the defaults
 RIVET = {f.name: f.default for f in fields(Geometry) if f.name not in (*CAGE_SIZES, *CAGE_MATERIAL)}

@@ -19,6 +19,7 @@ from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 
+from ..base.units import rounded
 from . import oil, ribbon
 
 BORE, WIDTH = 0.035, 0.017  # of the 6207 [m]
@@ -58,11 +59,6 @@ SETTLED = 15.0  # revolutions of the shaft before statistics begin, as the 6207'
 def start(name):
     """Default of a parameter, the 6207's."""
     return variables.PARAMETERS[name].start
-
-
-def rounded(value):
-    """Six digits: enough for an assumption."""
-    return float(f"{value:.6g}")
 
 
 def scaled_parameters(Z, D, d_m, given, rivet, bore=None, width=None, designation=""):
@@ -175,23 +171,17 @@ def scaled_rivet(Z, D, d_m, given, rivet, bore=None, designation=""):
     if ribbon.is_ribbon(given):
         bore = d_m - (start("bearing.d_m") - BORE) * r if bore is None else bore
         values = ribbon.rivet_sizes(D, bore, given, rivet, designation)
-        s = values["shank_diameter"] / RIVET["shank_diameter"]
-        values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
-        return {name: value for name, value in values.items() if name not in rivet}
-    values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
+    else:
+        values = {name: rounded(r * RIVET[name]) for name in RIVET_BY_BALL} | rivet
     s = values["shank_diameter"] / RIVET["shank_diameter"]
     values = {name: rounded(s * RIVET[name]) for name in RIVET_BY_SHANK} | values
-    shape = shape_of(
-        {"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given, values
-    )
-    across = min(
-        d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m, 2.0 * half_shape.narrowest_half_bar(shape)
-    )
-    if "seat_diameter" not in rivet:
+    if "seat_diameter" not in values:
+        known = {"Z": Z, "bearing.D": D, "bearing.d_m": d_m, "cage.rho": start("cage.rho")} | cage_sizes(D, d_m) | given
+        shape = shape_of(known, values)
+        sides = d_m - shape.cage_inner_diameter, shape.cage_outer_diameter - d_m
+        across = min(*sides, 2.0 * half_shape.narrowest_half_bar(shape)) - 2.0 * half_shape.LEAST_WALL
         usual = values["head_diameter"] * RIVET["seat_diameter"] / RIVET["head_diameter"]
-        values["seat_diameter"] = rounded(
-            max(values["head_diameter"], min(usual, across - 2.0 * half_shape.LEAST_WALL))
-        )
+        values["seat_diameter"] = rounded(max(values["head_diameter"], min(usual, across)))
     return {name: value for name, value in values.items() if name not in rivet}
 
 
@@ -207,4 +197,4 @@ def scaled_inputs(Z, D, d_m, inputs, C=None):
     if any(name in inputs for name in LOADS):
         return speed | dict.fromkeys(LOADS[:2], 0.0)
     F_y = 0.1 * (C or dynamic_rating(Z, D, d_m))
-    return speed | {"shaft.F_y": float(f"{F_y:.3g}"), "shaft.F_x": float(f"{F_y / 6.0:.3g}")}
+    return speed | {"shaft.F_y": rounded(F_y, 3), "shaft.F_x": rounded(F_y / 6.0, 3)}

@@ -15,13 +15,12 @@ from bearing_model.generated.variables import PARAMETERS, MeanStress
 from bearing_model.instance.fatigue import FatigueLaw
 
 from ..base.errors import UserError, library, refusal
-from ..base.schema import Choice, Number, Section, checked, holds
+from ..base.schema import PLAIN, Choice, Number, Section, checked, holds
 from ..base.tables import Table, Wanted
 from ..base.toml_files import read_toml
 
 PASCAL = {"Pa": (1.0, 0.0), "MPa": (1e-6, 0.0)}
 METRE = {"m": (1.0, 0.0), "um": (1e6, 0.0)}
-PLAIN = {"1": (1.0, 0.0)}
 CURVE = ("sigma_D", "N_D", "k_1", "k_2", "sigma_m", "sigma_f")
 LEAST = 1e6  # Pa; no steel is weaker: a smaller strength is one in MPa without its unit
 LEAST_ALLOWED = "from 1e6 Pa (1 MPa) on is allowed"

@@ -19,15 +19,13 @@ from typing import Any
 from ..base.files import cache_folder, cache_path, make_folder, write_atomically
 from .compiler import alone_in, compile_command, configure, execute, finish, identity, start, stop
 
-SOURCES = (
-    *("CMakeLists.txt", "cmake/*.[ch]*", "fmu_src/**/*.[ch]"),
-    *(
-        "fmus/generate.py",
-        "fmus/limits.py",
-        "fmus/variables.toml",
-        "fmus/templates/*.[ch]",
-    ),  # make variables.h, limits.c
-)
+MAKERS = (
+    "fmus/generate.py",
+    "fmus/limits.py",
+    "fmus/variables.toml",
+    "fmus/templates/*.[ch]",
+)  # of variables.h, limits.c
+SOURCES = ("CMakeLists.txt", "cmake/*.[ch]*", "fmu_src/**/*.[ch]", *MAKERS)
 
 
 @dataclass(frozen=True)
@@ -93,9 +91,8 @@ class Core:
         """Copy the archive into the cache."""
         made = self.folder / "core.a"
         digest = sha256(made.read_bytes()).hexdigest()
-        write_atomically(
-            cache_folder("cores") / f"{key}-{digest}.a", lambda temporary: shutil.copyfile(made, temporary)
-        )
+        kept = cache_folder("cores") / f"{key}-{digest}.a"
+        write_atomically(kept, lambda temporary: shutil.copyfile(made, temporary))
 
 
 @contextlib.contextmanager

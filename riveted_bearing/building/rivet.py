@@ -23,21 +23,17 @@ from rivet_model.load_cases import Joint
 
 from ..base.errors import UserError, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
-from ..base.toml_files import positive, read_toml
+from ..base.schema import Number
+from ..base.toml_files import read_toml
 from ..bearing.bearing_file import bearing_case
 from ..bearing.bearing_keys import BALLS, RIVET_SIZES
 from ..bearing.file_values import is_number, unit_scales
 from ..bearing.rules import CAGE_SIZES, check_limits, in_cage
+from ..bearing.scaling import SHAPE
 
 TABLES = ("coarse", "full", "closed-form")  # kinds that a user can ask for
-CAGE_NAMES = {  # key of a geometry file -> of a bearing file
-    "Z": "Z",
-    "d_m": "bearing.d_m",
-    "ball_diameter": "bearing.D",
-    "pocket_clearance": "cage.pocket_clearance",
-    "cage_outer_diameter": "cage.D_o",
-    "cage_inner_diameter": "cage.D_i",
-}
+# key of a geometry file -> of a bearing file
+CAGE_NAMES = {key: name for key, name in SHAPE.items() if key not in ("cage_half_width", "rho_flange")}
 
 
 @threadpool_limits.wrap(limits=1)  # small matrices
@@ -92,6 +88,8 @@ def read_geometry(path, bearing=None):
         "parameters": {CAGE_NAMES[name]: document[name] for name in own if name in CAGE_NAMES},
     }
     parts = own.get("Z", case.Z), given, case.rivet, {}, {}, None
+    keys = {name: key for key, name in CAGE_NAMES.items()}
+    called = lambda name: keys.get(name, name.removeprefix("rivet."))
     check_limits(path, written, parts, called, in_cage(case.designation))
     try:
         return Geometry(**(case.joint | own))
@@ -119,12 +117,7 @@ def cage_sizes(path, section):
         if name not in CAGE_SIZES:
             continue
         with refusing(path, name, value):
-            yield name, BALLS.read(value) if name == "Z" else positive(value, unit_scales("m"))
-
-
-def called(name):
-    """What a geometry file calls a value of a bearing file."""
-    return next((key for key, of in CAGE_NAMES.items() if of == name), name.removeprefix("rivet."))
+            yield name, BALLS.read(value) if name == "Z" else Number(unit_scales("m"), above=0.0).read(value)
 
 
 def geometry_of(case):
@@ -143,15 +136,6 @@ def read_table(path, Z=None):
         raise UserError(f"{path}: {problem.strerror}") from None
     except ValueError as problem:
         raise UserError(str(problem)) from None
-
-
-def is_table(path):
-    """Whether there is a table that is not damaged."""
-    try:
-        rivet_table.read(path)
-    except (OSError, ValueError):
-        return False
-    return True
 
 
 def condensed(geometry, path):
@@ -176,7 +160,10 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
     kind = kind or ("full" if shipped else "coarse")
     name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
     target = cache_path("tables") / f"{name}.json"
-    if is_table(target):  # perhaps of another user, in whose cache nothing can be written
+    with contextlib.suppress(
+        OSError, ValueError
+    ):  # there and whole, perhaps of another user, whose cache takes no files
+        rivet_table.read(target)
         return target
     cache_folder("tables")
 

@@ -9,8 +9,9 @@ from rich.markup import escape
 from rich.progress import TimeElapsedColumn
 
 from ..base.errors import UserError
+from .options import CAGE
 from .printing import note, print_paths
-from .terminal import CAGE, command, console, messages, progress_bar
+from .terminal import command, console, messages, progress_bar
 from .terminal import screen as screening_of
 
 TABLES = ("coarse", "full", "closed-form")  # of rivet.py, whose import takes a second

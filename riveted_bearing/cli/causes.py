@@ -9,8 +9,9 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import make_folder
 from ..base.toml_files import read_toml
-from .printing import print_paths, table
-from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+from .options import FMU, OUT, SCHEDULER, WORKERS
+from .printing import print_basis, print_paths, table
+from .terminal import command, console, design_runs
 
 
 @command
@@ -39,9 +40,7 @@ def causes(
     from ..identify.posterior import answer, predictions
     from ..running.fmu import Model
 
-    if not findings.is_file():
-        raise UserError(f"{findings}: no such file of findings")
-    model, document = Model(fmu), read_toml(findings)
+    document, model = read_toml(findings, "file of findings"), Model(fmu)
     scene = mission_scene(findings, document, model)
     study = plan_causes(findings, document, model, scene)
     folder = out or Path("results") / findings.stem

@@ -7,8 +7,9 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import print_paths, table
-from .terminal import FMU, SETTINGS, changes, command, console, number_or_text, print_basis, progress_bar
+from .options import FMU, SETTINGS
+from .printing import print_basis, print_paths, table
+from .terminal import changes, command, console, number_or_text, progress_bar
 
 
 @command

@@ -7,18 +7,10 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import document_of, print_paths, table
-from .terminal import (
-    SCHEDULER,
-    WORKERS,
-    command,
-    console,
-    design_runs,
-    messages,
-    number_or_text,
-    print_warnings,
-    screen,
-)
+from ..base.toml_files import read_toml
+from .options import SCHEDULER, WORKERS
+from .printing import print_paths, print_warnings, table
+from .terminal import command, console, design_runs, messages, number_or_text, screen
 
 MOST_DIFFERENCES = 12  # on the terminal
 
@@ -43,7 +35,7 @@ def compare_designs(
     from ..duty.designs import compare_designs, read_designs
     from ..duty.designs_page import PAGE, write_page, write_record
 
-    document_of(mission, "mission")
+    read_toml(mission, "mission file")
     chosen = read_designs(designs, number_or_text)
     folder = out or Path("results") / f"{mission.stem}_designs"
     make_folder(folder)

@@ -6,8 +6,9 @@ from typing import Annotated
 import typer
 
 from ..base.files import make_folder
+from .options import FMU, OUT, SCHEDULER, WORKERS
 from .printing import print_runs
-from .terminal import FMU, OUT, SCHEDULER, STOPPED, WORKERS, command, design_runs
+from .terminal import STOPPED, command, design_runs
 
 
 @command

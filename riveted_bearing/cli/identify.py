@@ -7,8 +7,10 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import document_of, print_paths, table
-from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis
+from ..base.toml_files import read_toml
+from .options import FMU, OUT, SCHEDULER, WORKERS
+from .printing import print_basis, print_paths, table
+from .terminal import command, console, design_runs
 
 
 @command
@@ -34,7 +36,7 @@ def identify(
     from ..identify.study import plan_identify
     from ..running.fmu import Model
 
-    document, model = document_of(study, "study"), Model(fmu)
+    document, model = read_toml(study, "study file"), Model(fmu)
     plan = plan_identify(study, document, model)
     salib("identify")  # before there is a folder
     folder = out or Path("results") / study.stem

@@ -6,8 +6,9 @@ from typing import Annotated
 import typer
 from rich.markup import escape
 
-from .printing import note
-from .terminal import CAGE, CLEANLINESS, FMU, chosen_cleanliness, command, console, print_basis
+from .options import CAGE, CLEANLINESS, FMU
+from .printing import note, print_basis
+from .terminal import chosen_cleanliness, command, console
 
 
 @command

@@ -11,6 +11,7 @@ from bearing_model.kinematics import fault_frequencies
 from rivet_model.geometry import Geometry
 
 from ..base.errors import UserError
+from ..base.units import placed
 from ..bearing.ribbon import is_ribbon
 from ..running.summary import DEG, RPM
 from .printing import table
@@ -225,8 +226,8 @@ def equilibrium(case, state):
     """Name, value and unit of displacements, loads and life in the equilibrium."""
     loaded = state.Q_i > 0.0
     place = [getattr(state, name) + case.value(f"housing.{name}") for name in ("x", "y", "z", "tilt_y", "tilt_z")]
-    yield "ring displacement x, y, z", ", ".join(fixed(1e6 * value, 2) for value in place[:3]), "um"
-    yield "ring tilt y, z", ", ".join(fixed(DEG * value, 4) for value in place[3:]), "deg"
+    yield "ring displacement x, y, z", ", ".join(placed(1e6 * value, -2) for value in place[:3]), "um"
+    yield "ring tilt y, z", ", ".join(placed(DEG * value, -4) for value in place[3:]), "deg"
     yield "stiffness x, y, z (tilt held)", ", ".join(f"{1e-6 * value:.3g}" for value in np.diag(state.K)[:3]), "N/um"
     yield "balls carrying on the inner race", f"{loaded.sum()} of {case.Z}", ""
     yield "largest contact load inner, outer", f"{state.Q_i.max():.0f}, {state.Q_e.max():.0f}", "N"
@@ -279,18 +280,13 @@ def balls(state):
             f"{DEG * psi:.0f}",
             f"{Q_i:.0f}",
             f"{Q_e:.0f}",
-            fixed(DEG * alpha_i, 2) if Q_i > 0.0 else "-",
-            fixed(DEG * alpha_e, 2) if Q_e > 0.0 else "-",
+            placed(DEG * alpha_i, -2) if Q_i > 0.0 else "-",
+            placed(DEG * alpha_e, -2) if Q_e > 0.0 else "-",
             f"{1e-6 * p_i:.0f}",
             f"{1e-6 * p_e:.0f}",
             f"{abs(spin / roll):.3f}" if Q_i > 0.0 and roll else "-",
         )
     return shown
-
-
-def fixed(value, digits):
-    """A number with the given digits after the point, and no minus sign before zero."""
-    return f"{round(value, digits) + 0.0:.{digits}f}"
 
 
 def pairs(rows):

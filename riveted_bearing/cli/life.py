@@ -7,20 +7,9 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import print_budgets, print_paths, table
-from .terminal import (
-    FMU,
-    OUT,
-    SCHEDULER,
-    WORKERS,
-    command,
-    console,
-    design_runs,
-    messages,
-    print_basis,
-    print_warnings,
-    screen,
-)
+from .options import FMU, OUT, SCHEDULER, WORKERS
+from .printing import print_basis, print_budgets, print_paths, print_warnings, table
+from .terminal import command, console, design_runs, messages, screen
 
 SHEET = "summary.html"  # of the command `summary`, in the same folder
 

@@ -6,8 +6,9 @@ from typing import Annotated
 import typer
 
 from ..base.files import make_folder
-from .printing import note, print_paths, table
-from .terminal import FMU, command, console, option_value, print_basis, progress_bar
+from .options import FMU
+from .printing import note, print_basis, print_paths, table
+from .terminal import command, console, option_value, progress_bar
 
 SPEEDS = 6  # up to that of the scene, if none is given
 

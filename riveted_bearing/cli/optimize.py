@@ -7,8 +7,10 @@ import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .printing import document_of, note, print_budgets, print_paths, table
-from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
+from ..base.toml_files import read_toml
+from .options import FMU, OUT, SCHEDULER, WORKERS
+from .printing import note, print_basis, print_budgets, print_paths, table
+from .terminal import command, console, design_runs, screen
 
 
 @command
@@ -30,7 +32,7 @@ def optimize(
     from ..running.budget import of_record
     from ..running.fmu import Model
 
-    document, model = document_of(study, "study"), Model(fmu)
+    document, model = read_toml(study, "study file"), Model(fmu)
     plan = plan_optimize(study, document, model)
     optuna_library()  # before there is a folder
     folder = out or Path("results") / study.stem

@@ -1,10 +1,8 @@
-"""What several commands print: notes, tables, the files that were written; and the files that they read first."""
+"""What several commands print: notes, tables, the files that were written."""
 
 from rich.markup import escape
 from rich.table import Column, Table
 
-from ..base.errors import UserError
-from ..base.toml_files import read_toml
 from .terminal import console, messages
 
 
@@ -19,6 +17,18 @@ def print_paths(*files):
         console.print(f"{label:8} [cyan]{escape(str(path))}[/]")
 
 
+def print_basis(rows):
+    """What the figures that follow rest on; what a scene has replaced stands out."""
+    for name, text in rows:
+        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]")
+
+
+def print_warnings(texts):
+    """Sentences that a user must not miss, on stderr."""
+    for text in texts:
+        messages.print(f"[yellow]warning: {escape(text)}[/]")
+
+
 def table(heads, rows=(), left=1, **look):
     """A table of texts without rules: its first columns, `left` of them, stand on the left, the others on the right."""
     columns = (Column(head, justify="left" if i < left else "right") for i, head in enumerate(map(escape, heads)))
@@ -26,13 +36,6 @@ def table(heads, rows=(), left=1, **look):
     for row in rows:
         shown.add_row(*map(escape, row))
     return shown
-
-
-def document_of(path, kind):
-    """The document of a TOML file; UserError if it is not there."""
-    if not path.is_file():
-        raise UserError(f"{path}: no such {kind} file")
-    return read_toml(path)
 
 
 def print_runs(rows, what, path):

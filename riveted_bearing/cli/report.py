@@ -5,8 +5,9 @@ from typing import Annotated
 
 import typer
 
+from .options import SENSITIVITY
 from .printing import print_paths
-from .terminal import SENSITIVITY, command
+from .terminal import command
 
 
 @command

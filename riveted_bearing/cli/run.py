@@ -13,20 +13,9 @@ from ..base.errors import UserError, extra, unknown
 from ..base.files import FORMATS, make_folder
 from ..base.interrupts import held_interrupts
 from ..base.shipped import find_scene, shipped_scenes
-from .printing import note, print_budgets, print_paths, table
-from .terminal import (
-    FMU,
-    SETTINGS,
-    STOPPED,
-    changes,
-    command,
-    console,
-    messages,
-    option_value,
-    print_basis,
-    screen,
-    simulation_progress,
-)
+from .options import FMU, SETTINGS
+from .printing import note, print_basis, print_budgets, print_paths, table
+from .terminal import STOPPED, changes, command, console, messages, option_value, screen, simulation_progress
 
 ROUNDING = 1e-9  # in the units shown: what is smaller stands as 0
 

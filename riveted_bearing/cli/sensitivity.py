@@ -9,8 +9,10 @@ from rich.markup import escape
 
 from ..base.errors import UserError
 from ..base.files import make_folder
-from .printing import document_of, print_paths, table
-from .terminal import FMU, OUT, SCHEDULER, WORKERS, command, console, design_runs, print_basis, screen
+from ..base.toml_files import read_toml
+from .options import FMU, OUT, SCHEDULER, WORKERS
+from .printing import print_basis, print_paths, table
+from .terminal import command, console, design_runs, screen
 
 
 @command
@@ -48,7 +50,7 @@ def sensitivity(
         return
     if study is None:
         raise UserError("sensitivity: a study file is needed, or --quick for the screening of what is assumed")
-    document = document_of(study, "study")
+    document = read_toml(study, "study file")
     folder = out or Path("results") / study.stem
     salib()  # before there is a folder
     with design_runs(study.stem, folder, scheduler, workers) as (client, progress):
@@ -74,7 +76,7 @@ def own_ranges(study, model):
 
     if study is None:
         return {}
-    between = checked(SensitivityFile, document_of(study, "study"), study).between
+    between = checked(SensitivityFile, read_toml(study, "study file"), study).between
     box = Box(study, between, model)
     allowed = {*model.parameters, *ALL_TEMPERATURES}
     if others := [name for name in box.names if name not in allowed]:

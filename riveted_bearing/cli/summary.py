@@ -9,21 +9,9 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import FORMATS, make_folder
 from .life import SHEET, write_life
-from .printing import print_paths
-from .terminal import (
-    CLEANLINESS,
-    FMU,
-    SCHEDULER,
-    SENSITIVITY,
-    WORKERS,
-    chosen_cleanliness,
-    command,
-    console,
-    design_runs,
-    option_value,
-    print_warnings,
-    screen,
-)
+from .options import CLEANLINESS, FMU, SCHEDULER, SENSITIVITY, WORKERS
+from .printing import print_paths, print_warnings
+from .terminal import chosen_cleanliness, command, console, design_runs, option_value, screen
 
 
 @command

@@ -6,9 +6,10 @@ from typing import Annotated
 import typer
 
 from ..base.files import make_folder
-from .printing import note, print_paths, print_runs
+from .options import FMU, OUT, SCHEDULER, WORKERS
+from .printing import note, print_basis, print_paths, print_runs
 from .printing import table as grid
-from .terminal import FMU, OUT, SCHEDULER, STOPPED, WORKERS, command, console, design_runs, messages, print_basis
+from .terminal import STOPPED, command, console, design_runs, messages
 
 
 @command

@@ -1,11 +1,10 @@
-"""Shared by all commands: the program, its two consoles, the decorator `command`, common options, progress bars."""
+"""Shared by all commands: the program, its two consoles, the decorator `command`, progress bars."""
 
 import contextlib
 import functools
 import os
 import platform
 import sys
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -43,48 +42,6 @@ program = typer.Typer(no_args_is_help=True, add_completion=False, pretty_excepti
 PIPE_WIDTH = 160  # characters, where there is no terminal to ask
 console = Terminal(highlight=False, width=None if sys.stdout.isatty() or "COLUMNS" in os.environ else PIPE_WIDTH)
 messages = Terminal(stderr=True, highlight=False)
-
-# Options that several commands have.
-FMU = Annotated[
-    Path | None,
-    typer.Option("--fmu", help="the FMU; default: RivetedBearing.fmu here, in the checkout or as installed"),
-]
-OUT = Annotated[
-    Path | None,
-    typer.Option("--out", help="folder of runs, results and page; default: results/ and the name of the file"),
-]
-SETTINGS = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--set", help='parameter or constant input, e.g. --set joint.preload="30 N"; repeatable', metavar="NAME=VALUE"
-    ),
-]
-SCHEDULER = Annotated[
-    str | None,
-    typer.Option("--scheduler", help="address of a running Dask scheduler; default: processes of this machine"),
-]
-WORKERS = Annotated[
-    int | None, typer.Option("--workers", min=1, help="number of local processes; default: one for each core")
-]
-
-CAGE = Annotated[
-    str | None,
-    typer.Option(
-        "--cage", help="shape of a bearing's cage; default: the file's, else machined", metavar="machined|ribbon"
-    ),
-]
-SENSITIVITY = Annotated[
-    Path | None,
-    typer.Option("--sensitivity", help="sensitivity.json of `sensitivity`, or its folder: names what decides"),
-]
-CLEANLINESS = Annotated[
-    str | None,
-    typer.Option(
-        "--cleanliness",
-        help="of the oil, for the raceways' life: e_C, high, normal, typical, severe or an ISO 4406 code; default: normal, assumed",
-        metavar="E_C|NAME|CODE",
-    ),
-]
 
 
 def chosen_cleanliness(value):
@@ -172,12 +129,8 @@ def changes(model, settings, seed, t_end, step, accuracy=None):
         section = "inputs" if name.strip() in model.inputs else "parameters"
         document[section][name.strip()] = number_or_text(value.strip().strip("\"'"))
         if is_of_rivet(name.strip()):
-            raise refusal(
-                "--set",
-                name.strip(),
-                value,
-                "fixed by the build: give it in [rivet] of a bearing file, of which `riveted-bearing build --bearing` makes an FMU",
-            )
+            remedy = "give it in [rivet] of a bearing file, of which `riveted-bearing build --bearing` makes an FMU"
+            raise refusal("--set", name.strip(), value, f"fixed by the build: {remedy}")
         if section == "parameters" and name.strip() not in model.parameters:
             raise unknown("--set", "parameter or input", name.strip(), [*model.parameters, *model.inputs])
     if seed is not None:
@@ -221,18 +174,6 @@ def number_or_text(value):
         except ValueError:
             pass
     return value
-
-
-def print_basis(rows):
-    """What the figures that follow rest on; what a scene has replaced stands out."""
-    for name, text in rows:
-        console.print(f"[{'yellow' if name == 'replaced' else 'dim'}]{name:13} {escape(text)}[/]")
-
-
-def print_warnings(texts):
-    """Sentences that a user must not miss, on stderr."""
-    for text in texts:
-        messages.print(f"[yellow]warning: {escape(text)}[/]")
 
 
 @contextlib.contextmanager

@@ -6,7 +6,8 @@ import typer
 from rich.markup import escape
 from rich.table import Column, Table
 
-from .terminal import FMU, command, console
+from .options import FMU
+from .terminal import command, console
 
 
 @command

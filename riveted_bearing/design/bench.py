@@ -131,15 +131,11 @@ class Bench:
             self.known.update(missing)
         rows = of_keys(self.rows, keys)
         for i in np.flatnonzero(rows["status"] == "failed"):
-            point = self.point_text(names, rows, i) or self.label
+            point = ", ".join(f"{n} = {shown(n, rows[n][i])}" for n in names if n in rows) or self.label
             raise UserError(f"{self.path}: {point}: the run failed: {rows['message'][i]}")
         values = np.column_stack([response(self.path, rows, name) for name in responses])
         values[rows["status"] == "stopped"] = np.nan
         return values.reshape(len(scenes), len(seeds), len(responses))
-
-    def point_text(self, names, rows, i):
-        """A point in words."""
-        return ", ".join(f"{name} = {shown(name, rows[name][i])}" for name in names if name in rows)
 
 
 DIFFERENT = f"a list of different responses is needed, such as {', '.join(['damage', *COLUMNS])}"

@@ -71,9 +71,7 @@ class Mission:
 def load_mission(path: str | Path, model: Model) -> Mission:
     """Read a mission's TOML file; raises UserError naming file, key, value and what is allowed."""
     path = Path(path)
-    if not path.is_file():
-        raise UserError(f"{path}: no such mission file")
-    return plan_mission(path.stem, read_toml(path), model, path)
+    return plan_mission(path.stem, read_toml(path, "mission file"), model, path)
 
 
 def plan_mission(name, document, model, path):

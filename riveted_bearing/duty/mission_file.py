@@ -5,6 +5,7 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, ConfigDict, Field
 
 from ..base.schema import Choice, Count, Named, Number, Section, Text, Truth
+from ..studies.sweep_file import Settings
 from .raceways import cleanliness_of
 
 HOURS = {"h": (1.0, 0.0), "min": (60.0, 0.0), "s": (3600.0, 0.0)}
@@ -110,14 +111,9 @@ class Tolerance(Section):
     parameters: Named = Field({}, description='{ distribution = "normal", mean = "20 N", sd = "2 N" } by name')
 
 
-class MissionFile(Section):
+class MissionFile(Settings):
     """A mission: operating points with their hours and events with their counts."""
 
-    description: Text = ""
-    scene: Any = Field(None, description="shipped name or file; default: the FMU's own parameters and inputs")
-    simulation: Named = Field({}, description="as in a scene file, for all points and events; so are the two below")
-    parameters: Named = {}
-    inputs: Named = {}
     point: list[Point] = []
     event: list[Event] = []
     change: list[Change] = []

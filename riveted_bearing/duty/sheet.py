@@ -105,19 +105,7 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
         tuple(limits),
         rows,
         source,
-        {
-            "where": charts.svg(
-                lambda fig: rivets_chart(fig, evidence.damage, evidence.rivet),
-                (2.5, 1.75),
-                "Damage of the rivets on the circle",
-            ),
-            **wrong_picture(evidence.budgets.get(figure_judged)),
-            "when": charts.svg(
-                lambda fig: history_chart(fig, worst, evidence.rivet),
-                (4.9, 1.75),
-                "Stress of the worst rivet over time",
-            ),
-        },
+        pictures(evidence, evidence.budgets.get(figure_judged)),
         f"rivet {evidence.rivet}" + (f", {clipped(evidence.worst, 28)}" if len(evidence.results) > 1 else ""),
         parts,
         tuple(clipped(text, 150) for text in [*filter(None, [table_note(worst)]), *remarks][:MOST_REMARKS]),
@@ -127,16 +115,22 @@ def make_sheet(name, description, basis, evidence, target=None, decides=None, pa
     )
 
 
-def wrong_picture(budget):
-    """The picture of an error budget, nothing without one."""
-    if budget is None:
-        return {}
-    sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
-    return {
-        "wrong": charts.svg(
-            lambda fig: tornado(fig, budget, sign, label, MOST_BARS), (3.0, 1.5), "How wrong the verdict may be"
-        )
+def pictures(evidence, budget):
+    """The sheet's pictures by name: damage of the rivets, stress of the worst one, and, if it is known, the error budget."""
+    worst, rivet = evidence.results[evidence.worst], evidence.rivet
+    drawn = {  # draw(figure), size [inch], label
+        "where": (
+            lambda fig: rivets_chart(fig, evidence.damage, rivet),
+            (2.5, 1.75),
+            "Damage of the rivets on the circle",
+        ),
+        "when": (lambda fig: history_chart(fig, worst, rivet), (4.9, 1.75), "Stress of the worst rivet over time"),
     }
+    if budget is not None:
+        sign, label = (-1.0, "decades of life") if budget.figure == DECADES else (1.0, "")
+        draw = lambda fig: tornado(fig, budget, sign, label, MOST_BARS)
+        drawn["wrong"] = draw, (3.0, 1.5), "How wrong the verdict may be"
+    return {name: charts.svg(*one) for name, one in drawn.items()}
 
 
 def free_lines(checks, parts):

@@ -30,11 +30,9 @@ class Weibull:
 
     def record(self):
         """As a document for JSON."""
-        names = ("beta", "eta", "b10")
-        units = {"beta": "beta", "eta": "eta_h", "b10": "b10_h"}
-        return {units[name]: getattr(self, name) for name in names} | {
-            f"{units[name]}_interval": list(getattr(self, f"{name}_interval")) for name in names
-        }
+        keys = {"beta": "beta", "eta": "eta_h", "b10": "b10_h"}
+        ends = {f"{key}_interval": list(getattr(self, f"{name}_interval")) for name, key in keys.items()}
+        return {key: getattr(self, name) for name, key in keys.items()} | ends
 
 
 def fit_weibull(lives, suspended=(), counts=None, confidence=0.9):

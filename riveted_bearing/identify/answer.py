@@ -45,9 +45,6 @@ def target_rows(found):
     return rows
 
 
-TARGET_HEADS = ("target", "", "measured", "±", "result", "±", "deviation / ±", "%", "before the fit")
-
-
 def unit_of(target):
     """Unit in which people read a target, factor and offset."""
     if target.operation == "over" or target.column.startswith(("band(", "line(")):
@@ -144,28 +141,8 @@ def write_page(found: Any, basis: Any, path: Path) -> Path:
     for parameter in study.parameters:
         label = f"profile of {parameter.name}"
         pictures.append(charts.svg(lambda fig, p=parameter: profile(fig, found, p), (4.9, 2.7), label))
-    pairs = zip(study.names, found.correlations, strict=True)
-    correlations = [(name, *(f"{x:.2f}" for x in row)) for name, row in pairs]
-    effects = [(target.name, *(f"{x:.1f}" for x in found.effects[:, k])) for k, target in enumerate(study.targets)]
-    return save_page(
-        path,
-        "identify.html",
-        name=study.path.stem,
-        description=study.description,
-        basis=list(basis),
-        notes=found.notes,
-        confidence=f"{100 * study.settings['confidence']:g} %",
-        seeds=study.settings["check_seeds"],
-        runs=len(found.points),
-        parameters=parameter_rows(found),
-        errors=error_rows(found),
-        target_heads=TARGET_HEADS,
-        targets=target_rows(found),
-        names=study.names,
-        correlations=correlations,
-        effects=effects,
-        charts=pictures,
-    )
+    rows = {"parameters": parameter_rows(found), "errors": error_rows(found), "targets": target_rows(found)}
+    return save_page(path, "identify.html", found=found, basis=list(basis), charts=pictures, **rows)
 
 
 def deviations(fig, found):

@@ -117,14 +117,6 @@ def places_text(found, name):
     return f"{found.counts[name]} rivets" if places is None else ", ".join(map(str, places)) or "none"
 
 
-def cause_rows(study: Study) -> Any:
-    """Causes with their ranges and sources."""
-    return [
-        (cause.name, cause.text, cause.source, f"{100 * p:.1f} %")
-        for cause, p in zip(study.causes, study.prior, strict=False)
-    ]
-
-
 def write_answer(study: Study, said: Answer | None, pool: Any, states: Any, basis: Any, path: Path) -> Path:
     """Write the answer as JSON, whole or not at all; returns the path."""
     document: dict[str, Any] = {"version": __version__, "description": study.file.description, "basis": dict(basis)}
@@ -170,8 +162,7 @@ def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis:
     return save_page(
         path,
         "causes.html",
-        name=study.path.stem,
-        description=study.file.description,
+        study=study,
         basis=list(basis),
         verdict=verdict(said) if said else "",
         findings=finding_rows(study),
@@ -180,12 +171,10 @@ def write_page(study: Study, said: Answer | None, pool: Any, states: Any, basis:
         predicted_heads=PREDICTED,
         predicted=predicted_rows(study, pool, said) if said else [],
         inspections=inspection_rows(said) if said else [],
-        causes=cause_rows(study),
         order=order_rows(states),
         order_heads=ORDER,
         end=states[-1].end if states else "",
         designs=len(pool or ()),
-        decades=study.file.life_decades,
         within=hours_text(study.file.within),
         charts=pictures,
     )

@@ -125,11 +125,6 @@ class Study:
     Z: int
 
 
-def rivets_of(model: Model) -> int:
-    """Number of rivets."""
-    return sum(name.startswith("rivet[") and name.endswith("].intact") for name in model.parameters)
-
-
 def plan_causes(path: Path, document: dict[str, Any], model: Model, scene: Scene) -> Study:
     """The Study of a document; UserError naming what cannot be used.  scene: the mission's, from which multiples are."""
     file = checked_findings(path, document)
@@ -140,7 +135,7 @@ def plan_causes(path: Path, document: dict[str, Any], model: Model, scene: Scene
     prior = np.array([file.prior.get(name, 1.0) for name in [*(cause.name for cause in causes), NONE]])
     if not prior[:-1].sum() > 0.0:
         raise refusal(path, "prior", file.prior, "one cause at least must be possible")
-    Z = rivets_of(model)
+    Z = model.Z
     return Study(path, file, findings_of(path, file, Z, quantities, model), causes, quantities, prior / prior.sum(), Z)
 
 

@@ -114,13 +114,10 @@ class Objective:
 
         def at(x):
             """Residuals at x, and their difference quotients for the call after it."""
-            points = np.tile(u, (len(free) + 1, 1))
-            points[:, free] = x
-            h = np.where(x > 0.5, -STEP, STEP)
-            points[np.arange(1, len(free) + 1), free] += h
-            r = self.residuals(points)
-            at.slopes = ((r[1:] - r[0]) / h[:, None]).T
-            return r[0]
+            point = np.array(u, float)
+            point[free] = x
+            r, at.slopes = quotients(self.residuals, point, free)
+            return r
 
         def slopes(x):
             at(x)
@@ -136,11 +133,7 @@ class Objective:
 
     def slopes(self, u):
         """d mean / d u of the fitted targets at a point [k, d]."""
-        points = np.tile(u, (len(u) + 1, 1))
-        h = np.where(u > 0.5, -STEP, STEP)
-        points[np.arange(1, len(u) + 1), np.arange(len(u))] += h
-        mean, _ = self.parts(points)
-        return ((mean[1:] - mean[0]) / h[:, None]).T
+        return quotients(lambda points: self.parts(points)[0], u, np.arange(len(u)))[1]
 
     def covariance(self, u):
         """Of the parameters as shares of their range, by Gauss and Newton; a uniform prior counts as its variance."""
@@ -150,6 +143,15 @@ class Objective:
             for p, x in zip(self.study.parameters, u)
         ]
         return np.linalg.inv(J.T @ (J / (self.variance + variance[0])[:, None]) + np.diag(prior))
+
+
+def quotients(figures, u, free):
+    """Figures [k] at a point of the unit cube, and their difference quotients by its free parameters [k, d]."""
+    h = np.where(u[free] > 0.5, -STEP, STEP)
+    points = np.tile(u, (len(free) + 1, 1))
+    points[np.arange(1, len(free) + 1), free] += h
+    found = figures(points)
+    return found[0], ((found[1:] - found[0]) / h[:, None]).T
 
 
 def identify(study: Any, evaluate: Any, start: Any) -> Any:

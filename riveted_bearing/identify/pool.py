@@ -24,7 +24,7 @@ from ..running.scene import Scene, load_scene
 from ..studies.sweep import run_sweep, unpacked
 from ..studies.sweep_file import Sweep, beside, key_of, sections_of
 from .candidates import OWN, designs
-from .findings import Study, rivets_of
+from .findings import Study
 from .order import next_break
 
 SETTLE, WINDOW, SETTLE_AGAIN, WINDOW_AGAIN = 9.0, 21.0, 3.0, 9.0  # turns of the shaft
@@ -57,12 +57,10 @@ def followed(scene: Scene, model: Model, breaks: int, strengths: Any) -> Followe
     turn = 2.0 * np.pi / abs(omega)
     settle = np.ceil(SETTLE * turn / scene.step) * scene.step
     t_end = settle + (WINDOW + breaks * (SETTLE_AGAIN + WINDOW_AGAIN) + 1.0) * turn
-    values = {name: value for name, value in vars(scene).items() if name != "t_end"}
     kept = {name: value for name, value in scene.parameters.items() if name not in ACCELERATED}
     forced = {"start.settle": float(settle), "scene.stress": "fatigue", "scene.statistics": "off"}
-    values["parameters"] = kept | forced
-    values["outputs"] = ()
-    return Followed(**values, t_end=float(t_end), breaks=breaks, turn=turn, strengths=strengths)
+    values = vars(scene) | {"t_end": float(t_end), "parameters": kept | forced, "outputs": ()}
+    return Followed(**values, breaks=breaks, turn=turn, strengths=strengths)
 
 
 def weakened(rates, strengths, curve, turns):
@@ -121,7 +119,7 @@ class Cage:
     def __init__(self, instance, scene):
         self.instance, self.scene, self.steps, self.seen = instance, scene, 0, []
         model = instance.model
-        self.Z = rivets_of(model)
+        self.Z = model.Z
         numbers = range(1, self.Z + 1)
         self.gone = [k for k in numbers if scene.parameters.get(f"rivet[{k}].intact", 1) == 0]
         self.strengths = np.array(scene.strengths) if len(scene.strengths) else np.ones((self.Z, 2))

@@ -43,15 +43,10 @@ DECADES = "damage"
 NAMED = ("stress", "static", "pocket_force")  # what an accuracy in per cent is of
 COLUMNS = {"stress": "stat.sigma_head_p999", "static": "stat.sigma_head_mean", "pocket_force": "stat.Q_c_rms"}
 CHANNELS = ("rivet.sigma_head_max", "cage.F_pocket_peak")
-PRIOR = {
-    "stress": 0.014,
-    "static": 0.0065,
-    "pocket_force": 0.039,
-    "damage": 0.09,
-}  # of 102 scenes: their 95 % quantiles over 1.96
-KURTOSIS = {
-    DECADES: 2.3
-}  # excess, of 24 seeds: mean of 38 scenes of benchmarks/coverage.py; the other figures are pooled with blocks
+# of 102 scenes: their 95 % quantiles over 1.96
+PRIOR = {"stress": 0.014, "static": 0.0065, "pocket_force": 0.039, "damage": 0.09}
+# excess, of 24 seeds: mean of 38 scenes of benchmarks/coverage.py; the other figures are pooled with blocks
+KURTOSIS = {DECADES: 2.3}
 FINER, FINE_STEPS = 0.1, 1.05  # of the tolerance, and the least number of steps that it then takes over that before
 SHORTER, SHORTEST = math.sqrt(3.0), 3  # of equal steps, times SHORTER
 FEW = 1e-3  # share of steps that may fail the error test where the tolerance does not limit them
@@ -130,13 +125,8 @@ def sample_of(result: Result, name: str = "the run", damage: float | None = None
     if counted > 0.0 or damage is not None:
         values[DECADES] = damage if damage is not None else math.log10(counted / hours)
     blocks = block_variances(result, values)
-    return Sample(
-        values,
-        {name: blocks[name] for name in values if name in blocks},
-        float(summary["cpu_time"]),
-        *steps_of(summary),
-        result,
-    )
+    blocks = {name: blocks[name] for name in values if name in blocks}
+    return Sample(values, blocks, float(summary["cpu_time"]), *steps_of(summary), result)
 
 
 def steps_of(summary: Any) -> tuple[float, float]:
@@ -224,16 +214,11 @@ def found_of(figure: str, plain: Any, fine: Any = (), blocks: Any = (), confiden
 def found_in(plain: Any, fine: Any = (), confidence: float = CONFIDENCE) -> dict[str, Found]:
     """The Found of each figure that all Samples have."""
     names = [name for name in FIGURES if all(name in run.values for run in [*plain, *fine])]
-    return {
-        name: found_of(
-            name,
-            [run.values[name] for run in plain],
-            [run.values[name] for run in fine],
-            [run.blocks[name] for run in plain if name in run.blocks],
-            confidence,
-        )
-        for name in names
-    }
+    found = {}
+    for name in names:
+        x, y = ([run.values[name] for run in runs] for runs in (plain, fine))
+        found[name] = found_of(name, x, y, [run.blocks[name] for run in plain if name in run.blocks], confidence)
+    return found
 
 
 # To an accuracy -------------------------------------------------------------------------------------------------------
@@ -302,12 +287,8 @@ class Runs:
         """The scene with the steps of a level: the first finer ones that prove to be finer."""
         while len(self.scenes) <= level:
             above = self(len(self.scenes) - 1, 1)[0]
-            settings, found = finer_settings(
-                self.model,
-                self.scenes[-1],
-                above,
-                lambda settings: self.run(with_settings(self.scenes[0], settings), 0),
-            )
+            at = lambda settings: self.run(with_settings(self.scenes[0], settings), 0)
+            settings, found = finer_settings(self.model, self.scenes[-1], above, at)
             self.done[len(self.scenes), 0] = found
             self.scenes.append(with_settings(self.scenes[0], settings))
             self.settings.append(settings)
@@ -376,17 +357,9 @@ def accurate(
             )
         n = int(max(n + 1, min(math.ceil(needed), GROWTH * n)))
         m = (n + 1) // 2
-    return Reached(
-        target,
-        runs.settings[level],
-        scene.t_end / plain[0].steps,
-        found,
-        missed,
-        runs(0, 1)[0],
-        plain[0].result,
-        (plain, fine),
-        runs.seconds,
-    )
+    step, first = scene.t_end / plain[0].steps, runs(0, 1)[0]
+    chosen = target, runs.settings[level], step, found, missed
+    return Reached(*chosen, first, plain[0].result, (plain, fine), runs.seconds)
 
 
 def is_bias(each):

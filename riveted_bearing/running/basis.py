@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..base.errors import UserError, shortlist
-from ..base.units import three_digits
+from ..base.units import rounded
 from ..bearing import oil as oils
 from ..bearing.plausible import fast
 from . import preload as preloads
@@ -98,7 +98,7 @@ def oil(model, scenes):
     found = {viscosity(model, scene, T) for scene in scenes for T in extremes(values(model, [scene], "oil.T"))}
     alone = dict.fromkeys(text for scene in scenes for text in point_assumed(model, scene))
     names = ", ".join(dict.fromkeys(filter(None, (scene.oil or oils.name_of(model.origin) for scene in scenes))))
-    words = f"{in_words(model, 'oil.eta', [three_digits(eta) for eta in found])} at {text(model, scenes, 'oil.T')}"
+    words = f"{in_words(model, 'oil.eta', [rounded(eta, 3) for eta in found])} at {text(model, scenes, 'oil.T')}"
     if not LIQUID[0] <= min(found) <= max(found) <= LIQUID[1]:
         words += f" (few oils in bearings have less than {1e3 * LIQUID[0]:g} or more than {1e3 * LIQUID[1]:g} mPa.s)"
     return "; ".join([f"{names}, {words}" if names else words, *alone])

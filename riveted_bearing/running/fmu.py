@@ -107,6 +107,11 @@ class Model:
         self.locals = {v.name: v for v in variables if v.causality == "local"}
 
     @property
+    def Z(self):
+        """Number of balls, and of rivets."""
+        return sum(name.startswith("ball[") and name.endswith("].Q_i") for name in self.outputs)
+
+    @property
     def bearing(self):
         """The FMU's description of its bearing, without the sentence about all bearings before it."""
         whole = self.description.description or self.description.modelName
@@ -242,7 +247,7 @@ class Instance:
             self.fmu.instantiate(callbacks=self.callbacks(), loggingOn=True)
             self.fmu.setDebugLogging(True, KEPT)
         except Exception as problem:
-            self.forget()
+            LOGS.pop(id(self), None)
             raise UserError(
                 f"{self.model.path}: cannot be loaded: {'; '.join([str(problem), *(message for _, message in self.log)])}"
             ) from None
@@ -250,7 +255,7 @@ class Instance:
 
     def __exit__(self, *_):
         self.fmu.freeInstance()
-        self.forget()
+        LOGS.pop(id(self))
 
     def callbacks(self):
         """Memory and logging functions for the FMU."""
@@ -262,10 +267,6 @@ class Instance:
         addLoggerProxy(ctypes.byref(callbacks))
         callbacks.componentEnvironment = id(self)
         return callbacks
-
-    def forget(self):
-        """Remove the log's registration."""
-        LOGS.pop(id(self), None)
 
     def complaints(self):
         """The FMU's messages about its failure, oldest first."""

@@ -9,7 +9,7 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from ..base.errors import UserError
-from ..base.units import three_digits
+from ..base.units import rounded
 from .fmu import Instance, Model
 from .inputs import History
 from .scene import Scene
@@ -78,7 +78,7 @@ def in_words(thermal, pairs, newtons, degrees):
     if thermal is None:
         return f"{given} as given"
     at = degrees([T for _, T in pairs])
-    set_at, hot = f"{thermal.T_0 - 273.15:.4g} degC", newtons([three_digits(thermal.at(*pair)) for pair in pairs])
+    set_at, hot = f"{thermal.T_0 - 273.15:.4g} degC", newtons([rounded(thermal.at(*pair), 3) for pair in pairs])
     if at == set_at:
         return f"{given} at {set_at}, which the cage has"
     return f"{given} at {set_at}, {hot} with the cage at {at}: {thermal.reason}"

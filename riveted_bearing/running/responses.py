@@ -36,13 +36,9 @@ def response(path: Path, rows: Any, name: str) -> Any:
     if name in PARTS:
         return static_and_swing(rows, "head")[PARTS.index(name)]
     column = COLUMNS.get(name, name)
-    if column not in rows or not np.issubdtype(np.asarray(rows[column]).dtype, np.number):
-        raise unknown(
-            path,
-            "response",
-            name,
-            ["damage", *COLUMNS, *(key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number))],
-        )
+    numbers = [key for key in rows if np.issubdtype(np.asarray(rows[key]).dtype, np.number)]
+    if column not in numbers:
+        raise unknown(path, "response", name, ["damage", *COLUMNS, *numbers])
     return np.asarray(rows[column], float)
 
 

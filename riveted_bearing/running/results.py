@@ -87,11 +87,7 @@ class Result:
             else:
                 values = ("time", self.data[names[0]], attrs)
             variables[".".join(place)] = values
-        about = {
-            "about": json.dumps(self.about),
-            "parameters": json.dumps(self.parameters),
-            "summary": json.dumps(self.summary),
-        }
+        about = {name: json.dumps(getattr(self, name)) for name in ("about", "parameters", "summary")}
         return xarray.Dataset(variables, attrs=about | {"title": self.about.get("scene", "")})
 
 
@@ -114,13 +110,7 @@ def read_result(path: str | Path) -> Result:
         raise UserError(f"{path}: no such file")
     try:
         data, metadata = READERS[format_of(path)](path)
-        result = Result(
-            data=data,
-            units=metadata["units"],
-            parameters=metadata["parameters"],
-            summary=metadata["summary"],
-            about=metadata["about"],
-        )
+        result = Result(data, *(metadata[name] for name in ("units", "parameters", "summary", "about")))
         check_result(result, path)
         if metadata.get("digest", "") not in ("", digest_of(result)):
             raise UserError(f"{path}: damaged or changed: its digest is not that of what was written")

@@ -1,5 +1,6 @@
 """Run a scene through the FMU, step by step, and keep its outputs."""
 
+import contextlib
 import itertools
 import platform
 import time
@@ -38,7 +39,9 @@ def simulate(model: Model, scene: Scene, progress: Any = None) -> Result:
         wall, cpu = time.perf_counter(), time.thread_time()
         times, columns, stopped = march(instance, scene, progress or (lambda t: None), interrupts)
         wall, cpu = time.perf_counter() - wall, time.thread_time() - cpu
-        summary = closing_values(instance, model)
+        summary = {}
+        with contextlib.suppress(FMICallException):  # the FMU may no longer answer
+            summary = instance.read(closing_names(model))
     simulated = float(times[-1])
     summary |= {
         "simulated_time": simulated,
@@ -107,14 +110,6 @@ def march(instance, scene, progress, interrupts):
 def is_peak(name: str) -> bool:
     """Whether a channel is the largest value since the last communication point."""
     return name.endswith("_peak") or name in ("rivet.sigma_head_max", "rivet.sigma_mid_max")
-
-
-def closing_values(instance, model):
-    """Statistics and solver counters at the end; nothing if the FMU no longer answers."""
-    try:
-        return instance.read(closing_names(model))
-    except FMICallException:
-        return {}
 
 
 def closing_names(model: Model) -> list[str]:

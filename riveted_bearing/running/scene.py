@@ -163,23 +163,9 @@ def apply(scene, where, document, model, folder):
     """The scene with one document's settings on top."""
     check_keys(where, document, SceneFile.model_fields, "scene")
     file = checked(SceneFile, document, where)
-    parameters = read_section(
-        where,
-        "parameters",
-        file.parameters,
-        model.parameters,
-        model.inputs,
-        lambda value, v: parameter_value(value, v, model),
-    )
+    parameters = read_section(where, "parameters", file.parameters, model, folder)
     parameters = surface_parameters(where, file.surfaces, model, folder) | parameters
-    inputs = read_section(
-        where,
-        "inputs",
-        file.inputs,
-        model.inputs,
-        model.parameters,
-        lambda value, v: input_history(value, v, model, folder),
-    )
+    inputs = read_section(where, "inputs", file.inputs, model, folder)
     written = {
         name: unit_of(value)
         for section in (file.parameters, file.inputs)
@@ -206,14 +192,7 @@ def read_changes(where, blocks, model):
     """Times and parameters of [[change]] in the order of time; UserError for a parameter that is fixed in a run."""
     found = []
     for i, block in enumerate(blocks, 1):
-        values = read_section(
-            f"{where}: change {i}",
-            "parameters",
-            block.model_extra,
-            model.parameters,
-            model.inputs,
-            lambda value, v: parameter_value(value, v, model),
-        )
+        values = read_section(f"{where}: change {i}", "parameters", block.model_extra, model)
         for name in values:
             if model.parameters[name].variability != "tunable":
                 reason = "it is fixed in a run: docs/parameters.md has the reason"
@@ -222,20 +201,22 @@ def read_changes(where, blocks, model):
     return tuple(sorted(found, key=lambda change: change[0]))
 
 
-def read_section(where, kind, section, variables, others, value_of):
-    """Settings of one section by full variable name; others: the variables of the other section."""
-    settings = {}
+def read_section(where, kind, section, model, folder=None):
+    """Settings of [parameters] or [inputs] by full variable name; folder: of files that inputs name."""
+    settings, other = {}, "inputs" if kind == "parameters" else "parameters"
+    variables, others = getattr(model, kind), getattr(model, other)
     for name, value in leaves(section, variables | others):
         if name in others:
-            raise UserError(
-                f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{'inputs' if kind == 'parameters' else 'parameters'}]"
-            )
+            raise UserError(f"{where}: {kind}.{name}: does not belong into [{kind}] but into [{other}]")
         if name == "gravity.x" and name not in variables:
             raise refusal(where, f"{kind}.{name}", value, "gravity along X is -frame.a_x of [inputs]: write it there")
         if name not in variables:
             raise unknown(where, kind.removesuffix("s"), whole_name(name, value), variables)
         with refusing(where, f"{kind}.{name}", value):
-            settings[name] = value_of(value, variables[name])
+            if kind == "parameters":
+                settings[name] = parameter_value(value, variables[name], model)
+            else:
+                settings[name] = input_history(value, variables[name], model, folder)
     return settings
 
 
@@ -321,17 +302,9 @@ def check_times(scene, where):
     if scene.output_interval is not None and (
         scene.stride < 1 or abs(scene.stride * scene.step / scene.output_interval - 1.0) > 1e-9
     ):
-        raise refusal(
-            where,
-            "simulation.output_interval",
-            scene.output_interval,
-            f"multiples of step = {scene.step:g} s are allowed",
-        )
+        reason = f"multiples of step = {scene.step:g} s are allowed"
+        raise refusal(where, "simulation.output_interval", scene.output_interval, reason)
     size = 8 * len(scene.outputs or range(400)) * scene.t_end / (scene.step * scene.stride)
     if size > LARGEST_RESULT:
-        raise refusal(
-            where,
-            "simulation.output_interval",
-            scene.output_interval or scene.step,
-            f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval",
-        )
+        reason = f"the result would need {size / 2**30:.0f} GiB: choose outputs, or a longer interval"
+        raise refusal(where, "simulation.output_interval", scene.output_interval or scene.step, reason)

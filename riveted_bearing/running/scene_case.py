@@ -48,11 +48,10 @@ def case_at(scene: Scene, model: Model) -> Case:
     """The Case of a Scene at its start."""
     values = {name: model.default(variable) for name, variable in (model.parameters | model.inputs).items()}
     values |= scene.parameters | {name: float(history(0.0)) for name, history in scene.inputs.items()}
-    Z = sum(name.startswith("ball[") and name.endswith("].Q_i") for name in model.outputs)
     known = [
         case
         for case in map(bearing_case, shipped_bearings())
-        if case.Z == Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))
+        if case.Z == model.Z and all(case.values[f"bearing.{s}"] == values[f"bearing.{s}"] for s in ("D", "d_m"))
     ]
     designation = model.bearing.partition(". ")[0].partition(":")[0]
     entry = catalogue.entries().get(designation) if model.origin.get("C") == "catalogue" else None
@@ -66,4 +65,4 @@ def case_at(scene: Scene, model: Model) -> Case:
         "model": model,
         "oil": scene.oil or oil.name_of(model.origin),
     }
-    return Case(name, scene.description, Z, values, data, rivet=None, **about)
+    return Case(name, scene.description, model.Z, values, data, rivet=None, **about)

@@ -60,11 +60,15 @@ def base_scene(model):
     return load_scene(None, model, ("screening", {"simulation": simulation}))
 
 
+def own_sources(model):
+    """The Range of each value of an FMU that nobody gave."""
+    parameters = {name: model.default(variable) for name, variable in model.parameters.items()}
+    return ranges_of(given_names(model), is_example(model), parameters)
+
+
 def changed_scenes(model, scene, further):
     """{name: (low, high, source, scene at the low end, scene at the high end)} of all that a run can set."""
-    everything = {name: model.default(variable) for name, variable in model.parameters.items()}
-    given = given_names(model)
-    sources = ranges_of(given, is_example(model), everything)
+    given, sources = given_names(model), own_sources(model)
     found = {name: (*ends, sources[name].source) for name, ends in assumed_ranges(model).items()}
     T = {name: float(values(model, [scene], name).mean()) for name in ALL_TEMPERATURES}
     for name, (below, above, source) in TEMPERATURES.items():
@@ -96,8 +100,7 @@ def measured(model, say, further):
             continue
         effect = {f: [change(f, base, end) for end in ends] for f in SCREENED if all(has(f, e) for e in (base, *ends))}
         entries[name] = {"low": low, "high": high, "source": source, "effect": effect}
-    everything = {name: model.default(variable) for name, variable in model.parameters.items()}
-    needed = [*ranges_of(given_names(model), is_example(model), everything), *further]
+    needed = [*own_sources(model), *further]
     return {
         "version": VERSION,
         "fmu_sha256": model.digest,

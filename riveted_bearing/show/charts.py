@@ -90,6 +90,17 @@ def over_time(panel):
     return chart
 
 
+def untitled(draw):
+    """A panel of plot.py that draws a whole result, alone."""
+
+    def chart(figure, result):
+        ax = figure.subplots()
+        draw(ax, result)
+        ax.set_title("")
+
+    return chart
+
+
 def worst_rivet(result):
     """Number, as text, of the rivet with the largest head stress in the run; None if it was not recorded."""
     return rivet_of(result, columns(result, "rivet[", "].sigma_head_peak") or columns(result, "rivet[", "].sigma_head"))
@@ -267,13 +278,6 @@ def section(figure, result):
     ax.axis("off")
 
 
-def cage_orbit(figure, result):
-    """Orbit of the cage's centre in its guide clearance."""
-    ax = figure.subplots()
-    plot.cage_orbit(ax, result)
-    ax.set_title("")
-
-
 def force_histogram(figure, result):
     """Share of time over contact loads: pockets, then races."""
     pockets, races = figure.subplots(1, 2)
@@ -297,13 +301,6 @@ def force_histogram(figure, result):
     races.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
     for ax in (pockets, races):
         ax.tick_params(labelsize=8)
-
-
-def rivet_bars(figure, result):
-    """Mean and p99.9 of every rivet."""
-    ax = figure.subplots()
-    plot.rivet_bars(ax, result)
-    ax.set_title("")
 
 
 def stress_over_azimuth(figure, result):

@@ -104,15 +104,13 @@ def render(result, decides=None, measured=()):
     return page_text(
         "page.html",
         about=NOT_SAID | result.about,
-        stopped=result.stopped,
+        result=result,
         script="".join((PARTS / name).read_text(encoding="utf-8") for name in ("drawing.js", "animation.js")),
         film=film,
         missing=missing,
-        scale=film["scale"] if film else 1,
         cards=cards(result, lives),
         inputs=list(input_rows(result)),
         settings=list(setting_rows(result)),
-        pulses=any(result.parameters.get(name) for name in ("pulse.F_r", "pulse.F_a")),
         rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
         early=[] if has_statistics(result) else list(early_rows(result)),
         no_statistics=no_statistics(result),
@@ -121,13 +119,11 @@ def render(result, decides=None, measured=()):
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
         lives=lives,
         worst=charts.worst_rivet(result),
-        sizes=result.parameters,
         weakest=weakest(lives) if lives else None,
         elastic=elastic,
         vibrates=charts.vibrates(result),
         loaded=charts.loaded_rivet(result),
         clearance=clearance_of_cage(result.parameters),
-        fatigue=result.parameters.get("scene.stress") == "fatigue",
         table_note=table_note(result),
         assumed=(rows := assumed_rows(result)),
         **wrong(result),
@@ -141,7 +137,11 @@ def render(result, decides=None, measured=()):
         breaks=breaks(result),
         changes=change_lines(result),
         accelerated=accelerated(result),
-        solver=list(solver_rows(result)),
+        onsets={
+            name.split(".")[1].removesuffix("_onsets"): result.data[name][-1]
+            for name in columns(result, "event.", "_onsets")
+        },
+        flags=flag_note(result).partition(": ")[2] or "none" if columns(result, "rivet[", "].flag") else "",
         charts={name: chart(result, name, lives) for name in CHARTS if name not in absent},
         figure=figure,
         duration=duration,
@@ -159,7 +159,7 @@ CHARTS = {  # name: draw(figure, result), size, label, channels that the chart n
     "loads": (PANELS["loads"], LOW, "Loads on the inner ring over time", "shaft.F_x shaft.F_y shaft.omega"),
     "stress": (PANELS["stress"], WIDE, "Largest rivet stress over time", "rivet.sigma_head_max rivet.sigma_mid_max"),
     "spectra": (charts.spectra, WIDE, "Spectra of the worst rivet's stress", "rivet[*].sigma_head rivet[*].sigma_mid"),
-    "bars": (charts.rivet_bars, WIDE, "Stress of each rivet", ""),
+    "bars": (charts.untitled(plot.rivet_bars), WIDE, "Stress of each rivet", ""),
     "map": (
         charts.stress_over_azimuth,
         HIGH,
@@ -177,7 +177,7 @@ CHARTS = {  # name: draw(figure, result), size, label, channels that the chart n
     "histogram": (charts.force_histogram, WIDE, "Histogram of contact forces", "ball[*].Q_c"),
     "pocket": (PANELS["pocket_force"], WIDE, "Pocket force over time", "cage.F_pocket_peak"),
     "section": (charts.section, SQUARE, "Section of the bearing with its dimensions", ""),
-    "orbit": (charts.cage_orbit, SQUARE, "Orbit of the cage's centre", "cage.y cage.z"),
+    "orbit": (charts.untitled(plot.cage_orbit), SQUARE, "Orbit of the cage's centre", "cage.y cage.z"),
     "joints": (charts.joint_spectra, HIGH, "Spectra of the joint loads", "rivet[*].T rivet[*].M_y rivet[*].M_z"),
     "slip": (PANELS["slip"], LOW, "Cage slip over time", "cage.slip_ratio"),
     "ring": (PANELS["ring"], WIDE, "Displacement of the inner ring over time", "ring.x ring.y ring.z"),
@@ -324,33 +324,3 @@ def ball_rows(result):
         if carrying.any():
             values = factor * values[carrying]
             yield title, unit, figure(values.min()), figure(values.mean()), figure(values.max())
-
-
-def solver_rows(result):
-    """Name and value of the solver's counters and self-checks."""
-    s = result.summary
-    for key, text in (
-        ("steps", "internal steps"),
-        ("rhs_evals", "evaluations of the equations"),
-        ("error_tests_failed", "steps rejected"),
-    ):
-        if f"solver.{key}" in s:
-            yield text, f"{s[f'solver.{key}']:,.0f}"
-    if s.get("solver.steps"):
-        yield "mean step", f"{1e6 * s['simulated_time'] / s['solver.steps']:.2f} µs"
-    if "solver.tolerance" in s:
-        yield "tolerance", f"{s['solver.tolerance']:g}"
-    if "solver.method_used" in s:
-        methods = {1: "velocity Verlet", 2: "Runge–Kutta 4(3)", 3: "fixed steps"}
-        yield "method", methods.get(s["solver.method_used"], f"{s['solver.method_used']:g}")
-    if "real_time_factor" in s:
-        yield "CPU time / simulated time", f"{s['real_time_factor']:.2f}"
-    if "bearing.energy_residual" in result.data:
-        yield "energy residual at the end", f"{1e3 * result.data['bearing.energy_residual'][-1]:.3g} mJ"
-    if "bearing.penetration" in result.data:
-        yield "largest elastic approach", f"{1e6 * result.data['bearing.penetration'].max():.1f} µm"
-    if onsets := columns(result, "event.", "_onsets"):
-        counts = {name[len("event.") : -len("_onsets")].replace("_", " "): result.data[name][-1] for name in onsets}
-        yield "onsets of events", ", ".join(f"{name} {n:,.0f}" for name, n in counts.items() if n) or "none"
-    if columns(result, "rivet[", "].flag"):
-        yield "flags of the rivets", flag_note(result).partition(": ")[2] or "none"

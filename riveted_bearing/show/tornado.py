@@ -3,7 +3,7 @@
 from typing import Any
 
 from ..running.accuracy import FIGURES
-from ..running.budget import RULE, Budget, amounts, computed_share, of_result, shown, told, unsized_lines
+from ..running.budget import Budget, amounts, computed_share, of_result, shown
 from ..running.results import Result
 from . import charts
 from .style import FORCE, HEAD, MIDDLE
@@ -46,10 +46,6 @@ def wrong(result: Result) -> dict[str, Any]:
     return {
         "budgets": found,
         "budget_pictures": pictures,
-        "amounts": amounts,
-        "told_with_error": told,
-        "unsized_lines": unsized_lines,
-        "rule": RULE,
         "shown": shown,
         "share": computed_share(result),
     }

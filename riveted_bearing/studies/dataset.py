@@ -18,10 +18,9 @@ from ..base.schema import Section, Texts, checked
 from ..base.toml_files import read_toml, section_of
 from ..running.fmu import Model
 from ..running.summary import settled
-from ..show.spectrum import kinematic_frequencies, speed_of
+from ..show.spectrum import SPEEDS, kinematic_frequencies, speed_of
 from .sweep_file import Sweep, SweepFile, plan_sweep
 
-SPEEDS = ("shaft.omega", "housing.omega", "cage.omega")
 RACES = ("outer", "inner")
 SIZES = ("length", "width", "depth")
 FREQUENCIES = ("shaft", "FTF", "BSF", "BPFO", "BPFI")
@@ -42,9 +41,7 @@ class DatasetFile(SweepFile):
 def load_dataset(path: str | Path, model: Model) -> Sweep:
     """The Sweep of a dataset's TOML file, whose rows have labels and signals; UserError naming file, key and value."""
     path = Path(path)
-    if not path.is_file():
-        raise UserError(f"{path}: no such dataset file")
-    document = read_toml(path)
+    document = read_toml(path, "dataset file")
     section = checked(Channels, section_of(path, document, "dataset"), path, "dataset")
     for name in section.channels:
         if name not in model.outputs:

@@ -40,7 +40,7 @@ class Settings(Section):
 
     description: Text = ""
     scene: Any = Field(
-        None, description="shipped name or file, beside this one; default: the FMU's own parameters and inputs"
+        None, description="shipped name or file, beside this one; default: the FMU's parameters and inputs"
     )
     simulation: Named = Field({}, description="as in a scene file, for all runs; so are the two below")
     parameters: Named = {}
@@ -87,9 +87,7 @@ class Sweep:
 def load_sweep(path: str | Path, model: Model) -> Sweep:
     """Read a sweep's TOML file; raises UserError naming file, key, value and what is allowed."""
     path = Path(path)
-    if not path.is_file():
-        raise UserError(f"{path}: no such sweep file")
-    return plan_sweep(path.stem, read_toml(path), model, path)
+    return plan_sweep(path.stem, read_toml(path, "sweep file"), model, path)
 
 
 def plan_sweep(name, document, model, path):
@@ -153,7 +151,8 @@ def values_of(path, name, value, model):
         reason = 'a list of values or { from = ..., to = ..., count = ..., spacing = "linear" or "log" } is needed'
         raise refusal(path, f"vary.{name}", value, reason)
     low, high = bounds(path, name, (value["from"], value["to"]), model)
-    count = points_of(path, f"vary.{name}.count", value["count"])
+    count = count_of(path, f"vary.{name}.count", value["count"])
+    limit_runs(path, f"vary.{name}.count = {count}", count)  # before there is memory for them
     spacing = value.get("spacing", "linear")
     if spacing not in ("linear", "log"):
         raise refusal(path, f"vary.{name}.spacing", spacing, "allowed: linear, log")
@@ -196,12 +195,6 @@ def count_of(path: Path, name: str, value: Any) -> Any:
     """A whole number of at least 1."""
     if isinstance(value, bool) or not isinstance(value, int) or value < 1:
         raise refusal(path, name, value, "a whole number from 1 on is needed")
-    return value
-
-
-def points_of(path, name, value):
-    """A number of points of a design, checked before there is memory for them."""
-    limit_runs(path, f"{name} = {value}", count_of(path, name, value))
     return value
 
 

@@ -166,15 +166,5 @@ def write_page(table: Any, description: Any, path: Path) -> Path:
         charts.svg(lambda fig, r=response: draw_response(fig.subplots(), table, r), (4.9, 3.2), response.title)
         for response in table.responses
     ]
-    return save_page(
-        path,
-        "sweep.html",
-        name=table.name,
-        description=description,
-        basis=table.basis,
-        confidence=f"{100 * CONFIDENCE:g} %",
-        heads=heads,
-        cells=cells,
-        texts=len(table.factors),
-        charts=pictures,
-    )
+    told = {"table": table, "description": description, "confidence": f"{100 * CONFIDENCE:g} %"}
+    return save_page(path, "sweep.html", heads=heads, cells=cells, charts=pictures, **told)
