@@ -238,7 +238,7 @@ def differences(ax, found):
         for motion, style in ((True, "-"), (False, "--")):
             worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
             ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.2)
-        ax.plot([], [], color=colour, label=f"at {tolerance:.0e}")
+        ax.plot([], [], color=colour, label=f"{tolerance:.0e}")
     for style, label in (("-", "motion"), ("--", "loads")):
         ax.plot([], [], style, color=FORCE, label=label)
     ax.locator_params(axis="x", nbins=4)
