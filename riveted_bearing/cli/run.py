@@ -248,7 +248,9 @@ def print_summary(result):
         meant = f"usual range: change of the worst head's stress over it, {measured_in(rows)}"
         said = ((row.name, row.words[0], filter(None, (row.words[1], row.change("stress")))) for row in moving)
         texts = (f"{name} {value} ({': '.join(span)})" for name, value, span in said)
-        console.print(f"[dim]assumed values that the stress moves with ({escape(meant)}): {escape(', '.join(texts))}[/]")
+        console.print(
+            f"[dim]assumed values that the stress moves with ({escape(meant)}): {escape(', '.join(texts))}[/]"
+        )
         if rest := [row for row in rows if row not in moving]:
             console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]")
     for source, names in about.get("not_given", {}).items():
