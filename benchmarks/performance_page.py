@@ -12,6 +12,7 @@ from pages import page_text
 from performance_pictures import (
     BLIND,
     PICTURES,
+    SHORT,
     curve,
     draw_blind,
     draw_scaling,
@@ -22,7 +23,6 @@ from performance_pictures import (
 from records import RESULTS, newest_if_any, newest_record, read_record
 
 PAGE = ROOT / "docs" / "performance.md"
-SHORT = {"demo": "working point", "slow": "4,000 r/min", "tilt": "tilt 0.5°", "impact": "impacts", "jam": "jam"}
 GOALS = {"demo": 0.5, "slow": 0.6, "tilt": 1.0, "jam": 1.2}  # real-time factors
 
 

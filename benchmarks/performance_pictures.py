@@ -1,19 +1,20 @@
 """The pictures of docs/performance.md as SVG, and the points of a solver in its records."""
 
-import io
 import math
-import re
 
 import matplotlib
 import numpy as np
 from blind import FIGURES as LIMITS
 from common import ROOT
+from svg import save_svg
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib.ticker import FormatStrFormatter, LogLocator
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FormatStrFormatter, FuncFormatter, LogLocator
 
 PICTURES = ROOT / "docs" / "performance"
+SHORT = {"demo": "working point", "slow": "4,000 r/min", "tilt": "tilt 0.5°", "impact": "impacts", "jam": "jam"}
 BLIND = {  # statistic of a blind scene: its name on the page
     "head_mean": "head stress, mean",
     "head_p999": "head stress, 99.9 %",
@@ -23,31 +24,38 @@ BLIND = {  # statistic of a blind scene: its name on the page
     "torque": "friction torque",
     "land_loss": "loss of the lands",
 }
-STYLES = {  # family -> colour, marker, line width
-    "ours, verlet": ("#0b3c8c", "o", 2.4),
-    "ours, explicit": ("#3f83d9", "s", 1.2),
-    "Bogacki-Shampine 3(2)": ("#9aa86b", "v", 1.0),
-    "Zonneveld 4(3)": ("#6f8f2a", "^", 1.0),
-    "Dormand-Prince 5(4)": ("#2f7d32", "P", 1.0),
-    "Verner 6(5)": ("#b08d3c", "<", 1.0),
-    "Verner 8(7)": ("#7a5c1e", ">", 1.0),
-    "CVODE Adams": ("#e08a1e", "X", 1.0),
-    "CVODE BDF, dense": ("#c0271f", "s", 1.6),
-    "CVODE BDF, diagonal": ("#e36a6a", "D", 1.0),
+OURS = "#0b3c8c"
+NAMES = {"RivetedBearing": "6207"}  # file of a bearing -> name on the page
+KUTTA = {"color": "#7f8f4a", "lw": 0.8}
+STYLES = {  # family -> line
+    "Bogacki-Shampine 3(2)": KUTTA,
+    "Zonneveld 4(3)": KUTTA,
+    "Dormand-Prince 5(4)": KUTTA,
+    "Verner 6(5)": KUTTA,
+    "Verner 8(7)": KUTTA,
+    "CVODE Adams": {"color": "#d97b00", "lw": 1.2},
+    "CVODE BDF, dense": {"color": "#c0271f", "lw": 1.6},
+    "CVODE BDF, diagonal": {"color": "#c0271f", "lw": 1.4, "ls": (0, (2, 1.5))},
+    "ours, explicit": {"color": "#3f83d9", "lw": 1.4},
+    "ours, fixed": {"color": "#111111", "marker": "*", "ms": 8, "ls": "none"},
+    "ours, verlet": {"color": OURS, "lw": 2.6},
+}
+KEY = {  # words under the panels -> family of that line
+    "ours, Verlet": "ours, verlet",
+    "ours, explicit": "ours, explicit",
+    "ours, fixed step": "ours, fixed",
+    "Runge–Kutta": "Verner 6(5)",
+    "Adams": "CVODE Adams",
+    "BDF, dense": "CVODE BDF, dense",
+    "BDF, diagonal": "CVODE BDF, diagonal",
 }
 RETIRED = ("CVODE BDF, bordered",)  # in earlier records: docs/notes/sundials_methods.md has its cost
-SPARE = [("#555555", "h", 1.2), ("#999999", "p", 1.2), ("#222222", "*", 1.2)]
-plt.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "performance", "font.size": 8})
+SPARE = {"color": "#777777", "lw": 1.0, "ls": ":"}  # of a family without a line of its own
+# A page shows a picture 390 pixels wide on a telephone: letters of 10 points in a figure of 5.4 inches have 10 pixels there.
+WIDTH = 5.4  # inches
+plt.rcParams.update({"font.size": 10, "axes.titlesize": 11, "axes.titleweight": "bold", "axes.titlelocation": "left"})
+plt.rcParams.update({"axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False})
 plt.rcParams.update({"axes.grid": True, "grid.alpha": 0.25, "axes.axisbelow": True})
-
-
-def save(figure, name):
-    """A picture as SVG, coordinates to 0.1 pt."""
-    text = io.StringIO()
-    figure.savefig(text, format="svg", metadata={"Date": None}, bbox_inches="tight")
-    plt.close(figure)
-    PICTURES.mkdir(parents=True, exist_ok=True)
-    (PICTURES / f"{name}.svg").write_text(re.sub(r"(\d\.\d)\d+", r"\1", text.getvalue()))
 
 
 def read_off(axis):
@@ -56,28 +64,23 @@ def read_off(axis):
     axis.minorticks_off()
 
 
-def style(family, families):
-    """Colour, marker and width of a family, spare ones for an unknown family."""
-    unknown = [name for name in families if name not in STYLES]
-    return STYLES[family] if family in STYLES else SPARE[unknown.index(family) % len(SPARE)]
-
-
 def draw_blind(rows):
     """Run time against error of every scene: the largest bias over its limit."""
-    figure, axis = plt.subplots(figsize=(5.2, 3.0))
+    figure, axis = plt.subplots(figsize=(WIDTH, 3.6), layout="constrained")
     for bearing, marker in zip(sorted({row["bearing"] for row in rows}), "os^D", strict=False):
         own = [row["bias"] for row in rows if row["bearing"] == bearing]
         rtf = [bias["seconds"] / bias["time"] for bias in own]
         worst = [max(abs(bias[name]) / LIMITS[name][0] for name in BLIND) for bias in own]
-        axis.plot(rtf, np.maximum(worst, 1e-2), marker, markersize=4, alpha=0.7, label=bearing)
+        label = NAMES.get(bearing, bearing)
+        axis.plot(rtf, np.maximum(worst, 1e-2), marker, markersize=5, alpha=0.7, label=label)
     axis.axhline(1.0, color="#c0271f", linewidth=1.2)
     axis.set(xscale="log", yscale="log", xlabel="processor time / simulated time")
-    axis.set_ylabel("largest bias / its limit")
-    axis.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axis.xaxis.set_major_formatter(FormatStrFormatter("%g"))
-    axis.xaxis.set_minor_formatter("")
-    axis.legend(frameon=False)
-    save(figure, "blind")
+    axis.set_title("largest bias / its limit", pad=26)
+    axis.xaxis.set(major_locator=LogLocator(subs=(1.0, 2.0, 5.0)), major_formatter=FormatStrFormatter("%g"))
+    axis.yaxis.set(major_locator=LogLocator(), major_formatter=FormatStrFormatter("%g"))
+    axis.minorticks_off()
+    axis.legend(ncols=3, loc="lower left", bbox_to_anchor=(0.0, 1.0), borderpad=0.0, handletextpad=0.1)
+    save_svg(figure, PICTURES / "blind.svg")
 
 
 def families_of(rows):
@@ -98,56 +101,52 @@ def row_of(rows, family, tolerance):
 
 
 def draw_work_precision(data):
-    figure, axes = plt.subplots(2, 3, figsize=(10.5, 6.6))
-    for axis, scene in zip(axes.flat, data["scenes"].values()):
+    """Run time against error of every solver, a panel a scene; all panels have the same axes."""
+    figure, axes = plt.subplots(3, 2, figsize=(WIDTH, 7.2), sharex=True, sharey=True, layout="constrained")
+    *panels, rest = axes.flat
+    for axis, (name, scene) in zip(panels, data["scenes"].items(), strict=True):
         rows = scene["states"]["rows"]
-        families = families_of(rows)
-        for family in families:
-            colour, marker, width = style(family, families)
+        for family in families_of(rows)[::-1]:  # ours above the others
             error, rtf = curve(rows, family).T
-            axis.loglog(error, rtf, color=colour, marker=marker, ms=3.5, lw=width, label=family)
+            axis.loglog(error, rtf, **STYLES.get(family, SPARE))
         default = row_of(rows, **data["default"])
-        axis.loglog(default["error"], default["rtf"], "o", ms=10, mfc="none", mec="#0b3c8c")
-        read_off(axis)
-        axis.set(
-            title=scene["title"], xlabel="error after 2 ms / tolerance scale", ylabel="processor time / simulated time"
-        )
-    handles, labels = axes.flat[0].get_legend_handles_labels()
-    for axis in list(axes.flat)[len(data["scenes"]) :]:
-        axis.axis("off")
-        axis.legend(handles, labels, loc="center", frameon=False)
-    figure.tight_layout()
-    save(figure, "work_precision")
+        axis.loglog(default["error"], default["rtf"], "o", ms=11, mfc="none", mec=OURS)
+        axis.set_title(SHORT[name])
+        axis.set(xlim=(3e-8, 3.0), xticks=[1e-6, 1e-3, 1.0], yticks=[0.3, 1, 3, 10, 30])
+        axis.yaxis.set_major_formatter(FormatStrFormatter("%g"))
+        axis.minorticks_off()
+    panels[-2].xaxis.set_tick_params(labelbottom=True)
+    rest.axis("off")
+    lines = [Line2D([], [], **STYLES[family]) for family in KEY.values()]
+    rest.legend(lines, KEY, loc="center", fontsize=10, handlelength=1.6, borderpad=0.0)
+    figure.supxlabel("error after 2 ms / tolerance scale", fontsize=10)
+    figure.supylabel("processor time / simulated time", fontsize=10)
+    save_svg(figure, PICTURES / "work_precision.svg")
 
 
 def draw_scaling(data):
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(10.5, 3.0))
-    Z = np.array([int(z) for z in data["balls"]])
-    left.plot(Z, [row["us_per_eval"] for row in data["balls"].values()], "o-", color="#0b3c8c")
-    left.set(xlabel="balls", ylabel="µs per evaluation, stepping included", ylim=(0, None))
-    steps = [float(step) for step in data["step"]]
-    middle.loglog(
-        steps, [row["constant"]["rtf"] for row in data["step"].values()], "o-", color="#0b3c8c", label="process"
+    """Cost over the communication step, the balls and the outputs."""
+    figure, axes = plt.subplot_mosaic(
+        [["step", "step"], ["balls", "outputs"]], figsize=(WIDTH, 5.6), layout="constrained"
     )
-    middle.loglog(
-        steps,
-        [row["constant"]["inside"] for row in data["step"].values()],
-        "s--",
-        color="#3f83d9",
-        label="inside the FMU",
+    steps = np.array([float(step) for step in data["step"]])
+    for kind, key, name, line in (
+        ("changing", "rtf", "changing inputs", {"color": "#c0271f", "marker": "^", "ls": ":"}),
+        ("constant", "rtf", "constant inputs", {"color": OURS, "marker": "o"}),
+        ("constant", "inside", "inside the FMU", {"color": "#3f83d9", "marker": "s", "ls": "--"}),
+    ):
+        axes["step"].loglog(1e6 * steps, [row[kind][key] for row in data["step"].values()], label=name, **line)
+    axes["step"].set(title="RTF: processor time / simulated time", xlabel="communication step, µs")
+    axes["step"].xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}"))
+    axes["step"].legend()
+    read_off(axes["step"])
+    shown = (
+        ("balls", "µs an evaluation", "balls", "us_per_eval"),
+        ("outputs", "RTF", "outputs read each 0.1 ms", "rtf"),
     )
-    middle.loglog(
-        steps,
-        [row["changing"]["rtf"] for row in data["step"].values()],
-        "^:",
-        color="#c0271f",
-        label="process, inputs changing",
-    )
-    middle.set(xlabel="communication step [s]", ylabel="processor time / simulated time")
-    read_off(middle)
-    middle.legend(frameon=False)
-    counts = [int(count) for count in data["outputs"]]
-    right.plot(counts, [row["rtf"] for row in data["outputs"].values()], "o-", color="#0b3c8c")
-    right.set(xlabel="outputs read every 1e-4 s", ylabel="processor time / simulated time", ylim=(0, None))
-    figure.tight_layout()
-    save(figure, "scaling")
+    for name, title, label, key in shown:
+        counts = [int(count) for count in data[name]]
+        axes[name].plot(counts, [row[key] for row in data[name].values()], "o-", color=OURS)
+        axes[name].set(title=title, xlabel=label, xlim=(0, None), ylim=(0, None))
+        axes[name].locator_params(nbins=4)
+    save_svg(figure, PICTURES / "scaling.svg")

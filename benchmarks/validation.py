@@ -22,6 +22,7 @@ import numpy as np
 import validation_page
 from common import FMU, ROOT, core_library, options, say, write
 from mechanics import Instance
+from PIL import Image
 from race_control import LOADS, SPEEDS
 from race_control import equilibrium as control_equilibrium
 from race_control import running as running_with_spin
@@ -343,7 +344,10 @@ def twins(model, long):
         compare(model, load_scene("demo", model), long=long),
         compare(model, load_scene("R", model), long=0.0),
     )
-    plot_comparison(other, PICTURES / "compare.png", dpi=80)
+    drawn = plot_comparison(other, PICTURES / "compare.png")
+    Image.open(drawn).convert("RGB").quantize(64, dither=Image.Dither.NONE).save(
+        drawn, optimize=True
+    )  # a third of the bytes
     worst = []
     for comparison in (found, other):
         for motion in (True, False):

@@ -11,6 +11,7 @@ import numpy as np
 from common import ROOT
 from pages import page_text
 from records import newest_record
+from svg import save_svg
 
 from riveted_bearing.show.style import HEAD, MIDDLE, MUTED, STYLE
 
@@ -195,15 +196,16 @@ def skid(found):
 
 def picture_of_skid(data):
     found = data["skid"]
-    with plt.rc_context(STYLE):
-        figure, ax = plt.subplots(figsize=(5.0, 3.0), layout="constrained")
+    with plt.rc_context(STYLE | {"font.size": 10}):
+        figure, ax = plt.subplots(figsize=(5.4, 3.4), layout="constrained")
         for row, colour in zip(found["rows"], (HEAD, MIDDLE, MUTED), strict=True):
-            ax.plot(found["speeds"], row["slips"], ".-", color=colour, label=f"{row['F_x']:.0f} N")
-        ax.axhline(6.0, color="black", lw=0.6, ls="--")
-        ax.set(title="Skid, 120-mm bearing; dashed: the report's largest", xlabel="r/min", ylabel="%")
-        ax.legend()
-    figure.savefig(PICTURES / "skid.svg")
-    plt.close(figure)
+            ax.plot(found["speeds"], row["slips"], "o-", ms=4, color=colour, label=f"{row['F_x']:,.0f} N")
+        ax.axhline(6.0, color="black", lw=0.8, ls="--")
+        ax.text(found["speeds"][0], 5.85, "largest of the report", va="top")
+        ax.set(title="Skid of the 120-mm bearing under three thrusts, %", xlabel="r/min")
+        ax.xaxis.set_major_formatter("{x:,.0f}")
+        ax.legend(loc="center", ncols=3, fontsize=10)
+        save_svg(figure, PICTURES / "skid.svg")
 
 
 def cage_forces(found):

@@ -89,6 +89,27 @@ def test_a_boundary_dimension_that_contradicts_the_designation_is_refused(tmp_pa
     assert read(tmp_path, f'{OWN}[catalogue]\nbore = "45 mm"\nC = "50 kN"\n').catalogue["C"] == 50e3
 
 
+@pytest.mark.parametrize("outside", ["40 mm", "90 mm", "99.7 mm"])
+def test_balls_need_a_bore_below_the_outside_diameter(tmp_path, outside):
+    """The smallest ball of the rule, 1/8 inch, is 0.325 of the difference at most: 90 mm + 3.175 mm/0.325."""
+    ratings = 'width = "23 mm"\nC = "20 kN"\nC_0 = "15 kN"\n'
+    with pytest.raises(
+        UserError,
+        match=rf"catalogue.outside_diameter = '{outside}': at least 99.77 mm is allowed with catalogue.bore = 90 mm",
+    ):
+        read(tmp_path, f'designation = "mine"\n[catalogue]\nbore = "90 mm"\noutside_diameter = "{outside}"\n{ratings}')
+    given = (
+        'Z = 8\n[parameters]\nbearing.D = "15.081 mm"\nbearing.d_m = "65 mm"\n'  # the bore against these balls' groove
+    )
+    with pytest.raises(
+        UserError, match="catalogue.bore = '90 mm': at most 4.* mm is allowed for an inner ring below its groove"
+    ):
+        read(
+            tmp_path,
+            f'designation = "mine"\n{given}[catalogue]\nbore = "90 mm"\noutside_diameter = "{outside}"\n{ratings}',
+        )
+
+
 # What follows by rule -------------------------------------------------------------------------------------------------
 
 

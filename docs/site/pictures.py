@@ -293,7 +293,7 @@ def rivet():
     fig.set_size_inches(9.0, 6.6)
     for text in fig.axes[0].texts:
         text.set_fontsize(15)
-    fig.axes[0].title.set_fontsize(16)
+    fig.axes[0].set_title(fig.axes[0].get_title(loc="left"), loc="left", fontsize=16)
     fig.axes[0].xaxis.label.set_visible(False)
     return fig
 
@@ -429,7 +429,7 @@ def sweep():
 
 def spectrum():
     """Both spectra of the scene `spall`."""
-    with plt.rc_context({"font.size": 14, "axes.labelsize": 14}):
+    with plt.rc_context({"font.size": 14, "axes.labelsize": 14, "legend.fontsize": 13}):
         fig = plt.figure(figsize=(WIDTH / 120, 6.4), layout="constrained")
         draw(fig, spectra(rb.run("spall", fmu=FMU)))
     fig.axes[0].locator_params(axis="x", nbins=5)

@@ -199,7 +199,7 @@ def plot(result, path):
     force.plot(ms, np.hypot(result["bearing.housing.F_y"], result["bearing.housing.F_z"]), label="reaction, A")
     force.plot(ms, np.hypot(result["shaft.shaft.F_y"], result["shaft.shaft.F_z"]), label="load")
     force.set_title("radial force [N]")
-    force.legend()
+    force.legend(loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=2, frameon=False, columnspacing=1.0)
     torque.plot(ms, result["bearing.bearing.friction_torque"], label="bearing A")
     torque.plot(ms, result["shaft.support.M"], label="bearing B")
     torque.set_title("friction torque [N m]")

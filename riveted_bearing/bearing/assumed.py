@@ -31,7 +31,7 @@ TEMPERATURES = {  # usual range around the oil's temperature [K]
 DEEPEST = 1.05  # clearance of a ribbon's pocket over that at which its sphere ends in the split
 SEEN = 2.0  # standard errors from which an effect is more than the seeds' scatter
 YOURS = "your own range"
-UNKNOWN = "not screened in this bearing (riveted-bearing build --screen, sensitivity --quick)"
+UNKNOWN = "unknown until riveted-bearing build --screen or sensitivity --quick measures it"
 
 
 @dataclass(frozen=True)

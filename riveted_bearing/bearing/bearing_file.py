@@ -99,8 +99,11 @@ def check_designation(path, document):
         raise UserError(f"{problem}; one that the catalogue does not have needs {', '.join(missing)} too")
 
 
-def entry_of(path, designation, data, given):
-    """The Entry that a file's own [catalogue] stands for; None where the file gives balls or only the 6207's values."""
+def entry_of(path, designation, data, given, written):
+    """The Entry that a file's own [catalogue] stands for; None where the file gives balls or only the 6207's values.
+
+    data: its values in SI, written: as the file has them.
+    """
     shape = [name for name in ("Z", *SHAPE[:2]) if given.get(name) is None]
     example = catalogue.entries()[EXAMPLE].data
     if not shape or len(shape) < 3 or all(example[key] == value for key, value in data.items()):
@@ -109,7 +112,7 @@ def entry_of(path, designation, data, given):
         allowed = f"the balls need catalogue.{', catalogue.'.join(missing)} too, or give {', '.join(shape)}"
         raise UserError(f"{path}: catalogue.{next(iter(data))}: {allowed}")
     entry = catalogue.Entry(designation, **data)
-    with refusing(path, "catalogue.outside_diameter", entry.outside_diameter):
+    with refusing(path, "catalogue.outside_diameter", written["outside_diameter"]):
         catalogue.balls(entry)
     return entry
 
@@ -129,7 +132,7 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     if play is not None:
         given |= clearance_class(path, play, given, data, entry)
     if entry is None and own != "shipped":
-        entry = entry_of(path, designation, data, {"Z": Z} | given)
+        entry = entry_of(path, designation, data, {"Z": Z} | given, section_of(path, document, "catalogue"))
     inputs = dict(start_values(path, "inputs", section_of(path, document, "inputs"), variables.INPUTS))
     written = dict(flat(plain_names(section_of(path, document, "parameters"))))
     start = {name: v.start for name, v in variables.PARAMETERS.items() if name.startswith("oil.")}

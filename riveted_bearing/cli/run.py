@@ -234,10 +234,12 @@ def print_summary(result):
     print_known(result)
     if rows := assumed_rows(result):
         moving = [row for row in rows if row.size("stress")] or rows
-        meant = f"usual range: change of the worst head over it, {measured_in(rows)}"
+        meant = f"usual range: change of the worst head's stress over it, {measured_in(rows)}"
         said = ((row.name, row.words[0], filter(None, (row.words[1], row.change("stress")))) for row in moving)
         texts = (f"{name} {value} ({': '.join(span)})" for name, value, span in said)
-        console.print(f"[dim]assumed, and the stress moves with it ({escape(meant)}): {escape(', '.join(texts))}[/]")
+        console.print(
+            f"[dim]assumed values that the stress moves with ({escape(meant)}): {escape(', '.join(texts))}[/]"
+        )
         if rest := [row for row in rows if row not in moving]:
             console.print(f"[dim]assumed too: {escape(', '.join(row.name for row in rest))}[/]")
     for source, names in about.get("not_given", {}).items():

@@ -208,30 +208,26 @@ def magnified(ax, y, z, half):
 OVERLAID = (("ball[j].Q_i", "Contact loads"), ("ball[j].Q_c", "Pocket loads"), ("rivet[k].V", "Loads of the joints"))
 
 
-def plot_comparison(found: Any, path: Path, dpi: int = 110) -> Path:
+def plot_comparison(found: Any, path: Path) -> Path:
     """Write a Comparison as PNG: outputs of both, differences by tolerance, statistics in deviations."""
-    rows = 3 if found.statistics else 2
-    with picture(path, (4.6 * rows, 7.0), f"{found.scene}: FMU against the Python reference", dpi) as figure:
-        axes = figure.subplots(2, rows)
+    widths = [2.7, 2.7, *([3.6] if found.statistics else [])]  # inches
+    with picture(path, (sum(widths), 6.2), f"{found.scene}: FMU (points), Python reference (lines)", 144) as figure:
+        grid = figure.add_gridspec(2, len(widths), width_ratios=widths)
         by_name = {channel.name: channel for channel in found.channels}
-        panels = [axes[0, 0], axes[0, 1], axes[1, 0]]
-        for ax, (name, title) in zip(panels, OVERLAID, strict=True):
-            overlay(ax, 1e3 * found.t, by_name[name], title)
-        differences(axes[1, 1], found)
+        for place, (name, title) in zip((grid[0, 0], grid[0, 1], grid[1, 0]), OVERLAID, strict=True):
+            overlay(figure.add_subplot(place), 1e3 * found.t, by_name[name], title)
+        differences(figure.add_subplot(grid[1, 1]), found)
         if found.statistics:
-            grid = axes[0, 2].get_gridspec()
-            axes[0, 2].remove(), axes[1, 2].remove()
             deviations(figure.add_subplot(grid[:, 2]), found)
     return path
 
 
 def overlay(ax, t, channel, title):
     """One output: the reference as lines, the FMU at the scene's tolerance as points."""
-    ax.plot(t, channel.reference, color=FORCE, lw=0.8)[0].set_label("reference")
-    ax.plot(t, channel.fmu, ".", color=HEAD, ms=3.5)[0].set_label("FMU")
-    ax.set(title=title, xlabel="time [ms]", ylabel=channel.unit)
-    ax.locator_params(axis="x", nbins=5)
-    ax.legend(ncols=2, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+    ax.plot(t, channel.reference, color=FORCE, lw=0.8)
+    ax.plot(t, channel.fmu, ".", color=HEAD, ms=4)
+    ax.set(title=f"{title}, {channel.unit}", xlabel="ms")
+    ax.locator_params(nbins=4)
 
 
 def differences(ax, found):
@@ -241,11 +237,13 @@ def differences(ax, found):
     for i, (tolerance, colour) in enumerate(zip(found.tolerances, (HEAD, MIDDLE, RING), strict=True)):
         for motion, style in ((True, "-"), (False, "--")):
             worst = np.max([channel.error[i] for channel in found.channels if is_motion(channel) == motion], axis=0)
-            label = f"{tolerance:.0e}" if motion else None
-            ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.0, label=label)
-    ax.locator_params(axis="x", nbins=5)
-    ax.set(title="By tolerance", xlabel="time [ms]", ylabel="largest difference / scale: motion, - - loads")
-    ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
+            ax.semilogy(1e3 * found.t[1:], worst[1:], style, color=colour, lw=1.2)
+        ax.plot([], [], color=colour, label=f"{tolerance:.0e}")
+    for style, label in (("-", "motion"), ("--", "loads")):
+        ax.plot([], [], style, color=FORCE, label=label)
+    ax.locator_params(axis="x", nbins=4)
+    ax.set(title="Difference / scale", xlabel="ms")
+    ax.legend(ncols=2, loc="upper left", bbox_to_anchor=(0.0, -0.2), columnspacing=1.0)
 
 
 def deviations(ax, found):
@@ -256,6 +254,6 @@ def deviations(ax, found):
     ax.set_yticks(range(len(rows)), [row.name.removeprefix("stat.") for row in rows])
     ax.locator_params(axis="x", nbins=4)
     limit = max(3.5, 1.1 * max((abs(row.deviation) for row in rows), default=0.0))
-    title = f"Statistics of {found.long - found.settle:g} s: reference - FMU"
-    ax.set(title=title, xlabel="standard deviations over seeds", xlim=(-limit, limit))
+    title = f"Reference - FMU, {found.long - found.settle:g} s"
+    ax.set(title=title, xlabel="standard deviations", xlim=(-limit, limit))
     ax.axvline(0.0, color=MUTED, lw=0.8)

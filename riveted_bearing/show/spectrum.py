@@ -305,9 +305,9 @@ def draw(figure, found):
     for name, colour in colours.items():
         for k in range(1, HARMONICS + 1):
             place = k * found.kinematic[name]
-            below.axvline(place, color=colour, linewidth=0.8, linestyle=":", label=name if k == 1 else None)
+            below.axvline(place, color=colour, linewidth=1.2, linestyle=":", label=name if k == 1 else None)
     below.set(xlabel=found.axis, ylabel=f"squared envelope [{squared(found.unit)}]", xlim=(0.0, last))
-    below.legend(loc="upper right", frameon=False, ncols=4)
+    below.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4)
 
 
 def squared(unit: str) -> Any:
