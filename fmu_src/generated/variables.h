@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{f5379d9e-ebc3-17aa-34e3-b481b6da2bcc}"  // digest of the table
+#define MODEL_GUID "{ea0ae4d7-d5fb-95a6-170f-500de736745f}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
