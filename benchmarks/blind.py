@@ -28,7 +28,7 @@ from scipy import stats
 
 from riveted_bearing import UserError
 from riveted_bearing.running.fmu import Instance, Model
-from riveted_bearing.running.runner import closing_values
+from riveted_bearing.running.runner import closing_names
 from riveted_bearing.running.scene import load_scene
 
 # [s]: statistics run over at least SPAN after SETTLE, at most over LONGEST each, sampled outputs at each STEP
@@ -172,7 +172,7 @@ def march(model, scene, parts):
                 rows.append(read().copy())
         except FMICallException:
             raise ArithmeticError(instance.complaints()) from None
-        return np.array(rows).T, closing_values(instance, model)
+        return np.array(rows).T, instance.read(closing_names(model))
 
 
 def measure(fmu, scene, seed, accuracy, method):

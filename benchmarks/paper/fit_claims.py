@@ -35,9 +35,10 @@ from scipy.stats import t as student
 from riveted_bearing.base.errors import refusal, unknown
 from riveted_bearing.base.files import make_folder, write_json
 from riveted_bearing.base.toml_files import leaves, read_toml, section_of
+from riveted_bearing.cli.options import FMU, SCHEDULER, WORKERS
 from riveted_bearing.cli.printing import print_paths
 from riveted_bearing.cli.printing import table as grid
-from riveted_bearing.cli.terminal import FMU, SCHEDULER, WORKERS, console, design_runs, guarded
+from riveted_bearing.cli.terminal import console, design_runs, guarded
 from riveted_bearing.identify.fit import FRESH
 from riveted_bearing.identify.study import parameters_of
 from riveted_bearing.running.fmu import Model

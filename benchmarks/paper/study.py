@@ -10,17 +10,8 @@ import typer
 from rich.markup import escape
 
 from riveted_bearing.base.files import make_folder
-from riveted_bearing.cli.terminal import (
-    FMU,
-    SCHEDULER,
-    SETTINGS,
-    WORKERS,
-    changes,
-    console,
-    guarded,
-    resumable,
-    sweep_progress,
-)
+from riveted_bearing.cli.options import FMU, SCHEDULER, SETTINGS, WORKERS
+from riveted_bearing.cli.terminal import changes, console, guarded, resumable, sweep_progress
 
 FIGURES = {  # of the paper, by the sweep that makes them
     "preload": "Figs. 10, 11",
