@@ -10,11 +10,12 @@ from commands import command
 from library import ROOT
 
 from bearing_model.rivet import rivet_rom, rivet_table
-from rivet_model import load_cases, pictures
+from rivet_model import load_cases
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError, run
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.building import rivet
+from riveted_bearing.building import rivet_pictures as pictures
 from riveted_bearing.building.builder import case_with, given_table
 
 TABLE = rivet_table.read(ROOT / "rivet_model" / "tables" / "6207.json")

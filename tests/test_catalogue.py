@@ -9,12 +9,12 @@ import pytest
 from scipy.optimize import brentq
 
 from bearing_model.generated import variables
-from bearing_model.load_ratings import dynamic_rating, rating_factor_0, static_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
 from riveted_bearing import UserError
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.catalogue import CLEARANCE, balls, clearance, entries
+from riveted_bearing.bearing.load_ratings import dynamic_rating, rating_factor_0, static_rating
 from riveted_bearing.bearing.origin import not_given
 from riveted_bearing.bearing.scaling import BORE, WIDTH, scaled_parameters, scaled_rivet
 

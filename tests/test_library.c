@@ -2,6 +2,7 @@
 // as the kernels want it.
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
+#include "instance/jacobian.h"
 #include "instance/part.h"
 #include "numbers/elementary.h"
 #include "numbers/lanes.h"
@@ -14,6 +15,8 @@
 #include <stdlib.h>
 
 void *test_allocate(size_t size);
+void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
+void jacobian_matrix(const Model *model, double t, const double *y, double *J);
 ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d);
 void test_spin_bending(int n, int steps, const double *S, double P, const double *w, double *more);
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
@@ -47,6 +50,26 @@ ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d)
     ElasticHalf *half = test_allocate(sizeof *half);
     if (half) elastic_half_derive(p, d, half);
     return half;
+}
+
+// Load and motion by inputs that are held.
+void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load)
+{
+    const Inputs held[INPUT_ORDERS + 1] = {*u};
+    InputTrajectory trajectory;
+    input_trajectory_update(p, held, t, t, &trajectory);
+    ring_load_at(&trajectory, t, ring_load);
+}
+
+// All derivatives by the states, column by column: J[j * cage_states(model) + i] = d(y_dot[i])/d(y[j]).
+void jacobian_matrix(const Model *model, double t, const double *y, double *J)
+{
+    const int states = cage_states(model);
+    for (int j = 0; j < states; j++) {
+        double dy[N_ALL_STATES] = {0.0};
+        dy[j] = 1.0;
+        jacobian_product(model, t, y, dy, NULL, &J[j * states], NULL);
+    }
 }
 
 void test_spin_bending(int n, int steps, const double *S, double P, const double *w, double *more)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bearing_model.load_ratings import (
+from riveted_bearing.bearing.load_ratings import (
     dynamic_rating,
     rating_factor_0,
     rating_factor_c,

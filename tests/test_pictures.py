@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from pictures import faults
 
-from rivet_model import load_cases, pictures
+from rivet_model import load_cases
 from rivet_model.geometry import Geometry
 from riveted_bearing import run
 from riveted_bearing.building import rivet
+from riveted_bearing.building import rivet_pictures as pictures
 from riveted_bearing.building.rivet import rivet_curves, seat_note, write_pictures
 from riveted_bearing.running.rainflow import rivet_life
 from riveted_bearing.show import charts, report

@@ -10,7 +10,9 @@ import pytest
 from commands import command
 from typer.testing import CliRunner
 
-from bearing_model.load_ratings import (
+from riveted_bearing import UserError
+from riveted_bearing.bearing.bearing_file import bearing_case
+from riveted_bearing.bearing.load_ratings import (
     CLEANLINESS,
     contamination_factor,
     equivalent_load,
@@ -18,8 +20,6 @@ from bearing_model.load_ratings import (
     life_factor,
     rating_factor_0,
 )
-from riveted_bearing import UserError
-from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.cli import program
 from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, designs_page, page, raceways, sheet, verdict

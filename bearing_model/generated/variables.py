@@ -593,44 +593,6 @@ MODE_S_DOT = slice(232, 272)  # m/s  Their rates, mirrored
 MODE_D_DOT = slice(272, 312)  # m/s  and opposed
 N_STATES = 152
 N_ALL_STATES = 312  # with those of elastic cage halves
-STATE_SLICES = {
-    "ball_x": BALL_X,
-    "ball_r": BALL_R,
-    "ball_theta": BALL_THETA,
-    "cage_x": CAGE_X,
-    "cage_y": CAGE_Y,
-    "cage_z": CAGE_Z,
-    "cage_beta": CAGE_BETA,
-    "cage_gamma": CAGE_GAMMA,
-    "cage_psi": CAGE_PSI,
-    "ring_x": RING_X,
-    "ring_y": RING_Y,
-    "ring_z": RING_Z,
-    "ring_beta": RING_BETA,
-    "ring_gamma": RING_GAMMA,
-    "joint_plate_y": JOINT_PLATE_Y,
-    "joint_plate_z": JOINT_PLATE_Z,
-    "joint_head_y": JOINT_HEAD_Y,
-    "joint_head_z": JOINT_HEAD_Z,
-    "work": WORK,
-    "ball_v_x": BALL_V_X,
-    "ball_v_r": BALL_V_R,
-    "ball_omega_m": BALL_OMEGA_M,
-    "cage_v_x": CAGE_V_X,
-    "cage_v_y": CAGE_V_Y,
-    "cage_v_z": CAGE_V_Z,
-    "cage_beta_dot": CAGE_BETA_DOT,
-    "cage_gamma_dot": CAGE_GAMMA_DOT,
-    "cage_s": CAGE_S,
-    "ring_v_x": RING_V_X,
-    "ring_v_y": RING_V_Y,
-    "ring_v_z": RING_V_Z,
-    "ring_beta_dot": RING_BETA_DOT,
-    "ring_gamma_dot": RING_GAMMA_DOT,
-    "ball_omega_x": BALL_OMEGA_X,
-    "ball_omega_r": BALL_OMEGA_R,
-    "ball_omega_t": BALL_OMEGA_T,
-}
 STATE_SCALES = {
     "ball_x": "length",
     "ball_r": "length",
@@ -669,6 +631,7 @@ STATE_SCALES = {
     "ball_omega_r": "spin",
     "ball_omega_t": "spin",
 }
+STATE_SLICES = {name: globals()[name.upper()] for name in STATE_SCALES}
 ELASTIC_SCALES = {
     "mode_s": "length",
     "mode_d": "length",

@@ -47,35 +47,30 @@ def film_share(d, load):
     return smooth_part(load / (FAINT_LOAD * np.sum(d.P) + 1e-30) - 1.0)
 
 
-def bent_shapes(e, C):
-    """Shapes b [6, ..., point] at the points around the direction of e [2, ...], and dtheta/dpsi there."""
-    size = np.sqrt(e[0] ** 2 + e[1] ** 2 + 1e-30)
-    u_y, u_z, eps = (x[..., None] for x in (e[0] / size, e[1] / size, minimum(size / C, BENT_EPS)))
-    one, q = 1.0 + eps * np.cos(PSI), np.sqrt(1.0 - eps * eps)
-    cosine, sine = (eps + np.cos(PSI)) / one, q * np.sin(PSI) / one
-    y, z = cosine * u_y - sine * u_z, cosine * u_z + sine * u_y
-    c_2, s_2 = y * y - z * z, 2.0 * y * z
-    return np.stack([y, z, c_2, s_2, y * c_2 - z * s_2, y * s_2 + z * c_2]), q / one
-
-
-def bent_gap(x, g_0):
-    """Gap of a film over the clearance, x of the geometry."""
-    floor = 0.25 * g_0
-    above = x - floor
-    return floor + 0.5 * (above + np.sqrt(above * above + 8.0 * floor * floor))
-
-
 def bent_dot(x, b):
     """Sum over the shapes: x [6, ...] at the points [..., point]."""
     return sum(part[..., None] * shape for part, shape in zip(x, b, strict=True))
 
 
 def bent_grid(p, pressure):
-    """Shapes b, weights dtheta, gap over the clearance x, and its film's."""
-    e = np.concatenate([pressure.e, pressure.rim])
-    b, weight = bent_shapes(pressure.e, pressure.C)
-    x = (pressure.C[..., None] - bent_dot(e, b)) / pressure.C[..., None]
-    return b, 2.0 * np.pi / BENT_POINTS * weight, x, bent_gap(x, p.cage.g_0)
+    """Shapes b [6, ..., point], weights dtheta, gap over the clearance x, and its film's, at the points around the direction of e."""
+    C = pressure.C[..., None]
+    size = np.sqrt(pressure.e[0] ** 2 + pressure.e[1] ** 2 + 1e-30)
+    u_y, u_z, eps = (x[..., None] for x in (*(pressure.e / size), minimum(size / pressure.C, BENT_EPS)))
+    one, q = 1.0 + eps * np.cos(PSI), np.sqrt(1.0 - eps * eps)
+    cosine, sine = (eps + np.cos(PSI)) / one, q * np.sin(PSI) / one
+    y, z = cosine * u_y - sine * u_z, cosine * u_z + sine * u_y
+    c_2, s_2 = y * y - z * z, 2.0 * y * z
+    b = np.stack([y, z, c_2, s_2, y * c_2 - z * s_2, y * s_2 + z * c_2])
+    x = (C - bent_dot(np.concatenate([pressure.e, pressure.rim]), b)) / C
+    floor = 0.25 * p.cage.g_0
+    above = x - floor
+    return (
+        b,
+        2.0 * np.pi / BENT_POINTS * q / one,
+        x,
+        floor + 0.5 * (above + np.sqrt(above * above + 8.0 * floor * floor)),
+    )
 
 
 def bent_law(p, pressure, V, grid):

@@ -40,6 +40,7 @@ gap of a round land.  Of elastic halves the bending changes the film: land_bent.
 
 from dataclasses import dataclass, replace
 from types import SimpleNamespace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -64,48 +65,40 @@ LAND_POINTS = 24  # of its sum over the angle
 PSI = 2.0 * np.pi * np.arange(LAND_POINTS) / LAND_POINTS
 
 
-def land_film_integrals(a, b, q2):
-    """The integrals I_c, I_s and I_t that stand at the head of this file."""
+class JournalFilm(NamedTuple):
+    """A film's force F [N] and its rates -dF/dV [N.s/m]."""
+
+    F_y: np.ndarray
+    F_z: np.ndarray
+    yy: np.ndarray
+    yz: np.ndarray
+    zz: np.ndarray
+
+
+def journal_film(e, V, cap, q2, kappa):
+    """JournalFilm at the eccentricity e with the squeeze velocity V, (y, z) each; cap: limiter of e over the clearance [1/m];
+    kappa [N.s/m].
+    """
+    (e_y, e_z), (V_y, V_z) = e, V
+    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
+    n_y, n_z = V_y / V, V_z / V
+    a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
+
+    # the integrals at the head of this file
     q = np.sqrt(q2)
     q4, q5, c2 = q2 * q2, q2 * q2 * q, q2 + a * a  # c2 = 1 - b^2
     S = 0.5 * np.pi + np.arctan(a / q)
     I_c = 3.0 * a / q4 + S * (q2 + 3.0 * a * a) / q5
     I_s = 2.0 * b / q4 + a * a * b / (q4 * c2) + 3.0 * a * b * S / q5
     I_t = a / (q2 * c2) + 3.0 * a * b * b / (q4 * c2) + 2.0 * a * b * b / (q2 * c2 * c2) + S * (q2 + 3.0 * b * b) / q5
-    return I_c, I_s, I_t
 
-
-@dataclass
-class JournalFilm:
-    """A film where it is: direction n of V, kappa [N.s/m], integrals over the closing half."""
-
-    n_y: np.ndarray
-    n_z: np.ndarray
-    kappa: np.ndarray
-    over: tuple
-
-    def force(self, V_y, V_z):
-        """Along both axes [N]."""
-        I_c, I_s, _ = self.over
-        return -self.kappa * (I_c * V_y - I_s * V_z), -self.kappa * (I_c * V_z + I_s * V_y)
-
-    def rates(self):
-        """-dF/dV: yy, yz, zz [N.s/m]."""
-        (I_c, I_s, I_t), n_y, n_z = self.over, self.n_y, self.n_z
-        return {
-            "yy": self.kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
-            "yz": self.kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
-            "zz": self.kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
-        }
-
-
-def journal_film(e, V, cap, q2, kappa):
-    """JournalFilm at the eccentricity e with the squeeze velocity V, (y, z) each; cap: limiter of e over the clearance [1/m]."""
-    (e_y, e_z), (V_y, V_z) = e, V
-    V = np.sqrt(V_y * V_y + V_z * V_z + 1e-30)
-    n_y, n_z = V_y / V, V_z / V
-    a, b = (e_y * n_y + e_z * n_z) * cap, (e_z * n_y - e_y * n_z) * cap
-    return JournalFilm(n_y, n_z, kappa, land_film_integrals(a, b, q2))
+    return JournalFilm(
+        -kappa * (I_c * V_y - I_s * V_z),
+        -kappa * (I_c * V_z + I_s * V_y),
+        kappa * (I_c * n_y * n_y - 2.0 * I_s * n_y * n_z + I_t * n_z * n_z),
+        kappa * ((I_c - I_t) * n_y * n_z + I_s * (n_y * n_y - n_z * n_z)),
+        kappa * (I_c * n_z * n_z + 2.0 * I_s * n_y * n_z + I_t * n_y * n_y),
+    )
 
 
 def land_film_gap(eps, g_0):
@@ -276,58 +269,45 @@ def rim_squeeze(model, w, e, omega):
     return rim, rim_v, rim_v + omega * by_spin[2:], by_spin
 
 
-def round_film(model, e, V, C, heated):
-    """Film of round lands: distance e, gap function q^2 and the film itself; eps = e/C, and the clearance at rest over C."""
-    p, d, (e_y, e_z), (V_y, V_z) = model.p, model.d, e, V
-    e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
-    narrow = d.C_land / C
-    eps = e / C
-    cap = minimum(1.0, EPS_CAP / eps) / C
-    q2 = land_film_gap(eps, p.cage.g_0)
-    film = journal_film((e_y, e_z), (V_y, V_z), cap, q2, d.kappa * heated * narrow**3)
-    F_y, F_z = film.force(V_y, V_z)
-    lands = SimpleNamespace(e=e, u_y=e_y / e, u_z=e_z / e, eps=eps, narrow=narrow, q2=q2, film=film, F_y=F_y, F_z=F_z)
-    lands.couette = d.couette * heated / np.sqrt(q2) * narrow
-    lands.size = np.sqrt(F_y * F_y + F_z * F_z + 1e-30)
-    return lands
-
-
-def round_contact(model, motion, C, lands):
-    """Dry contact where the gap is smallest; with mixed lubrication the asperities carry their share of the film force too."""
-    p, (v_y, v_z, _) = model.p, motion
-    lands.pen, lands.pen_dot = lands.e - C, v_y * lands.u_y + v_z * lands.u_z
-    lands.N_0 = hertz_load(p.cage.K_land, lands.pen)
-    lands.N = lands.N_mu = hertz_damped(lands.N_0, p.cage.lambda_, lands.pen_dot)
-    if p.scene.lubrication == Lubrication.MIXED:
-        ln_Lambda = model.d.ln_land + np.log(lands.q2 / (lands.narrow * (1.0 + lands.eps)))
-        by_film = np.sqrt(lands.F_y * lands.F_y + lands.F_z * lands.F_z)
-        lands.N_mu = lands.N + traction_asperity_share(ln_Lambda) * by_film
-
-
 def round_lands(model, e, V, motion, C, heated):
     """Forces of lands whose rims are round on their halves; for the loads on the rims gap function and size of the film's force."""
-    p, (e_y, e_z), (v_y, v_z, omega) = model.p, e, motion
-    lands = round_film(model, e, V, C, heated)
-    round_contact(model, motion, C, lands)
+    p, d, (e_y, e_z), (v_y, v_z, omega) = model.p, model.d, e, motion
+
+    # film
+    e = np.sqrt(e_y * e_y + e_z * e_z + 1e-30)
+    narrow, eps, u_y, u_z = d.C_land / C, e / C, e_y / e, e_z / e
+    cap = minimum(1.0, EPS_CAP / eps) / C
+    q2 = land_film_gap(eps, p.cage.g_0)
+    film = journal_film((e_y, e_z), V, cap, q2, d.kappa * heated * narrow**3)
+    couette = d.couette * heated / np.sqrt(q2) * narrow  # torque / speed
+
+    # dry contact where the gap is smallest; N_mu: all that rubs, with mixed lubrication asperities too, with their share of the film's force
+    pen, pen_dot = e - C, v_y * u_y + v_z * u_z
+    N_0 = hertz_load(p.cage.K_land, pen)
+    N = N_mu = hertz_damped(N_0, p.cage.lambda_, pen_dot)
+    if p.scene.lubrication == Lubrication.MIXED:
+        ln_Lambda = d.ln_land + np.log(q2 / (narrow * (1.0 + eps)))
+        by_film = np.sqrt(film.F_y * film.F_y + film.F_z * film.F_z)
+        N_mu = N + traction_asperity_share(ln_Lambda) * by_film
 
     # friction along t = e_x x u
-    F_y, F_z, N, u_y, u_z, R = lands.F_y, lands.F_z, lands.N, lands.u_y, lands.u_z, 0.5 * p.cage.D_o
+    R = 0.5 * p.cage.D_o
     slip = v_z * u_y - v_y * u_z + omega * R
-    g = p.cage.mu_land * lands.N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
+    g = p.cage.mu_land * N_mu / np.sqrt(slip * slip + p.cage.v_c**2)
     F_t = -g * slip
-    yy, yz, zz = (rate + 0.0 * lands.e for rate in lands.film.rates().values())
+    yy, yz, zz = (rate + 0.0 * e for rate in (film.yy, film.yz, film.zz))
     return SimpleNamespace(
-        F_y=F_y - N * u_y - F_t * u_z,
-        F_z=F_z - N * u_z + F_t * u_y,
-        M_x=R * F_t - lands.couette * omega + 0.5 * (F_y * e_z - F_z * e_y),
-        N_0=lands.N_0,
-        spin=lands.couette + g * R * R,
-        stored=hertz_energy(p.cage.K_land, lands.pen),
-        stored_rate=lands.N_0 * lands.pen_dot,
+        F_y=film.F_y - N * u_y - F_t * u_z,
+        F_z=film.F_z - N * u_z + F_t * u_y,
+        M_x=R * F_t - couette * omega + 0.5 * (film.F_y * e_z - film.F_z * e_y),
+        N_0=N_0,
+        spin=couette + g * R * R,
+        stored=hertz_energy(p.cage.K_land, pen),
+        stored_rate=N_0 * pen_dot,
         rates=np.array([[yy, yz], [yz, zz]]),
         on_rim=0.0,
-        q2=lands.q2 + 0.0 * lands.e,
-        size=lands.size,
+        q2=q2 + 0.0 * e,
+        size=np.sqrt(film.F_y * film.F_y + film.F_z * film.F_z + 1e-30),
         dry=N,
     )
 

@@ -120,14 +120,9 @@ def pulse_start(p, n):
 
 def pulse_index(p, t):
     """Index of the last pulse that started at or before t, -1 before the first one."""
-    started = [n for n in pulse_candidates(p, t) if pulse_start(p, n) <= t]
-    return max(started, default=-1)
-
-
-def pulse_candidates(p, t):
-    """Indices of the pulses that may have started last: the division may round up or down."""
-    n = int((t - p.pulse.t_start) // p.pulse.interval)
-    return [i for i in (n - 1, n, n + 1, p.pulse.count - 1) if 0 <= i < p.pulse.count]
+    n = int((t - p.pulse.t_start) // p.pulse.interval)  # the division may round up or down
+    candidates = (i for i in (n - 1, n, n + 1, p.pulse.count - 1) if 0 <= i < p.pulse.count)
+    return max((i for i in candidates if pulse_start(p, i) <= t), default=-1)
 
 
 def has_pulses(p):

@@ -35,14 +35,9 @@ def traction_asperity_share(ln_Lambda):
     return np.exp(-1.8 * np.exp(1.2 * ln_Lambda))
 
 
-def traction_film(p, s):
-    """Traction coefficient of the film at slide-roll ratio s."""
-    return (p.oil.A + p.oil.B * s) * np.exp(-p.oil.C * s) - p.oil.A
-
-
 def traction_mu(p, s, f_a, mixed):
     """Traction coefficient with the asperity share f_a (zero where there is only film)."""
-    film = traction_film(p, s)
+    film = (p.oil.A + p.oil.B * s) * np.exp(-p.oil.C * s) - p.oil.A
     if not mixed:
         return film
     boundary = p.oil.mu_b * s / np.sqrt(s * s + p.oil.s_0**2)

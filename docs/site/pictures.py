@@ -34,10 +34,10 @@ from rules import LETTERS
 
 import riveted_bearing as rb
 from rivet_model.half_shape import pocket_radius
-from rivet_model.pictures import flange_outline, plot_geometry, rivet_outline
 from rivet_model.ribbon_shape import fillet_circle, offset, seam, sphere_radius
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.building.rivet import geometry_of
+from riveted_bearing.building.rivet_pictures import flange_outline, plot_geometry, rivet_outline
 from riveted_bearing.show.plot import cage_orbit
 from riveted_bearing.show.spectrum import draw, spectra
 from riveted_bearing.show.style import FORCE, HEAD, MIDDLE, MUTED, STYLE

@@ -187,8 +187,8 @@ static void motion_text(const Event *now, char *text, size_t size)
              x->name, v->name, now->value, x->unit, now->limit, v->unit, CATCH_UP_TIME);
 }
 
-// Messages on events: of half, ball or rivet `element + 1`, of the ball `element/2 + 1` at a race; value and limit.
-static const char *const TEXTS[EVENT_COUNT] = {
+// Messages on events: of half, ball or rivet `element + 1`, value and limit.
+static const char *const OF_ELEMENT[EVENT_COUNT] = {
     [EVENT_LAND_CONTACT] =
         "cage half %d touches the outer ring: its land is %.4g m off centre, cage.guide_clearance/2 = %.4g m",
     [EVENT_POCKET_EXIT] = "ball[%d] leaves its pocket: %.4g m off the middle of the cage's section, "
@@ -198,6 +198,16 @@ static const char *const TEXTS[EVENT_COUNT] = {
         "rivet[%d] yields: %.4g Pa against a yield stress of %.4g Pa; the stress is that of an elastic rivet",
     [EVENT_RIVET_OVERLOAD] = "rivet[%d] would tear: %.4g Pa in its middle against a tensile strength "
                              "(fatigue.sigma_m) of %.4g Pa; the stress is that of an elastic rivet",
+};
+
+// Of value and limit alone.
+static const char *const OF_ALL[EVENT_COUNT] = {
+    [EVENT_CAGE_YIELD] =
+        "the cage yields: a ball pushes its pocket with %.4g N, and a half of the ribbon begins to yield "
+        "under %.4g N; its displacements are those of an elastic sheet",
+    [EVENT_ENERGY_OFF] =
+        "bearing.energy_residual of %.4g J passes %.4g J, 2 %% of the energy lost: the results may "
+        "be wrong; a smaller solver.tol or solver.step may help",
 };
 
 void event_text(EventKind kind, const Event *now, char *text, size_t size)
@@ -232,26 +242,17 @@ void event_text(EventKind kind, const Event *now, char *text, size_t size)
                  "solver.step_size or less",
                  now->value, now->limit, portable_cbrt(0.5 * now->limit / now->value));
         return;
-    case EVENT_CAGE_YIELD:
-        snprintf(
-            text, size,
-            "the cage yields: a ball pushes its pocket with %.4g N, and a half of the ribbon begins to yield "
-            "under %.4g N; its displacements are those of an elastic sheet",
-            now->value, now->limit);
-        return;
     case EVENT_ENERGY_OFF:
-        if (now->element == 1)
-            snprintf(text, size,
-                     "bearing.power_loss: %.4g J were lost in the last step, at least %.4g J is possible",
-                     now->value, now->limit);
-        else
-            snprintf(
-                text, size,
-                "bearing.energy_residual of %.4g J passes %.4g J, 2 %% of the energy lost: the results may "
-                "be wrong; a smaller solver.tol or solver.step may help",
-                now->value, now->limit);
+        if (now->element != 1) break;
+        snprintf(text, size,
+                 "bearing.power_loss: %.4g J were lost in the last step, at least %.4g J is possible",
+                 now->value, now->limit);
         return;
     case EVENT_MOTION_LAG: motion_text(now, text, size); return;
-    default: snprintf(text, size, TEXTS[kind], now->element + 1, now->value, now->limit);
+    default: break;
     }
+    if (OF_ALL[kind])
+        snprintf(text, size, OF_ALL[kind], now->value, now->limit);
+    else
+        snprintf(text, size, OF_ELEMENT[kind], now->element + 1, now->value, now->limit);
 }

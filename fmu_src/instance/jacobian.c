@@ -83,16 +83,6 @@ void jacobian_product(const Model *model, double t, const double *y, const doubl
     if (dw) scalars_derivative(WORK_SCALARS, (const scalar *)&work, dw);
 }
 
-void jacobian_matrix(const Model *model, double t, const double *y, double *J)
-{
-    const int states = cage_states(model);
-    for (int j = 0; j < states; j++) {
-        double dy[N_ALL_STATES] = {0.0};
-        dy[j] = 1.0;
-        jacobian_product(model, t, y, dy, NULL, &J[j * states], NULL);
-    }
-}
-
 // The housing's motion where time goes on by dt.
 static void housing_drift(const Housing *housing, double dt, RingLoad *ring_load)
 {

@@ -15,9 +15,6 @@
 void jacobian_product(const Model *model, double t, const double *y, const double *dy,
                       const double *d_ring_load, double *dy_dot, double *dw);
 
-// All derivatives by the states, column by column: J[j * cage_states(model) + i] = d(y_dot[i])/d(y[j]).
-void jacobian_matrix(const Model *model, double t, const double *y, double *J);
-
 // Derivatives of all outputs along dt of time, du of the inputs and dy of the states.
 //
 // trajectory: the InputTrajectory at time t.  du: Inputs, or NULL for 0.  d_out: Outputs; those that are

@@ -153,12 +153,10 @@ INLINE Contact surface_contact(const Model *model, const Race *race, const BallM
 {
     const wide delta = at->L - (race->r_g - ball->R) + w;
     SurfaceLoad load;
-    if (race->surface.spalled || in->two) {
-        const SpallStrips strips = spall_strips(&in->race, in->f, &in->ball, in->f_ball);
-        load = race_surface_load(&race->hertz, delta, &strips, in->two);
-    } else {
+    if (race->surface.spalled || in->two)
+        load = race_surface_load(&race->hertz, delta, &in->race, in->f, &in->ball, in->f_ball, in->two);
+    else
         load = race_whole_load(&race->hertz, delta);
-    }
 
     // minus the gradient of the energy, Q (n + q t), whose direction is the normal, and the moment Q m on the ball
     const wide q = (dw - load.Q_race / (load.Q + LEAST_LOAD) * in->df) / at->r,

@@ -169,23 +169,6 @@ INLINE void race_surface_shares(wide half_width, const Hertz *hertz, wide delta,
     *E = 0.125 * X * wide_fma(X_2, wide_fma(wide_set(3.0), X_2, wide_set(-10.0)), wide_set(15.0));
 }
 
-// Strips of two widths: the ball's spall lies over the race's.  Of both, the narrower one's strips drop by both.
-typedef struct {
-    bits race_wider;
-    wide half_width[2], f[2], flank[2];  // the wider one, the narrower one
-} SpallStrips;
-
-INLINE SpallStrips spall_strips(const SpallLanes *race, wide f_race, const SpallLanes *ball, wide f_ball)
-{
-    const bits wider = wide_above(race->half_width - ball->half_width, 0.0);
-    return (SpallStrips){
-        wider,
-        {wide_select(wider, race->half_width, ball->half_width),
-         wide_select(wider, ball->half_width, race->half_width)},
-        {wide_select(wider, f_race, f_ball), wide_select(wider, f_ball, f_race)},
-        {wide_select(wider, race->flank, ball->flank), wide_select(wider, ball->flank, race->flank)}};
-}
-
 // Load without a spall.
 INLINE SurfaceLoad race_whole_load(const Hertz *hertz, wide delta)
 {
@@ -193,34 +176,42 @@ INLINE SurfaceLoad race_whole_load(const Hertz *hertz, wide delta)
     return (SurfaceLoad){hertz_load(K, delta), none, none, hertz_energy(K, delta), delta};
 }
 
-// Load with a spall of the race; two: with spalls of balls too.
-INLINE SurfaceLoad race_surface_load(const Hertz *hertz, wide delta, const SpallStrips *s, bool two)
+// Load with a spall of the race; two: with spalls of balls too.  Strips of two widths: the ball's spall lies over the race's.  Of both, the
+// narrower one's strips drop by both.
+INLINE SurfaceLoad race_surface_load(const Hertz *hertz, wide delta, const SpallLanes *race, wide f_race,
+                                     const SpallLanes *ball, wide f_ball, bool two)
 {
-    const wide zero = wide_set(0.0), K = wide_set(hertz->K), in = delta - s->f[0];
+    const bits race_wider = wide_above(race->half_width - ball->half_width, 0.0);
+    const wide half_width[2] = {wide_select(race_wider, race->half_width, ball->half_width),
+                                wide_select(race_wider, ball->half_width, race->half_width)};
+    const wide f[2] = {wide_select(race_wider, f_race, f_ball), wide_select(race_wider, f_ball, f_race)};
+    const wide flank[2] = {wide_select(race_wider, race->flank, ball->flank),
+                           wide_select(race_wider, ball->flank, race->flank)};
+    const wide zero = wide_set(0.0), K = wide_set(hertz->K), in = delta - f[0];
     wide S, E, S_in, E_in;
-    race_surface_shares(s->half_width[0], hertz, wide_max(delta, zero), &S, &E);
-    race_surface_shares(s->half_width[0], hertz, wide_max(in, zero), &S_in, &E_in);
-    wide Q_narrow = zero, U_narrow = zero, fall = s->f[0];
+    race_surface_shares(half_width[0], hertz, wide_max(delta, zero), &S, &E);
+    race_surface_shares(half_width[0], hertz, wide_max(in, zero), &S_in, &E_in);
+    wide Q_narrow = zero, U_narrow = zero, fall = f[0];
     if (two) {
-        const wide both = in - s->f[1];
+        const wide both = in - f[1];
         wide S_out, E_out, S_both, E_both;
-        race_surface_shares(s->half_width[1], hertz, wide_max(in, zero), &S_out, &E_out);
-        race_surface_shares(s->half_width[1], hertz, wide_max(both, zero), &S_both, &E_both);
+        race_surface_shares(half_width[1], hertz, wide_max(in, zero), &S_out, &E_out);
+        race_surface_shares(half_width[1], hertz, wide_max(both, zero), &S_both, &E_both);
         Q_narrow = hertz_load(K, both) * S_both;
         U_narrow = hertz_energy(K, both) * E_both;
         S_in = S_in - S_out, E_in = E_in - E_out;
-        fall = fall + wide_min(s->f[1], s->flank[1]);
+        fall = fall + wide_min(f[1], flank[1]);
     }
     const wide Q_wide = hertz_load(K, in) * S_in + Q_narrow;
     SurfaceLoad out = {.Q = hertz_load(K, delta) * (1.0 - S) + Q_wide,
-                       .Q_race = wide_select(s->race_wider, Q_wide, Q_narrow),
-                       .Q_ball = wide_select(s->race_wider, Q_narrow, Q_wide),
+                       .Q_race = wide_select(race_wider, Q_wide, Q_narrow),
+                       .Q_ball = wide_select(race_wider, Q_narrow, Q_wide),
                        .U = hertz_energy(K, delta) * (1.0 - E) + (hertz_energy(K, in) * E_in + U_narrow)};
 
     // delta = (Q/K)^(2/3); the ball rests on the flanks before it reaches the bottom where b^2/a_delta^2 < f
     const wide part = out.Q / hertz->K;
     const wide equal = wide_exp(wide_log(wide_max(part, wide_set(1e-300))) * (2.0 / 3.0));
-    const wide gap = wide_min(delta - wide_min(fall, s->flank[0]), zero);
+    const wide gap = wide_min(delta - wide_min(fall, flank[0]), zero);
     out.delta = wide_select(wide_above(part, 1e-290), equal, gap);
     return out;
 }

@@ -207,11 +207,3 @@ void input_trajectory_rates_at(const InputTrajectory *trajectory, double t, Inpu
     input_trajectory_at(trajectory, t, u);
     for (int i = 0; i < N_INPUTS; i++) ((double *)u_dot)[i] = u_1[i] + (t - trajectory->t_0) * u_2[i];
 }
-
-void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load)
-{
-    const Inputs held[INPUT_ORDERS + 1] = {*u};
-    InputTrajectory trajectory;
-    input_trajectory_update(p, held, t, t, &trajectory);
-    ring_load_at(&trajectory, t, ring_load);
-}

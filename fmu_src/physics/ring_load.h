@@ -105,9 +105,6 @@ INLINE void ring_angles_at(const InputTrajectory *trajectory, scalar t, scalar *
     *outer = ring_angle_at(t - trajectory->t_0, trajectory->outer_angle, housing);
 }
 
-// The load at time t under inputs u that are held.
-void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
-
 // Whether a built-in pulse has begun and not ended at time t.
 bool pulse_in_progress(const Parameters *p, double t);
 

@@ -139,12 +139,6 @@ static void housing_predict(double h, const Housing *from, Housing *to)
     }
 }
 
-// Velocities of the housing at the end of the step, by the trapezoidal rule.
-static void housing_correct(double gamma, const Housing *from, Housing *to)
-{
-    for (int i = 0; i < HOUSING_DOF; i++) to->v[i] = from->v[i] + gamma * (from->a[i] + to->a[i]);
-}
-
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
 {
     const double power = now->f[Y_WORK];
@@ -171,7 +165,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     if (model->housing) housing_predict(h, &from->housing, &to->housing);
     if (model->turn) ball_turn_predict(h, &to->turn);
     rhs_now(model, t + h, to, w);
-    if (model->housing) housing_correct(gamma, &from->housing, &to->housing);
+    for (int i = 0; model->housing && i < HOUSING_DOF; i++)  // by the trapezoidal rule
+        to->housing.v[i] = from->housing.v[i] + gamma * (from->housing.a[i] + to->housing.a[i]);
     if (model->turn) ball_turn_correct(gamma, &from->turn, &to->turn);
     const double film_power = cage_end(model, &cage, &start, &from->cage, &end, &to->cage, w);
 

@@ -86,16 +86,12 @@ UNITS = {
 N_STATES = {{ table.states[-1].offset + table.states[-1].count }}
 {% set last = (table.states + table.elastic_states)[-1] %}
 N_ALL_STATES = {{ last.offset + last.count }}  # with those of elastic cage halves
-STATE_SLICES = {
-{% for s in table.states %}
-    {{ s.name | quoted }}: {{ s.name | upper }},
-{% endfor %}
-}
 STATE_SCALES = {
 {% for s in table.states %}
     {{ s.name | quoted }}: {{ s.scale | quoted }},
 {% endfor %}
 }
+STATE_SLICES = {name: globals()[name.upper()] for name in STATE_SCALES}
 ELASTIC_SCALES = {
 {% for s in table.elastic_states %}
     {{ s.name | quoted }}: {{ s.scale | quoted }},

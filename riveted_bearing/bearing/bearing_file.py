@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from bearing_model.generated import variables
-from bearing_model.load_ratings import dynamic_rating, static_rating
+from riveted_bearing.bearing.load_ratings import dynamic_rating, static_rating
 
 from ..base.errors import UserError, refusal, refusing, unknown
 from ..base.file_kinds import check_keys

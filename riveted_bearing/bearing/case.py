@@ -6,12 +6,12 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 
 from bearing_model.generated import variables
-from bearing_model.load_ratings import reference_viscosity
 from bearing_model.physics.derived import ball_elasticity, default_table
 from bearing_model.physics.parameters import Values
 from bearing_model.physics.ring_fit import ring_fit_of
 from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
+from riveted_bearing.bearing.load_ratings import reference_viscosity
 
 from ..base.errors import UserError
 from . import materials, oil, ribbon

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 
-from bearing_model.load_ratings import dynamic_rating, static_rating
+from riveted_bearing.bearing.load_ratings import dynamic_rating, static_rating
 
 from ..base.errors import UserError
 from ..base.shipped import csv_rows

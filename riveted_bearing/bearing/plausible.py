@@ -34,7 +34,10 @@ FORCES = {  # of a catalogue beside C and C_0: usual share of C, and by how much
 
 def doubts(case: Case) -> Iterator[Any]:
     """Sentences on the values of a Case that few bearings have."""
-    from bearing_model.load_ratings import dynamic_rating, static_rating  # with SciPy, which takes half a second
+    from riveted_bearing.bearing.load_ratings import (  # with SciPy, which takes half a second
+        dynamic_rating,
+        static_rating,
+    )
 
     values = case.values
     balls = case.Z, values["bearing.D"], values["bearing.d_m"]

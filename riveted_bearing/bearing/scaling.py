@@ -15,9 +15,9 @@ from dataclasses import asdict
 from types import SimpleNamespace
 
 from bearing_model.generated import variables
-from bearing_model.load_ratings import dynamic_rating
 from rivet_model import half_shape
 from rivet_model.geometry import Geometry
+from riveted_bearing.bearing.load_ratings import dynamic_rating
 
 from ..base.units import rounded
 from . import oil, ribbon

@@ -15,11 +15,12 @@ from bearing_model.cage.common import joint_law
 from bearing_model.cage.elastic import half_modes
 from bearing_model.cage.two_half import half_path
 from bearing_model.rivet import rivet_rom, rivet_splines, rivet_table
-from rivet_model import closed_form, pictures, table
+from rivet_model import closed_form, table
 from rivet_model.build import make_table, other_modes
 from rivet_model.geometry import Geometry
 from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
+from riveted_bearing.building import rivet_pictures
 
 from ..base.errors import UserError, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
@@ -38,7 +39,7 @@ CAGE_NAMES = {key: name for key, name in SHAPE.items() if key not in ("cage_half
 
 @threadpool_limits.wrap(limits=1)  # small matrices
 def rivet_curves(source: Any = None, bearing: Any = None) -> Any:
-    """Title, curves (rivet_model.pictures.curves) and Joint of a rivet; UserError naming file and fault.
+    """Title, curves (rivet_pictures.curves) and Joint of a rivet; UserError naming file and fault.
 
     source: table (JSON) or geometry (TOML, solved in some 20 s), None for the tracked table or the bearing's own rivet.
     """
@@ -48,14 +49,14 @@ def rivet_curves(source: Any = None, bearing: Any = None) -> Any:
         joint = condensed(geometry, path)
         whose = f"{bearing_case(bearing).designation}" if bearing else "6207 where the file gives no other sizes"
         cage = f"in the cage of the {whose}"
-        response, title = pictures.joint_response(joint), f"{path.name}: finite elements, {cage}"
+        response, title = rivet_pictures.joint_response(joint), f"{path.name}: finite elements, {cage}"
     else:
         t = read_table(path)
         geometry = Geometry(**t.geometry)
         joint = condensed(geometry, path)
-        response, title = pictures.table_response(t), f"{path.name}: {table_text(t)}"
+        response, title = rivet_pictures.table_response(t), f"{path.name}: {table_text(t)}"
     stress, fit_eff = response
-    return title, pictures.curves(stress, fit_eff, geometry.size, is_papers(geometry)), joint
+    return title, rivet_pictures.curves(stress, fit_eff, geometry.size, is_papers(geometry)), joint
 
 
 def source_geometry(source: Any, bearing: Any) -> Any:
@@ -223,9 +224,9 @@ def curve_tables(curves: Any) -> Iterator[Any]:
 def write_pictures(folder: Path, title: str, curves: Any, joint: Any) -> Any:
     """Write drawing, curves, section and cage modes as PNG into a folder; returns their paths."""
     figures = {
-        "rivet_curves.png": pictures.plot_curves(curves, title),
-        "rivet_section.png": pictures.plot_section(joint),
-        "cage_modes.png": pictures.plot_modes(joint.geometry),
+        "rivet_curves.png": rivet_pictures.plot_curves(curves, title),
+        "rivet_section.png": rivet_pictures.plot_section(joint),
+        "cage_modes.png": rivet_pictures.plot_modes(joint.geometry),
     }
     for name, figure in figures.items():
         write_figure(figure, folder / name)
@@ -239,7 +240,7 @@ def write_figure(figure, path):
 
 def write_drawing(geometry: Any, path: Path) -> Path:
     """Write the drawing of a rivet with its dimensions; returns the path."""
-    write_figure(pictures.plot_geometry(geometry), path)
+    write_figure(rivet_pictures.plot_geometry(geometry), path)
     return path
 
 

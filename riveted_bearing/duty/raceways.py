@@ -46,7 +46,7 @@ class Rated:
 
 def rated(case: Case) -> Any:
     """The Rated of a Case; UserError without load ratings or an equilibrium."""
-    from bearing_model.load_ratings import equivalent_load, fatigue_load_limit, life_factor
+    from riveted_bearing.bearing.load_ratings import equivalent_load, fatigue_load_limit, life_factor
 
     if (reason := why_unrated(case)) is not None:
         raise UserError(f"{case.designation}: {reason}")
@@ -94,7 +94,7 @@ def too_little_load(case: Case) -> Iterator[Any]:
 
 def cleanliness_of(value: Any) -> Any:
     """A name of load_ratings.CLEANLINESS, or e_C, from "normal", "20/17/14", "-/15/12 filtered", 0.4."""
-    from bearing_model.load_ratings import CLEANLINESS
+    from riveted_bearing.bearing.load_ratings import CLEANLINESS
 
     try:
         value = float(value) if not isinstance(value, bool) else math.nan
@@ -116,7 +116,7 @@ def cleanliness_of(value: Any) -> Any:
 
 def contamination(cleanliness, kappa, d_m):
     """The factor e_C of a cleanliness, of ASSUMED for None."""
-    from bearing_model.load_ratings import contamination_factor
+    from riveted_bearing.bearing.load_ratings import contamination_factor
 
     return cleanliness if isinstance(cleanliness, float) else contamination_factor(cleanliness or ASSUMED, kappa, d_m)
 

@@ -141,12 +141,6 @@ class PocketFilmsStep:
         return np.array([modes[1] + modes[0], modes[1] - modes[0]]) / ROOT, rows
 
 
-def correct_pocket(m, i, k, more, w):
-    """Adds `more`, the film's force [N] along m [3] at the end less that at the predicted velocities, to load and force of a pocket."""
-    w.pocket[i].Q[k] += more
-    w.pocket[i].F[:, k] += more * m
-
-
 def pocket_films_arrive(model, gamma, step, before, y, w, f, films):
     """At the step's end y, w, behind the evaluation: takes the excess of the films' forces at the predicted velocities from the rates f and
     the pockets' forces; returns the power that this saves [W].  step: films that followed in substeps, None without.
@@ -173,7 +167,8 @@ def pocket_films_arrive(model, gamma, step, before, y, w, f, films):
             to_modes[i] += on_wall / m * shape
             to_rows[:, i] += on_wall * along / inertia
             to_balls[k] -= on_ball / model.d.m * direction
-        correct_pocket(films.m[i][:, k], i, k, new - F, w)
+        w.pocket[i].Q[k] += new - F
+        w.pocket[i].F[:, k] += (new - F) * films.m[i][:, k]
         u -= gamma * (of_wall * (new - F_f) + of_ball * (new - F_0))
         saved += F * films.u[i, k] - new * u
         films.F[i, k] = new

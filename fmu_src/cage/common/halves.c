@@ -49,15 +49,6 @@ static void half_rates(const scalar *y, const Rotor *half, int h, const scalar a
     y_dot[Y_CAGE_S + h] = s_dot;
 }
 
-// Centre of mass of half h: place and velocity.
-static void half_place(const scalar *y, int h, scalar s[3], scalar v[3])
-{
-    for (int i = 0; i < 3; i++) {
-        s[i] = y[Y_CAGE_X + 2 * i + h];
-        v[i] = y[Y_CAGE_V_X + 2 * i + h];
-    }
-}
-
 void halves_acceleration(const Model *model, const scalar *y, const Work *w, scalar *y_dot)
 {
     const Parameters *p = model->p;
@@ -65,7 +56,7 @@ void halves_acceleration(const Model *model, const scalar *y, const Work *w, sca
     for (int h = 0; h < 2; h++) {
         const Rotor *half = &w->half[h];
         scalar M[3], lever[3], a_ddot[3], acc[3], s_dot, s[3], v[3], field[3], M_f[3];
-        half_place(y, h, s, v);
+        for (int i = 0; i < 3; i++) s[i] = y[Y_CAGE_X + 2 * i + h], v[i] = y[Y_CAGE_V_X + 2 * i + h];
         frame_acceleration(model->ring_load, s, v, field);
         frame_moment(model->ring_load, half, d->J_p, d->J_t, M_f);
         cross3(half->c, half->F, lever);

@@ -93,28 +93,21 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
     }
 }
 
-// Friction and play that the motion leaves for more.
-static void find_limits(const Model *model, const Work *w, const SlipState *at, SlipLimits *left)
+void joint_slip_add(const Model *model, const Work *w, const SlipState *at, const ball_array V_r,
+                    const ball_array V_t, JointShear *shear)
 {
     const Derived *d = model->d;
     const double mu = model->p->joint.mu;
     const wide zero = wide_set(0.0);
-    left->k_head = d->k_head;
+    SlipLimits left = {.k_head = d->k_head};  // friction and play that the motion leaves for more
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide u = wide_hypot(wide_load(&at->u_y[k]), wide_load(&at->u_z[k]));
         const wide S = wide_hypot(wide_load(&w->S_y[k]), wide_load(&w->S_z[k]));
         const wide H = wide_hypot(wide_load(&w->H_y[k]), wide_load(&w->H_z[k]));
-        wide_store(&left->plates[k], wide_max(mu * wide_load(&at->N_plate[k]) - S, zero));
-        wide_store(&left->heads[k], wide_max(mu * wide_load(&at->T[k]) - H, zero));
-        wide_store(&left->gap[k], wide_max(wide_load(&d->hole_gap[k]) - u, zero));
-        wide_store(&left->k_hole[k], wide_load(&d->k_hole[k]));
+        wide_store(&left.plates[k], wide_max(mu * wide_load(&at->N_plate[k]) - S, zero));
+        wide_store(&left.heads[k], wide_max(mu * wide_load(&at->T[k]) - H, zero));
+        wide_store(&left.gap[k], wide_max(wide_load(&d->hole_gap[k]) - u, zero));
+        wide_store(&left.k_hole[k], wide_load(&d->k_hole[k]));
     }
-}
-
-void joint_slip_add(const Model *model, const Work *w, const SlipState *at, const ball_array V_r,
-                    const ball_array V_t, JointShear *shear)
-{
-    SlipLimits left;
-    find_limits(model, w, at, &left);
     joints_slip(&rivet_table.half.law, V_r, V_t, &left, shear->plates, shear->heads, shear->shank);
 }

@@ -134,29 +134,25 @@ INLINE void pocket_contacts(const Model *model, Work *w, int h, int j, const Poc
     pocket_on_balls(model, w, j, pressed, n, F, M, g, lost);
 }
 
-// All pockets of one half.  Most pockets are not touched, so that their forces are not computed.
-static void pocket_half(const Model *model, Work *w, int h, bool mixed)
-{
-    Pockets *pocket = &w->pocket[h];
-    Rotor *half = &w->half[h];
-    bool touched = false;
-    for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-        const PocketGap gap = pocket_gap(model->d, w, half, j);
-        wide_store(&w->delta_c[h][j], gap.delta);
-        const bits pressed = wide_above(gap.delta, 0.0);
-        if (wide_any(pressed) || model->d->squeeze.filled) {
-            pocket_contacts(model, w, h, j, &gap, pressed, mixed, NULL, NULL);
-            touched = true;
-        } else
-            pocket_clear(pocket, j);
-    }
-    if (touched) add_pockets(pocket, half);
-}
-
+// Most pockets are not touched, so that their forces are not computed.
 void pocket_rigid(const Model *model, Work *w)
 {
+    const bool mixed = pocket_is_mixed(model);
     squeeze_clear(model, w);
-    for (int h = 0; h < 2; h++) pocket_half(model, w, h, pocket_is_mixed(model));
+    for (int h = 0; h < 2; h++) {
+        bool touched = false;
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            const PocketGap gap = pocket_gap(model->d, w, &w->half[h], j);
+            wide_store(&w->delta_c[h][j], gap.delta);
+            const bits pressed = wide_above(gap.delta, 0.0);
+            if (wide_any(pressed) || model->d->squeeze.filled) {
+                pocket_contacts(model, w, h, j, &gap, pressed, mixed, NULL, NULL);
+                touched = true;
+            } else
+                pocket_clear(&w->pocket[h], j);
+        }
+        if (touched) add_pockets(&w->pocket[h], &w->half[h]);
+    }
 }
 
 // A packet of pockets of an elastic half in which walls are touched.
@@ -191,27 +187,22 @@ INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const P
     wide_store(&w->cage.elastic.touch.delta[h][j], delta);
 }
 
-// Motion of a wall along the normal of a ball; the motion by each mode is left to the substeps.
-INLINE scalar moved_wall(const Model *model, Work *w, int h, int k, const WallPlaces *places)
-{
-    PressedWall *wall = &w->cage.elastic.pressed[h][k];
-    elastic_wall_shape(model->modes, 2 * h - 1, k, places, wall->shape);
-    memset(wall->place, 0, sizeof wall->place);
-    wall->place[0] = places->n_x[k], wall->place[2] = places->n_t[k];
-    wall->place[6] = model->p->cage.m;
-    return elastic_sum(wall->shape, w->cage.elastic.q[h]);
-}
-
 // Bits of the balls of a packet that press on a wall or on the oil before it, and takes the motion of the walls off the gap; `near`:
-// bits of the balls that can have reached a wall.
+// bits of the balls that can have reached a wall.  The walls' motions by each mode are left to the substeps.
 static int find_touched(const Model *model, Work *w, int h, int j, int near, PocketGap *gap,
                         WallPlaces *places, bits *pressed)
 {
     ball_array moved;
     elastic_wall_places(model->modes, 2 * h - 1, j, gap->n_x, gap->n_t, places);
     wide_store(&moved[j], wide_set(0.0));
-    for (int i = 0; i < LANE_WIDTH && j + i < Z; i++)
-        if (near >> i & 1) moved[j + i] = moved_wall(model, w, h, j + i, places);
+    for (int k = j; k < j + LANE_WIDTH && k < Z; k++) {
+        if (!(near >> (k - j) & 1)) continue;
+        PressedWall *wall = &w->cage.elastic.pressed[h][k];
+        elastic_wall_shape(model->modes, 2 * h - 1, k, places, wall->shape);
+        memset(wall->place, 0, sizeof wall->place);
+        wall->place[0] = places->n_x[k], wall->place[2] = places->n_t[k], wall->place[6] = model->p->cage.m;
+        moved[k] = elastic_sum(wall->shape, w->cage.elastic.q[h]);
+    }
     gap->delta -= wide_load(&moved[j]);
 
     // a ball that touches the other half alone loads nothing here

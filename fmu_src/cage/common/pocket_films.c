@@ -97,15 +97,7 @@ void pocket_films_find(const Model *model, double h, const PocketFilms *films, c
         }
 }
 
-// Velocities of both halves' modes by those of S and D, and back.
-static void to_half_modes(const double *v, mode_array half[2])
-{
-    for (int i = 0; i < N_MODES; i++) {
-        half[0][i] = ROOT_HALF * (v[i] - v[N_MODES + i]);
-        half[1][i] = ROOT_HALF * (v[i] + v[N_MODES + i]);
-    }
-}
-
+// Adds velocities of both halves' modes to those of S and D.
 static void add_half_modes(mode_array half[2], double *v)
 {
     for (int i = 0; i < N_MODES; i++) {
@@ -145,7 +137,10 @@ void pocket_films_follow(const Model *model, double t, double d, double *v,
     mode_array modes[2], change[2];
     double rows[2 * RELATIVE_MOTIONS] = {0.0};
     if (step->count == 0) return;
-    to_half_modes(v, modes);
+    for (int i = 0; i < N_MODES; i++) {
+        modes[0][i] = ROOT_HALF * (v[i] - v[N_MODES + i]);
+        modes[1][i] = ROOT_HALF * (v[i] + v[N_MODES + i]);
+    }
     memset(change, 0, sizeof change);
     for (int i = 0; i < step->count; i++) {
         const int h = step->half[i];
@@ -200,14 +195,6 @@ static void push_both(const Model *model, const EndFilm *film, double on_wall, d
 {
     push_wall(model, film->h, on_wall, film->shape, film->along, to->modes[film->h], &to->halves[film->h]);
     for (int i = 0; i < 3; i++) to->balls[film->k][i] -= on_ball / model->d->m * film->direction[i];
-}
-
-static void film_of_lane(const PocketFilms *films, const RigidApproach *approach, int lane, EndFilm *film)
-{
-    take_lane(approach, lane, film->along);
-    for (int i = 0; i < 3; i++) film->direction[i] = approach->direction[i][lane];
-    memset(film->shape, 0, sizeof film->shape);
-    memcpy(film->shape, films->shape[film->h][film->k], sizeof films->shape[film->h][film->k]);
 }
 
 // Solves for the force of one film, which both changes get; returns the power that it saves [W].
@@ -265,7 +252,9 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
                 const int k = j + lane;
                 EndFilm film = {.h = h, .k = k};
                 if (!(mask >> lane & 1)) continue;
-                film_of_lane(films, &approach, lane, &film);
+                take_lane(&approach, lane, film.along);
+                for (int i = 0; i < 3; i++) film.direction[i] = approach.direction[i][lane];
+                memcpy(film.shape, films->shape[h][k], sizeof films->shape[h][k]);
                 saved += solve_film(model, gamma, &film, before->F[h][k], foreseen[h][k], &solved, &rates,
                                     films, w);
             }

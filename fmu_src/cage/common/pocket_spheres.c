@@ -61,9 +61,10 @@ INLINE SqueezeFilm sphere_film(const Derived *d, int h, int j, const SphereGap *
     const wide side = wide_set(h == 0 ? -1.0 : 1.0), q[3] = {gap->x, gap->r, gap->t};
     const wide along[3] = {side * vec_dot(v, gap->axes.a), vec_dot(v, gap->axes.b),
                            vec_dot(v, gap->axes.e_t)};
-    const SphereSqueeze film = spheres_squeeze(d, j, q, c * at->Q, along);
-    const vec m = vec_axpy(side * film.m_x, gap->axes.a, vec_scale(film.m_t, gap->axes.e_t));
-    return (SqueezeFilm){film.D, film.F, vec_axpy(film.m_r, gap->axes.b, m)};
+    SqueezeFilm film = spheres_squeeze(d, j, q, c * at->Q, along);
+    const vec m = vec_axpy(side * film.m.x, gap->axes.a, vec_scale(film.m.t, gap->axes.e_t));
+    film.m = vec_axpy(film.m.r, gap->axes.b, m);
+    return film;
 }
 
 // Bits of the balls before whose sphere there may be a film when the wall moves by up to `moves`.

@@ -53,12 +53,6 @@
 // Constants of the films; called where those of the pockets are known.
 void spheres_squeeze_derive(const Parameters *p, Derived *d);
 
-// The film of one half in a packet of pockets; m along the pocket's axes, x toward the pole.
-typedef struct {
-    wide D, F;  // F = D v.m, 0 where the ball withdraws [N.s/m, N]
-    wide m_x, m_r, m_t;
-} SphereSqueeze;
-
 // E of an edge at s l from the film's middle.
 INLINE wide squeeze_edge(wide s_l, wide l_2)
 {
@@ -80,7 +74,7 @@ INLINE wide squeeze_layer(wide G_e, wide h, wide t, wide C)
 
 // q (x, r, t): ball's centre from the sphere's; taken: part of the approach by the wall's own compliance; v: velocity of the ball's centre against the
 // wall along the same axes.
-INLINE SphereSqueeze spheres_squeeze(const Derived *d, int j, const wide q[3], wide taken, const wide v[3])
+INLINE SqueezeFilm spheres_squeeze(const Derived *d, int j, const wide q[3], wide taken, const wide v[3])
 {
     const PocketSqueeze *film = &d->squeeze;
     const SpheresSqueeze *cap = &d->spheres_squeeze;
@@ -114,8 +108,7 @@ INLINE SphereSqueeze spheres_squeeze(const Derived *d, int j, const wide q[3], w
     wide G = wide_max(P, zero) * E_f * E_out * E_in;
     if (cap->filling < 1.0) G = squeeze_layer(G, h, cap->filling * C, C);
 
-    SphereSqueeze at = {.m_x = m_x * inv_m, .m_r = m_r * inv_m, .m_t = m_t * inv_m};
-    at.D = G * wide_load(&film->c[j]) / h_eff;
-    at.F = at.D * wide_max(at.m_x * v[0] + at.m_r * v[1] + at.m_t * v[2], zero);
+    SqueezeFilm at = {.D = G * wide_load(&film->c[j]) / h_eff, .m = {m_x * inv_m, m_r * inv_m, m_t * inv_m}};
+    at.F = at.D * wide_max(at.m.x * v[0] + at.m.r * v[1] + at.m.t * v[2], zero);
     return at;
 }

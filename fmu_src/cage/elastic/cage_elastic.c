@@ -267,13 +267,6 @@ void cage_elastic_pull(const Model *model, ElasticJoints *joints)
     pads_pull(half, PAD_IN, across, half->in_modes[0][0], IN_PADS, joints->pull_D);
 }
 
-// Adds the modal forces of the forces on a rim's shapes.
-static void add_rim_force(const ElasticHalf *half, const scalar force[RIM], mode_array modal)
-{
-    for (int c = 0; c < RIM; c++)
-        for (int i = 0; i < MODES; i++) modal[i] += half->rim[c][i] * force[c];
-}
-
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
 {
     const ElasticHalf *half = model->modes;
@@ -281,11 +274,11 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     mode_array mirrored, opposed, rates, lost, one;
     scalar spin[2];
     for (int h = 0; h < 2; h++) {
-        const scalar s = w->half[h].s + w->frame_omega;
+        const scalar s = w->half[h].s + w->frame_omega, *force = w->pressure[h].rim_force;
         spin[h] = s * s;
+        for (int c = 0; model->d->guided && c < RIM; c++)
+            for (int i = 0; i < MODES; i++) w->cage.elastic.wall_force[h][i] += half->rim[c][i] * force[c];
     }
-    for (int h = 0; h < 2; h++)
-        if (model->d->guided) add_rim_force(half, w->pressure[h].rim_force, w->cage.elastic.wall_force[h]);
     for (int i = 0; i < MODES; i++) {
         const scalar f_0 = w->cage.elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
         const scalar f_1 = w->cage.elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];

@@ -211,25 +211,21 @@ static void take_modes(const Parameters *p, ElasticHalf *half)
         for (int i = 0; i < half->n; i++) half->mobility[c] += half->rim[c][i] * half->rim[c][i] / p->cage.m;
 }
 
-// Damping ratio at omega^2: zeta at the lowest mode, zeta_high at the highest one, linear in ln omega between them.
-static double damping_ratio(const Parameters *p, double omega_2, double lowest, double highest)
-{
-    const double zeta = p->cage.modal_damping, high = p->cage.modal_damping_high;
-    if (high == 0.0 || highest <= lowest) return zeta;
-    return zeta + (high - zeta) * (portable_log(omega_2 / lowest) / portable_log(highest / lowest));
-}
-
-// Damping and centrifugal load of the modes, which may change in a run.
+// Damping and centrifugal load of the modes, which may change in a run.  Damping ratio at omega^2: zeta at the lowest mode, zeta_high at
+// the highest one, linear in ln omega between them.
 static void take_forces(const Parameters *p, ElasticHalf *half)
 {
-    const double unit = sqrt(rivet_table.half.m);
+    const double unit = sqrt(rivet_table.half.m), low = p->cage.modal_damping,
+                 high = p->cage.modal_damping_high;
     double lowest = INFINITY, highest = 0.0;
     for (int i = 0; i < half->n; i++) {
         lowest = fmin(lowest, half->omega_2[i]);
         highest = fmax(highest, half->omega_2[i]);
     }
     for (int i = 0; i < half->n; i++) {
-        const double zeta = damping_ratio(p, half->omega_2[i], lowest, highest);
+        double zeta = low;
+        if (high != 0.0 && highest > lowest)
+            zeta += (high - low) * (portable_log(half->omega_2[i] / lowest) / portable_log(highest / lowest));
         half->damping[i] = 2.0 * zeta * sqrt(half->omega_2[i]);
         if (i >= half->count[0]) continue;
         half->centrifugal[i] = cage_centrifugal(p) * unit * rivet_table.modes.entry[half->entry[i]].spin;

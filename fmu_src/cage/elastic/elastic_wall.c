@@ -2,14 +2,8 @@
 #include "cage/elastic/elastic_half.h"
 
 // The cubic over the angle chi: node below, weights of (value, slope, next value, next slope) for the value and for the slope.
-typedef struct {
-    scalar node[LANE_WIDTH];
-    wide value[4], slope[4];
-} WallCubic;
-
-INLINE WallCubic wall_cubic(const ElasticHalf *half, wide chi)
+INLINE void wall_cubic(const ElasticHalf *half, wide chi, int below[LANE_WIDTH], wide value[4], wide slope[4])
 {
-    WallCubic at;
     wide node = wide_set(0.0), lower = wide_set(half->chi[0]), step = wide_set(half->step[0]),
          inv_step = wide_set(half->inv_step[0]);
     for (int n = 1; n < half->nodes - 1; n++) {
@@ -19,13 +13,14 @@ INLINE WallCubic wall_cubic(const ElasticHalf *half, wide chi)
         step = wide_select(beyond, wide_set(half->step[n]), step);
         inv_step = wide_select(beyond, wide_set(half->inv_step[n]), inv_step);
     }
-    wide_store(at.node, node);
+    scalar number[LANE_WIDTH];
+    wide_store(number, node);
+    for (int i = 0; i < LANE_WIDTH; i++) below[i] = (int)scalar_value(number[i]);
     const wide u = (chi - lower) * inv_step, v = 1.0 - u;
-    at.value[0] = v * v * (1.0 + 2.0 * u), at.value[1] = step * u * v * v;
-    at.value[2] = u * u * (1.0 + 2.0 * v), at.value[3] = -step * u * u * v;
-    at.slope[0] = -6.0 * u * v * inv_step, at.slope[1] = v * (v - 2.0 * u);
-    at.slope[2] = 6.0 * u * v * inv_step, at.slope[3] = u * (u - 2.0 * v);
-    return at;
+    value[0] = v * v * (1.0 + 2.0 * u), value[1] = step * u * v * v;
+    value[2] = u * u * (1.0 + 2.0 * v), value[3] = -step * u * u * v;
+    slope[0] = -6.0 * u * v * inv_step, slope[1] = v * (v - 2.0 * u);
+    slope[2] = 6.0 * u * v * inv_step, slope[3] = u * (u - 2.0 * v);
 }
 
 // Beyond the split the wall moves as at the split.
@@ -33,16 +28,18 @@ void elastic_wall_places(const ElasticHalf *half, int side, int j, wide n_x, wid
 {
     const wide along = wide_abs(n_t);
     const wide chi = wide_max(wide_atan(side * n_x / wide_max(along, wide_set(1e-30))), wide_set(0.0));
-    const WallCubic cubic = wall_cubic(half, chi);
+    int below[LANE_WIDTH];
+    wide value[4], slope[4];
+    wall_cubic(half, chi, below, value, slope);
     wide_store(&at->n_x[j], n_x);
     wide_store(&at->n_t[j], n_t);
     for (int i = 0, k = j; i < LANE_WIDTH && k < Z; i++, k++) {
-        at->node[k] = (int)scalar_value(cubic.node[i]);
+        at->node[k] = below[i];
         at->back[k] = scalar_value(at->n_t[k]) < 0.0, at->inside[k] = scalar_value(at->n_x[k]) * side > 0.0;
     }
     for (int t = 0; t < 4; t++) {
-        wide_store(&at->value[t][j], cubic.value[t]);
-        wide_store(&at->slope[t][j], cubic.slope[t]);
+        wide_store(&at->value[t][j], value[t]);
+        wide_store(&at->slope[t][j], slope[t]);
     }
 }
 
@@ -168,7 +165,9 @@ static const double SLOPE[3][2] = {{0.0, 1.0}, {0.0, 1.0}, {1.0, 0.0}};
 
 void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide front, RibbonNodes *nodes)
 {
-    const WallCubic cubic = wall_cubic(half, chi);
+    int below[LANE_WIDTH];
+    wide value[4], slope[4];
+    wall_cubic(half, chi, below, value, slope);
     wide along[WALL_RADII] = {wide_set(1.0)}, along_slope[WALL_RADII] = {wide_set(0.0)};
     if (half->radii > 1) {
         const double *at = half->radius;
@@ -180,16 +179,16 @@ void ribbon_wall_nodes(const ElasticHalf *half, wide chi, wide radius, wide fron
             along_slope[a] = wide_select(within, (2.0 * r - b - c) * half->per_gaps[a], wide_set(0.0));
         }
     }
-    for (int i = 0; i < LANE_WIDTH; i++) nodes->node[i] = (int)scalar_value(cubic.node[i]);
+    for (int i = 0; i < LANE_WIDTH; i++) nodes->node[i] = below[i];
     wide_store(nodes->front, front);
     for (int t = 0; t < 4; t++) {
-        wide_store(nodes->value[t], cubic.value[t]);
-        wide_store(nodes->slope[t], cubic.slope[t]);
+        wide_store(nodes->value[t], value[t]);
+        wide_store(nodes->slope[t], slope[t]);
     }
     for (int a = 0; a < half->radii; a++) {
         wide_store(nodes->along[a], along[a]);
         wide_store(nodes->along_slope[a], along_slope[a]);
-        for (int t = 0; t < 4; t++) wide_store(nodes->row[a][t], along[a] * cubic.value[t]);
+        for (int t = 0; t < 4; t++) wide_store(nodes->row[a][t], along[a] * value[t]);
     }
 }
 

@@ -46,36 +46,27 @@ static void add_touch(const HalfPath *path, int side, const PathForces *on, scal
     }
 }
 
-// chi of the pockets j, j + 1, ...
-INLINE void find_chi(const PathForces *on, int j, scalar chi[LANE_WIDTH])
-{
-    const wide push_x = wide_abs(wide_load(&on->push_x[j])), push_t = wide_abs(wide_load(&on->push_t[j]));
-    wide_store(chi, wide_atan(push_x / wide_max(push_t, wide_set(1e-30))));
-}
-
-// Bit k: pocket j + k is touched.
-INLINE int touched_pockets(const PathForces *on, int j)
-{
-    return wide_mask(wide_above(wide_abs(wide_load(&on->F_x[j])) + wide_abs(wide_load(&on->F_r[j])) +
-                                    wide_abs(wide_load(&on->F_t[j])),
-                                0.0));
-}
-
 bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows)
 {
     octet joint[Z];
     bool touched = false;
     for (int h = 0; h < 2; h++) {
         for (int p = 0; p < PACKETS; p++) {
-            int mask = touched_pockets(&on[h], p * LANE_WIDTH);
+            const int first = p * LANE_WIDTH;
+            const wide size = wide_abs(wide_load(&on[h].F_x[first])) +
+                              wide_abs(wide_load(&on[h].F_r[first])) + wide_abs(wide_load(&on[h].F_t[first]));
+            int mask = wide_mask(wide_above(size, 0.0));  // of the touched pockets
             scalar chi[LANE_WIDTH];
-            if (mask != 0) find_chi(&on[h], p * LANE_WIDTH, chi);
-            for (int j = p * LANE_WIDTH; mask != 0 && j < Z; mask >>= 1, j++) {
+            if (mask == 0) continue;
+            const wide push_x = wide_abs(wide_load(&on[h].push_x[first])),
+                       push_t = wide_abs(wide_load(&on[h].push_t[first]));
+            wide_store(chi, wide_atan(push_x / wide_max(push_t, wide_set(1e-30))));
+            for (int j = first; mask != 0 && j < Z; mask >>= 1, j++) {
                 if (!(mask & 1)) continue;
                 if (!touched) memset(joint, 0, sizeof joint);
                 touched = true;
                 for (int radius = 0; radius < (path->radii > 0 ? path->radii : 1); radius++)
-                    add_touch(path, 2 * h - 1, &on[h], chi[j - p * LANE_WIDTH], j, radius, joint);
+                    add_touch(path, 2 * h - 1, &on[h], chi[j - first], j, radius, joint);
             }
         }
         if (h == 0 && touched)  // of the mirrored forces

@@ -33,14 +33,6 @@
 
 // ---- joints -------------------------------------------------------------------------------------------------
 
-// Pull and push of a packet of springs.
-INLINE void springs(const Derived *d, wide u_x, int k, wide *pull, wide *push)
-{
-    const wide zero = wide_set(0.0), P = wide_load(&d->P[k]), intact = wide_load(&d->intact[k]);
-    *pull = intact * wide_max(P + d->k_rivet * u_x, zero);
-    *push = wide_max(P - d->k_plate * u_x, zero);
-}
-
 // Rows of the loads of bonded joints by pocket forces, films of the lands and centrifugal load.
 static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathRows *rows)
 {
@@ -118,9 +110,9 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
     const wide floor = wide_set(model->p->joint.F_floor);
     ball_array F_x, damped;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        const wide v_x = wide_load(&w->v_jx[k]);
-        wide pull, push;
-        springs(d, wide_load(&w->u_x[k]), k, &pull, &push);
+        const wide u_x = wide_load(&w->u_x[k]), v_x = wide_load(&w->v_jx[k]), P = wide_load(&d->P[k]);
+        const wide pull = wide_load(&d->intact[k]) * wide_max(P + d->k_rivet * u_x, wide_set(0.0));
+        const wide push = wide_max(P - d->k_plate * u_x, wide_set(0.0));
         const wide damping = d->c_joint * push / (push + floor);
         wide_store(&t->pull[k], pull);
         wide_store(&t->push[k], push);

@@ -9,10 +9,9 @@ import numpy as np
 
 from bearing_model.cage.common.joint_law import single_joint
 from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
-
-from . import half, half_loads, half_modes, plastic_fit
-from .cage_half import CageHalf, CyclicSolid
-from .load_cases import GROUPS
+from rivet_model import half, half_loads, half_modes, plastic_fit
+from rivet_model.cage_half import CageHalf, CyclicSolid
+from rivet_model.load_cases import GROUPS
 
 SWELL = 4e-6  # m, default of joint.swell, of the 6207's rivets; that of others goes with Geometry.size
 FIT = -10e-6  # m, of the default joint
