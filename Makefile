@@ -35,6 +35,7 @@ test: build lint  ## the fast tests, the ten slowest of them listed
 
 test-slow: build  ## the tests that take minutes
 	@case $$(uname -m) in x86_64) $(BIN)/cmake --build build --target RivetedBearing_by_fours ;; esac
+	$(BIN)/cmake --build build --target bearing_solvers bearing_kernels
 	$(PYTHON) -c "import gmsh" 2>/dev/null || .ci/environment $(VENV) slow
 	$(PYTEST) -n 2 --dist worksteal -m slow
 

@@ -86,7 +86,7 @@ static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
     Integrator *in = user;
     memcpy(N_VGetArrayPointer(f), evaluate(in, t, N_VGetArrayPointer(y), &in->s->rhs_evals),
            sizeof in->f_latest);
-    if (in->kernels->ops->finite(in->f_latest)) return 0;
+    if (in->kernels->all_finite(N_STATES, in->f_latest)) return 0;
     if (in->choice.method != SOLVER_ERK)
         return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
     stepping_refuse(in->weight, N_STATES, in->nonfinite_stages++, N_VGetArrayPointer(f));
