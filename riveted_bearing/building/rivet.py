@@ -161,9 +161,8 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
     kind = kind or ("full" if shipped else "coarse")
     name = f"{kind}-{geometry.digest}-{sources_digest()}" + (f"-{modes}" if modes else "")
     target = cache_path("tables") / f"{name}.json"
-    with contextlib.suppress(
-        OSError, ValueError
-    ):  # there and whole, perhaps of another user, whose cache takes no files
+    # a table that is whole, perhaps of another user, whose cache takes no files
+    with contextlib.suppress(OSError, ValueError):
         rivet_table.read(target)
         return target
     cache_folder("tables")
