@@ -38,6 +38,13 @@ def test_every_step_costs_one_evaluation(core, cage, step):
     assert before == pytest.approx(steps, abs=1)
 
 
+def test_long_communication_steps_end_with_a_whole_step(core):
+    """8,334 steps of 3 us fill 25 ms to rounding, 1e-14 s, which is no step of its own: its rates of 1e14/s ended the run."""
+    bearing = Instance(core, FIXED | {"scene.cage": CageModel.ELASTIC, "solver.step": 3e-6})
+    for n in range(1, 4):
+        assert bearing.step(n * 0.025).output("solver.steps") == n * 8334
+
+
 def test_the_derived_length_resolves_the_cages_vibrations(core):
     """Rigid halves vibrate fastest along the axis, all rivets and plates between them: at half m, omega^2 = 2 Z k/m, and a step
     turns that by 2.  Elastic ones have at most two substeps of 3.3 us.
