@@ -255,7 +255,7 @@ size_t part_saved_size(void)
     return sizeof(State);
 }
 
-void part_save(const Part *part, void *saved)
+void part_save(Part *part, void *saved)
 {
     memcpy(saved, &part->s, sizeof part->s);
 }

@@ -694,28 +694,59 @@ size_t part_saved_size(void)
     return sizeof(InstanceState);
 }
 
-void part_save(const Bearing *b, void *saved)
+static bool saves_outputs(const Bearing *b)
 {
+    return b->s.initialized && is_fixed(b);
+}
+
+static void update_all(Bearing *b)
+{
+    for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
+}
+
+void part_save(Bearing *b, void *saved)
+{
+    if (saves_outputs(b)) {
+        update_all(b);
+        b->s.out = b->out;
+    }
     memcpy(saved, &b->s, sizeof b->s);
+}
+
+static void outputs_of_the_save(Bearing *b)
+{
+    if (!saves_outputs(b)) return;
+    b->out = b->s.out;
+    b->current = (1u << GROUP_COUNT) - 1u;
 }
 
 void part_restore(Bearing *b, const void *saved)
 {
     memcpy(&b->s, saved, sizeof b->s);
-    if (room_for_cage(b)) derive(b);
+    if (!room_for_cage(b)) return;
+    derive(b);
+    outputs_of_the_save(b);
 }
 
-// All outputs at the restored state, and its derivative.
 static bool outputs_are_numbers(Bearing *b)
 {
-    evaluate(b);
-    bool fine = all_finite(cage_states(&b->model), b->y_dot);
-    for (int group = 0; group < GROUP_COUNT; group++) part_update(b, (OutputGroup)group);
+    bool fine = true;
+    update_all(b);
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_OUTPUT) continue;
         const double *value = (const double *)((const char *)&b->out + v->offset);
         for (int i = 0; i < v->count; i++) fine &= isfinite(value[i]) != 0;
     }
+    return fine;
+}
+
+// Whether the derivative of the restored state and all outputs there, new ones and saved ones, are numbers.
+static bool results_are_numbers(Bearing *b)
+{
+    evaluate(b);
+    bool fine = all_finite(cage_states(&b->model), b->y_dot) && outputs_are_numbers(b);
+    outputs_of_the_save(b);
+    fine = fine && outputs_are_numbers(b);
     if (!fine) bearing_log(b, LOG_ERROR, "the outputs there are no numbers");
     return fine;
 }
@@ -725,7 +756,7 @@ bool part_restore_unknown(Bearing *b, const void *saved)
     memcpy(&b->s, saved, sizeof b->s);
     if (!check_saved(b) || !room_for_cage(b)) return false;
     derive(b);
-    return !b->s.initialized || outputs_are_numbers(b);
+    return !b->s.initialized || results_are_numbers(b);
 }
 
 bool part_is_initialized(const Bearing *b)

@@ -52,6 +52,7 @@ typedef struct {
     Breakage breakage;
     Loosening loosening;
     EventState event;
+    Outputs out;  // of a saved state in equal steps: their evaluations have other velocities than a new one would
     int initialized;
 } InstanceState;
 

@@ -65,7 +65,7 @@ void part_directional_derivatives(Part *part, const Inputs *inputs, const double
 
 // The whole state as one block of plain bytes.  Instances with equal blocks continue alike, bit for bit.
 size_t part_saved_size(void);
-void part_save(const Part *part, void *saved);
+void part_save(Part *part, void *saved);
 void part_restore(Part *part, const void *saved);
 
 // Restores a state from bytes of unknown origin: false, with the reason in the log, unless every count, index, choice
