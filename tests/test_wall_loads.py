@@ -15,6 +15,13 @@ ELASTIC = {"scene.cage": CageModel.ELASTIC}
 PULSE, FINE, STRIDE = 8e-6, 0.5e-6, 16  # steps, as long as the rise of an impact and much shorter [s]; their ratio
 
 
+def found_at_end(loads, load, end):
+    """Approach of a load by the evaluation at the step's end, without and with the wall's compliance; 0 where it has none."""
+    x, K, delta = (end.cage.fast.touch[load.half][TOUCH.index(name)][load.ball] for name in ("x", "K", "delta"))
+    own = max(delta, 0.0) * (K > 0.0)
+    return own, own + loads.c * loads.law(load.half, K, x, own)
+
+
 @pytest.mark.c_only
 @pytest.mark.parametrize(("shape", "least", "half", "nearly_all"), [({}, 2, 1.5e-3, 0.01), (RIBBON, -1, 0.02, 0.12)])
 def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
@@ -23,7 +30,7 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
     """Positions are those of velocity Verlet, so that what the substeps say of ball and wall at the step's end is what the evaluation finds
     there, but for directions that turn: own approaches of more than 0.2 um, in steps of 4 us.  95 % of the contacts of wild states are
     within 1 % (observed 0.5), half of them within 0.15 % (0.06).  Balls that arrive within the step are among them.  In a
-    ribbon, whose directions turn faster and whose law is fitted, half are within 2 % (1.4), 95 % within 12 % (9); none arrives.
+    ribbon, whose directions turn faster and whose law is fitted, half are within 2 % (0.4), 95 % within 12 % (2.9); none arrives.
     """
     changes = ELASTIC | shape
     scene, model, rng, seen = core.model(changes), Model.of(changes), np.random.default_rng(3), {}
@@ -43,10 +50,10 @@ def test_the_evaluation_finds_the_approach_that_the_substeps_foresaw(
         for load in loads.loads:
             x = load.x + load.rate * t - (np.sum(load.shape * seen["q"]) - load.start)  # the bend ends at 0
             x = x + load.normal @ loads.way[:, load.ball] - load.along @ seen["moved"][:, load.half]
-            found = {name: end.cage.fast.touch[load.half][TOUCH.index(name)][load.ball] for name in ("K", "delta")}
-            if found["K"] <= 0.0 or found["delta"] < 2e-7:
+            own, whole = found_at_end(loads, load, end)
+            if own < 2e-7:
                 continue
-            errors.append(x / (found["delta"] + loads.c * found["K"] * found["delta"] ** 1.5) - 1.0)
+            errors.append(x / whole - 1.0)
             arrivals += load.Q == 0.0
     middle, most = np.quantile(np.abs(errors), [0.5, 0.95])
     record_property("observed", f"{len(errors)} contacts, {arrivals} arrivals: median {middle:.2g}, 95 % {most:.2g}")
@@ -68,8 +75,8 @@ def put(bearing, y, h):
 @pytest.mark.c_only
 def test_force_of_an_impact_in_steps_as_long_as_its_rise(core, record_property):
     """Impacts of the working point, from 40 us before: samples of the upper fifth in steps of 8 us against steps of 0.5 us at the same
-    time.  Loads that the substeps hold and that begin with the step behind the arrival err by 9.6 % in the mean; loads that follow
-    by less than 6 % (observed 4.5 %).
+    time.  Loads that the substeps hold and that begin with the step behind the arrival err by 9.6 % in the mean; loads that follow with
+    the half's share that they began with by 4.5 %; with the share of the patch as it grows by less than 2 % (observed 1.1 %).
     """
     fixed = ELASTIC | {"solver.method": Method.FIXED}
     exact, coarse = (Instance(core, fixed | {"solver.step": h}) for h in (FINE, PULSE))
@@ -92,7 +99,7 @@ def test_force_of_an_impact_in_steps_as_long_as_its_rise(core, record_property):
                     errors.append(found / Q[at] - 1.0)
     record_property("observed", f"{len(errors)} samples: {100 * np.mean(np.abs(errors)):.1f} % in the mean")
     assert len(errors) > 50
-    assert np.mean(np.abs(errors)) < 0.06
+    assert np.mean(np.abs(errors)) < 0.02
 
 
 @pytest.mark.c_only
@@ -154,13 +161,12 @@ def test_balls_that_arrive_at_a_ribbon_are_found_where_the_substeps_foresaw(core
             return seen["x"]
 
     monkeypatch.setattr(cage_substeps, "WallLoads", Watched)
-    for i in range(400):
+    for i in range(600):
         bearing.step(0.01 + 4e-5 * (i + 1))
         end, _ = verlet_step(model, 0.0, 8e-6, 1.0 / model.d.scale, verlet_evaluate(model, 0.0, bearing.y))
         for load in seen["loads"].loads:
-            found = {name: end.cage.fast.touch[load.half][TOUCH.index(name)][load.ball] for name in ("K", "delta")}
-            if load.x < 0.0 and found["K"] > 0.0 and found["delta"] > 1e-7:
-                whole = found["delta"] + seen["loads"].c * found["K"] * found["delta"] ** 1.5
+            own, whole = found_at_end(seen["loads"], load, end)
+            if load.x < 0.0 and own > 1e-7:
                 errors.append((load.x + load.moved) / whole - 1.0)
     record_property("observed", f"{len(errors)} arrivals: median {np.median(np.abs(errors)):.2g}")
     assert len(errors) > 10

@@ -67,7 +67,7 @@ class VerletState:
 
     y: np.ndarray  # state [N_STATES]
     f: np.ndarray  # its dy/dt; after a step: accelerations, mean rates of the friction states over the step, power
-    jerk: np.ndarray = None  # change of f over the last step / its length
+    jerk: np.ndarray = None  # change of f over the last step that its substeps did not foresee / its length
     h: float = 0.0  # length of that step [s], 0: none yet
     cage: CageMemory = None  # of the cage there; f lacks the accelerations that it advances by itself
     ratio: float = 0.0  # length that its error asks of the next step / h, 0: none yet
@@ -294,9 +294,11 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
     y[Y.WORK] += gamma * (f[Y.WORK] + end.f[Y.WORK])
 
     # Error and history of the velocities; stiff accelerations give up a part of their second difference.
-    second, errors = trapezoid_error(h, start.h, delta, start.jerk[V])
+    unforeseen = delta.copy()
+    unforeseen[BALL[:3].ravel()] -= gamma * balls
+    second, errors = trapezoid_error(h, start.h, unforeseen, start.jerk[V])
     stiff = second - np.linalg.solve(b.matrix_stiff(gamma), second)
-    for rows, values in zip((end.f, end.jerk), trapezoid_end(h, a, delta, stiff), strict=True):
+    for rows, values in zip((end.f, end.jerk), trapezoid_end(h, a, delta, unforeseen, stiff), strict=True):
         rows[V][OTHERS] = values[OTHERS]
     error[V][OTHERS] = errors[OTHERS]
     return end, np.sqrt(

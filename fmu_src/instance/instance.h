@@ -52,7 +52,8 @@ typedef struct {
     Breakage breakage;
     Loosening loosening;
     EventState event;
-    Outputs out;  // of a saved state in equal steps: their evaluations have other velocities than a new one would
+    Outputs
+        out;  // of a saved state in equal steps: their evaluations have other velocities than a new one would
     int initialized;
 } InstanceState;
 

@@ -153,7 +153,7 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
 {
     const double gamma = 0.5 * h, *f = from->f;
     double middle[N_STATES], residual[N_STATES], delta[N_STATES], error[N_ALL_STATES];
-    double second_difference[N_STATES], balls[BALL_MOTIONS], *y = to->y;
+    double unforeseen[N_STATES], second_difference[N_STATES], balls[BALL_MOTIONS], *y = to->y;
     const StepFrom start = {from->y, f, from->jerk, from->h};
     const StepTo end = {y, to->f, to->jerk, error, residual, delta, balls};
     CageStep cage;
@@ -188,11 +188,13 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // History for the next step, and the error: positions and the work have none of their own.
     for (int i = 0; i < FRICTION; i++) error[i] = 0.0;
     error[Y_WORK] = 0.0;
+    memcpy(unforeseen, delta, sizeof unforeseen);
+    for (int i = 0; i < BALL_MOTIONS; i++) unforeseen[VELOCITY + i] -= gamma * balls[i];
     for (int part = 0; part < PARTS; part++)
-        trapezoid_error(h, from->h, FIRST[part], END[part], delta, from->jerk, second_difference, error);
+        trapezoid_error(h, from->h, FIRST[part], END[part], unforeseen, from->jerk, second_difference, error);
     implicit_stiff_part(model, w, gamma, second_difference);
     for (int part = 0; part < PARTS; part++)
-        trapezoid_end(h, FIRST[part], END[part], f, delta, second_difference, to->f, to->jerk);
+        trapezoid_end(h, FIRST[part], END[part], f, delta, unforeseen, second_difference, to->f, to->jerk);
     to->h = h;
     return error_norm(model->modes != NULL, error, weight);
 }

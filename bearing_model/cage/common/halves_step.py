@@ -102,15 +102,16 @@ def halves_stiff_part(model, w, gamma, v):
     return v - np.linalg.solve(np.eye(N_HALVES) + gamma * halves_films(model, w), v)
 
 
-def halves_remember(model, w, step, start, change, end, error):
-    """Accelerations, mean rates of the friction states, their history and their errors; the films at the end.
+def halves_remember(model, w, step, start, change, unforeseen, end, error):
+    """Accelerations, mean rates of the friction states, their history and their errors; the films at the end.  change: v_{n+1} - v_n -
+    h a_n [12]; unforeseen: without the part that the substeps foresaw.
 
     The midpoint rule's own leading error is h^3/24 u''', u' the mean rate of a friction state.
     """
     h, span = step.h, step.h + start.h
-    second, error[HALVES] = trapezoid_error(h, start.h, change, start.jerk[HALVES])
+    second, error[HALVES] = trapezoid_error(h, start.h, unforeseen, start.jerk[HALVES])
     stiff = halves_stiff_part(model, w, step.gamma, second)
-    end.f[HALVES], end.jerk[HALVES] = trapezoid_end(h, start.f[HALVES], change, stiff)
+    end.f[HALVES], end.jerk[HALVES] = trapezoid_end(h, start.f[HALVES], change, unforeseen, stiff)
     end.f[FRICTION] = np.append(step.joints.way.ravel() / h, np.zeros(2 * Z))
     end.jerk[FRICTION] = 2.0 / span * (end.f - start.f)[FRICTION]
     error[FRICTION] = h / 24.0 * 2.0 * h * h / span * (end.jerk - start.jerk)[FRICTION]

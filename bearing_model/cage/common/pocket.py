@@ -216,9 +216,9 @@ def pocket_elastic(model, w):
         e.wall_force[h] = sum(
             np.sum(force[..., None] * motion, axis=-2) for force, motion in zip(on_wall, shape, strict=True)
         )
-        reached = np.where(np.real(gap.delta) > 0.0, gap.delta, gap.delta + ahead)
+        reached = gap.delta + ahead
         share = pocket_share(model.d, h, gap.n_x, reached)[0]
         e.touch_x[h], e.touch_t[h] = gap.n_x, gap.n_t
         e.touch_r[h] = e.touch_chi[h] = e.touch_radius[h] = e.touch_front[h] = 0.0 * gap.n_x
-        e.touch_K[h] = np.where((np.real(share) > 0.0) & (np.real(reached) > 0.0), share * model.d.pocket.K, 0.0)
+        e.touch_K[h] = np.where((np.real(share) > 0.0) & (np.real(reached) > 0.0), model.d.pocket.K, 0.0)
         e.touch_delta[h] = gap.delta

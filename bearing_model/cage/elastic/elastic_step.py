@@ -114,11 +114,12 @@ def solve_bent_halves(model, gamma, w, lack, squeeze, residual, delta):
     return impulses, all_rates, forces, less
 
 
-def remember_modes(h, start, end, error):
-    """Rates of the modes, their history and their errors, without the films on bent rims."""
-    change = 0.5 * h * (end.f - start.f)[RATES]
-    _, error[RATES] = trapezoid_error(h, start.h, change, start.jerk[RATES])
-    end.jerk[RATES] = (end.f - start.f)[RATES] / h
+def remember_modes(model, h, foreseen, start, end, error):
+    """Rates of the modes, their history and their errors, without the films on bent rims.  foreseen: accelerations at the end [2, n]."""
+    change = end.f.copy()
+    add_rates(model, -foreseen, change)
+    _, error[RATES] = trapezoid_error(h, start.h, 0.5 * h * change[RATES], start.jerk[RATES])
+    end.jerk[RATES] = change[RATES] / h
     end.f[PLACES], end.jerk[PLACES] = end.y[RATES], 0.0
 
 
@@ -142,15 +143,15 @@ def elastic_end(model, halves, step, start, end, error, w):
     impulse, rates, memory.force, power = solve_bent_halves(model, gamma, w, lack, memory.squeeze, residual, delta)
 
     # Velocities of halves and modes; friction.
-    change = halves_correct(halves, delta, y) + gamma * step.halves
+    unforeseen = halves_correct(halves, delta, y)
     elastic_slide(model, w, y, halves.joints)
     memory.films = replace(memory.films, force=memory.films.force - impulse[:, 2:] / gamma, rates=rates)
     by_films = rim_modes(model, memory.films.force - step.rim_before)
     add_rates(model, gamma * (slow_rates(model, f) - step.modes + by_films), y)
 
     # History and errors.
-    halves_remember(model, w, halves, start, change, end, error)
-    remember_modes(halves.h, start, end, error)
+    halves_remember(model, w, halves, start, unforeseen + gamma * step.halves, unforeseen, end, error)
+    remember_modes(model, halves.h, step.modes, start, end, error)
     return residual, delta, step.balls, power
 
 

@@ -1,6 +1,6 @@
 """Loads of balls on the walls of elastic halves within a step: the readable twin of wall_loads.c, which has the equations.
 
-    x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q_0 = x,  Q_0 = K delta^1.5
+    x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t),  delta + c Q_0 = x,  Q_0 = w K delta^1.5
     Q = Q_0 (1 + lambda (x_dot - Y d/2 (Q - Q_before)))
 
 r, b: rate in the middle of the step and acceleration of the rigid approach by slow forces; u, g.d: motion of the wall by
@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from bearing_model.cage.common.pocket import pocket_share
 from bearing_model.cage.common.rigid_approach import rigid_approach
 from bearing_model.cage.elastic.elastic_half import ROOT
 from bearing_model.cage.elastic.elastic_wall import elastic_wall_shape, ribbon_wall_shapes
@@ -32,6 +33,7 @@ class WallLoad:
     half: int
     ball: int
     K: float
+    n_x: float
     x: float
     Q: float
     rate: float
@@ -54,7 +56,7 @@ class WallLoads:
 
     def __init__(self, model, h, fast, f, state, y, q, w):
         self.m, self.c, self.middle, self.loads = model.p.cage.m, model.modes.compliance, 0.5 * h, []
-        self.m_ball, self.damping, self.first = model.d.m, model.p.cage.lambda_, True
+        self.m_ball, self.damping, self.first, self.d = model.d.m, model.p.cage.lambda_, True, model.d
         self.push, self.speed, self.way, self.still = *np.zeros((3, 3, Z)), np.zeros_like(q)
         self.inertia = np.array(3 * [self.m] + 2 * [model.d.J_t] + [model.d.J_p])
         for i, rows in enumerate(fast.touch):
@@ -73,7 +75,7 @@ class WallLoads:
                     model, self.middle, n, f, state, y, w.half[i], i, k
                 )
                 K, delta, Q = (touch[name][k] for name in ("K", "delta", "Q"))
-                Q_0 = K * max(delta, 0.0) ** 1.5
+                Q_0 = self.law(i, K, n[0], max(delta, 0.0))
                 if not Q_0 > 0.0 and not delta + h * rate > 0.0:
                     continue
                 x = delta + self.c * Q_0
@@ -84,18 +86,22 @@ class WallLoads:
                 mobility = 1.0 / self.m_ball + 1.0 / self.m + 2.0 / self.m * np.sum(shift**2)
                 start = np.sum(both * q)
                 self.loads.append(
-                    WallLoad(i, k, K, x, Q, rate, acceleration, both, start, along_half, normal, mobility, speed)
+                    WallLoad(i, k, K, n[0], x, Q, rate, acceleration, both, start, along_half, normal, mobility, speed)
                 )
 
+    def law(self, half, K, n_x, delta):
+        """w K delta^1.5, w: share of the half in a contact of the approach delta; 1 of a ribbon."""
+        return K * delta**1.5 * (1.0 if self.d.spheres else pocket_share(self.d, half, n_x, delta)[0])
+
     def at(self, load, x):
-        """K delta^1.5 of the approach x."""
+        """w K delta^1.5 of the approach x."""
         if not x > 0.0:
             return 0.0
-        cK = self.c * load.K
-        delta = x / (1.0 + cK * np.sqrt(x))
+        delta = x / (1.0 + self.c * load.K * np.sqrt(x))
         for _ in range(2):
-            delta = max(delta - (delta + cK * delta**1.5 - x) / (1.0 + 1.5 * cK * np.sqrt(delta)), 0.0)
-        return load.K * delta**1.5
+            more = self.c * self.law(load.half, load.K, load.n_x, delta)
+            delta = max(delta - (delta + more - x) / (1.0 + 1.5 * more / max(delta, 1e-30)), 0.0)
+        return self.law(load.half, load.K, load.n_x, delta)
 
     def drift(self, sub):
         """Moves the balls over a substep, of whose velocities the second half is still to come."""

@@ -227,7 +227,7 @@ def two_half_end(model, step, start, end, error, w):
     change = halves_correct(step, delta, end.y)
     correct_halves(model, w, gamma, axial, shear, change, end.y, step.joints)
     two_half_slide(model, w, end.y, step.joints)
-    halves_remember(model, w, step, start, change, end, error)
+    halves_remember(model, w, step, start, change, change, end, error)
     return residual, delta
 
 

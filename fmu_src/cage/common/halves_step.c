@@ -126,12 +126,13 @@ static void remember_friction(const HalvesStep *step, const StepFrom *from, cons
 }
 
 void halves_remember(const Model *model, const Work *w, const HalvesStep *step, const StepFrom *from,
-                     const double change[N_STATES], const StepTo *to, double film[2][3])
+                     const double change[N_STATES], const double unforeseen[N_STATES], const StepTo *to,
+                     double film[2][3])
 {
     double second_difference[N_STATES];
-    trapezoid_error(step->h, from->h, FIRST, END, change, from->jerk, second_difference, to->error);
+    trapezoid_error(step->h, from->h, FIRST, END, unforeseen, from->jerk, second_difference, to->error);
     halves_stiff_part(model, w, step->gamma, second_difference);
-    trapezoid_end(step->h, FIRST, END, from->f, change, second_difference, to->f, to->jerk);
+    trapezoid_end(step->h, FIRST, END, from->f, change, unforeseen, second_difference, to->f, to->jerk);
     remember_friction(step, from, to);
     for (int land = 0; land < 2; land++) {
         const double at_end[3] = {w->film[land].yy, w->film[land].yz, w->film[land].zz};

@@ -174,12 +174,11 @@ INLINE wide pocket_ahead(const Model *model, const Work *w, int h, int j, const 
 // Leaves the contacts of a packet, and those that may come in the next step, to its substeps (wall_loads.c).
 INLINE void leave_to_substeps(const Model *model, Work *w, int h, int j, const PocketGap *gap, wide ahead)
 {
-    const wide zero = wide_set(0.0), delta = gap->delta;
-    const wide reached = wide_select(wide_above(delta, 0.0), delta, delta + ahead);
+    const wide zero = wide_set(0.0), delta = gap->delta, reached = delta + ahead;
     wide K = zero;
     if (wide_any(wide_above(reached, 0.0))) {
         const wide share = pocket_share(model->d, h, gap->n_x, reached).load;
-        K = wide_select(wide_above(wide_min(share, reached), 0.0), model->d->pocket.K * share, zero);
+        K = wide_select(wide_above(wide_min(share, reached), 0.0), wide_set(model->d->pocket.K), zero);
     }
     wide_store(&w->cage.elastic.touch.x[h][j], gap->n_x);
     wide_store(&w->cage.elastic.touch.t[h][j], gap->n_t);

@@ -134,16 +134,15 @@ static void correct_modes(const Model *model, double gamma, const ElasticStep *s
 }
 
 // Rates of the modes, their history and their errors, without the films on bent rims.  Their slow accelerations are not smoothed: the
-// delay would feed vibrations that turn by 2.3 to 4 in a step.
-static void remember_modes(double h, double h_0, const double *restrict f, const double *restrict jerk,
+// delay would feed vibrations that turn by 2.3 to 4 in a step.  foreseen: those of the end by the substeps.
+static void remember_modes(double h, double h_0, const double *restrict foreseen, const double *restrict jerk,
                            const double *restrict y, double *restrict f_end, double *restrict jerk_end,
                            double *restrict error)
 {
     const double inv_h = 1.0 / h, second = h * h * (2.0 / (h + h_0));
     for (int i = Y_MODE_S_DOT; i < N_ALL_STATES; i++) {
-        const double difference = second * ((f_end[i] - f[i]) * inv_h - jerk[i]);
-        error[i] = (h / 12.0) * difference;
-        jerk_end[i] = (f_end[i] - f[i]) * inv_h;
+        jerk_end[i] = (f_end[i] - foreseen[i - Y_MODE_S_DOT]) * inv_h;
+        error[i] = (h / 12.0) * (second * (jerk_end[i] - jerk[i]));
     }
     memcpy(&f_end[Y_MODE_S], &y[Y_MODE_S_DOT], 2 * N_MODES * sizeof *error);
     memset(&jerk_end[Y_MODE_S], 0, 2 * N_MODES * sizeof *error);
@@ -155,7 +154,7 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
                    HalvesMemory *at_end, ElasticMemory *memory, Work *w)
 {
     const double gamma = halves->gamma;
-    double *y = to->y, *f = to->f, change[N_STATES], lack[2][RIM], power = 0.0;
+    double *y = to->y, *f = to->f, change[N_STATES], unforeseen[N_STATES], lack[2][RIM], power = 0.0;
     BentSolution bent[2];
     memset(bent, 0, sizeof bent);
     memset(memory->squeeze, 0, sizeof memory->squeeze);
@@ -180,7 +179,8 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     for (int h = 0; h < 2; h++) memcpy(memory->force[h], bent[h].film, sizeof memory->force[h]);
 
     // Velocities of halves and modes; friction.
-    halves_correct(halves, to, change);
+    halves_correct(halves, to, unforeseen);
+    memcpy(change, unforeseen, sizeof change);
     for (int i = 0; i < CAGE_MOTIONS; i++) change[Y_CAGE_V_X + i] += gamma * step->foreseen.halves[i];
     elastic_slide(model, y, &halves->joints, w);
     correct_modes(model, gamma, step, bent, f, &memory->films, y);
@@ -188,8 +188,8 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     // History and errors; the evaluations behind foresee no films.
     memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     memset(w->squeeze_from, 0, sizeof w->squeeze_from);
-    halves_remember(model, w, halves, from, change, to, at_end->film);
-    remember_modes(halves->h, from->h, from->f, from->jerk, y, f, to->jerk, to->error);
+    halves_remember(model, w, halves, from, change, unforeseen, to, at_end->film);
+    remember_modes(halves->h, from->h, step->foreseen.modes, from->jerk, y, f, to->jerk, to->error);
     return power;
 }
 

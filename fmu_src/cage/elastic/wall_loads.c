@@ -7,7 +7,8 @@
 //     x(t) = x_0 + r t + b t (t - h)/2 - u(t) - g.d(t)   r, b: rate in the middle of the step and acceleration of the rigid
 //                                                        approach by slow forces; u, g.d: motion of the wall by the modes and by
 //                                                        the motions d of the halves, which joints and these loads cause
-//     delta + c Q = x,   Q = K delta^1.5                 c: compliance of the wall beside its modes; K: Hertz's, by the half's share
+//     delta + c Q = x,   Q = w K delta^1.5               c: compliance of the wall beside its modes; K: Hertz's; w: the half's share,
+//                                                        which goes to 1/2 as the patch grows over the seam (pocket.h); 1 of a ribbon
 //
 // and wall, ball and halves feel (1 + lambda x_dot) Q.  The bodies of halves and balls feel the change of the loads since the start too, the
 // balls as if free.  So after the step x is where the evaluation finds it.  Where a body does not feel it, its answer comes a step
@@ -26,6 +27,7 @@
 // stay.  The step's end corrects loads and damping by the trapezoidal rule (verlet.c).
 #include "cage/elastic/wall_loads.h"
 
+#include "cage/common/pocket.h"
 #include "cage/elastic/elastic_half.h"
 #include "numbers/vec.h"
 #include "physics/hertz.h"
@@ -90,17 +92,16 @@ static void find_shape(const Model *model, const FastState *fast, const Work *w,
 static const double LEAST_DAMPING = 1e-6;  // from which a speed follows [s/m]
 
 // Adds the contact of a ball with a half, if there is one in the step; its shape is not known yet.
-static bool add_load(double lambda, double h, const FastState *fast, int half, int j, int lane,
+static bool add_load(double lambda, double h, const FastState *fast, int half, int j, int lane, double Q_0,
                      const RigidApproach *approach, WallLoads *loads)
 {
     const int k = j + lane;
-    const double rate = approach->rate[lane];
-    const double delta = fast->touch.delta[half][k], K = fast->touch.K[half][k];
-    const double Q_0 = delta > 0.0 ? K * delta * sqrt(delta) : 0.0;
+    const double rate = approach->rate[lane], delta = fast->touch.delta[half][k];
     if (!(Q_0 > 0.0) && !(delta + h * rate > 0.0)) return false;
     const int i = loads->count++;
     const double Q = fast->touch.Q[half][k], acceleration = approach->acceleration[lane];
-    loads->K[i] = K, loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
+    loads->K[i] = fast->touch.K[half][k], loads->Q[i] = Q, loads->x[i] = delta + loads->c * Q_0;
+    loads->towards[i] = (2 * half - 1) * fast->touch.x[half][k];
     loads->more[i] = loads->moved[i] = 0.0;
     loads->rate[i] = rate, loads->acceleration[i] = acceleration, loads->ball[i] = k;
     loads->speed[i] =
@@ -111,6 +112,13 @@ static bool add_load(double lambda, double h, const FastState *fast, int half, i
         loads->along[2 * m + 1 - half][i] = 0.0;
     }
     return true;
+}
+
+// Load of a half by the approach delta.
+INLINE wide share_load(const Model *model, wide K, wide towards, wide delta)
+{
+    const wide alone = K * delta * wide_sqrt(delta);
+    return model->d->spheres.on ? alone : pocket_share(model->d, 1, towards, delta).load * alone;
 }
 
 void wall_loads_find(const Model *model, double h, const FastState *fast, const double *f,
@@ -128,9 +136,13 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
             if (mask == 0) continue;
             const double *const n[3] = {fast->touch.x[half], fast->touch.r[half], fast->touch.t[half]};
             rigid_approach(model, loads->middle, n, f, state, y, w, half, j, &approach);
+            const wide towards = (2.0 * half - 1.0) * wide_load(&fast->touch.x[half][j]);
+            double Q_0[LANE_WIDTH];
+            wide_store(Q_0, share_load(model, wide_load(&fast->touch.K[half][j]), towards,
+                                       wide_max(wide_load(&fast->touch.delta[half][j]), wide_set(0.0))));
             for (int i = 0; i < LANE_WIDTH && j + i < Z; i++) {
                 if (!(mask >> i & 1) ||
-                    !add_load(model->p->cage.lambda, h, fast, half, j, i, &approach, loads))
+                    !add_load(model->p->cage.lambda, h, fast, half, j, i, Q_0[i], &approach, loads))
                     continue;
                 const int last = loads->count - 1;
                 double *shape = loads->shape[last];
@@ -143,24 +155,25 @@ void wall_loads_find(const Model *model, double h, const FastState *fast, const 
     wall_motions(loads, &y[Y_MODE_S], loads->from);
     for (int i = loads->count; i % LANE_WIDTH != 0; i++) {  // nothing
         loads->K[i] = loads->x[i] = loads->Q[i] = loads->more[i] = loads->mobility[i] = 0.0;
-        loads->moved[i] = loads->speed[i] = 0.0;
+        loads->moved[i] = loads->speed[i] = loads->towards[i] = 0.0;
         loads->rate[i] = loads->acceleration[i] = loads->from[i] = 0.0;
         for (int m = 0; m < CAGE_MOTIONS; m++) loads->along[m][i] = 0.0;
     }
 }
 
-// K delta^1.5 of a packet of approaches x: delta by Newton's method, from x/(1 + c K x^0.5).  Within 0.1 % for c K x^0.5 < 5, 3 % at 50.
-INLINE wide loads_at(const WallLoads *loads, int i, wide x)
+// w K delta^1.5 of a packet of approaches x: delta by Newton's method, from x/(1 + c K x^0.5).  Within 0.1 % for c K x^0.5 < 5, 3 % at 50.
+INLINE wide loads_at(const Model *model, const WallLoads *loads, int i, wide x)
 {
-    const wide zero = wide_set(0.0), K = wide_load(&loads->K[i]), cK = loads->c * K;
+    const wide zero = wide_set(0.0), least = wide_set(1e-30), K = wide_load(&loads->K[i]);
+    const wide towards = wide_load(&loads->towards[i]);
     if (!wide_any(wide_above(x, 0.0))) return zero;
     const wide from = wide_max(x, zero);
-    wide delta = from / (1.0 + cK * wide_sqrt(from));
+    wide delta = from / (1.0 + loads->c * K * wide_sqrt(from));
     for (int n = 0; n < 2; n++) {
-        const wide root = wide_sqrt(delta), load = cK * root;
-        delta = wide_max(delta - (delta + load * delta - from) / (1.0 + 1.5 * load), zero);
+        const wide load = loads->c * share_load(model, K, towards, delta);
+        delta = wide_max(delta - (delta + load - from) / (1.0 + 1.5 * load / wide_max(delta, least)), zero);
     }
-    return K * delta * wide_sqrt(delta);
+    return share_load(model, K, towards, delta);
 }
 
 // Motions of the balls along the normals.
@@ -219,7 +232,7 @@ void wall_loads_follow(const Model *model, double t, double sub, const double *q
             wide_fma(wide_load(&loads->rate[i]), wide_set(t), bend * wide_load(&loads->acceleration[i]));
         const wide bodies = less_halves(loads, i, moved, wide_load(&by_ball[i]));
         const wide moves = way + bodies - (wide_load(&by_modes[i]) - wide_load(&loads->from[i]));
-        const wide Q_0 = loads_at(loads, i, wide_load(&loads->x[i]) + moves);
+        const wide Q_0 = loads_at(model, loads, i, wide_load(&loads->x[i]) + moves);
 
         const wide mean = (moves - wide_load(&loads->moved[i])) * inv_sub;
         const wide speed = mean + part * (mean - wide_load(&loads->speed[i]));

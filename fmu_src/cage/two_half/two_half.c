@@ -371,7 +371,7 @@ void two_half_end(const Model *model, HalvesStep *step, const StepFrom *from, co
     halves_correct(step, to, change);
     correct_halves(model, w, gamma, axial, shear, change, to->y, &step->joints);
     two_half_slide(model, to->y, &step->joints, w);
-    halves_remember(model, w, step, from, change, to, at_end->film);
+    halves_remember(model, w, step, from, change, change, to, at_end->film);
 }
 
 void two_half_slide(const Model *model, double *y, JointStep *joints, Work *w)
