@@ -728,25 +728,17 @@ void part_restore(Bearing *b, const void *saved)
     outputs_of_the_save(b);
 }
 
+// All outputs at the restored state, and its derivative.
 static bool outputs_are_numbers(Bearing *b)
 {
-    bool fine = true;
+    evaluate(b);
+    bool fine = all_finite(cage_states(&b->model), b->y_dot);
     update_all(b);
     for (const Variable *v = VARIABLES; v < VARIABLES + N_VARIABLES; v++) {
         if (v->causality != CAUSALITY_OUTPUT) continue;
         const double *value = (const double *)((const char *)&b->out + v->offset);
         for (int i = 0; i < v->count; i++) fine &= isfinite(value[i]) != 0;
     }
-    return fine;
-}
-
-// Whether the derivative of the restored state and all outputs there, new ones and saved ones, are numbers.
-static bool results_are_numbers(Bearing *b)
-{
-    evaluate(b);
-    bool fine = all_finite(cage_states(&b->model), b->y_dot) && outputs_are_numbers(b);
-    outputs_of_the_save(b);
-    fine = fine && outputs_are_numbers(b);
     if (!fine) bearing_log(b, LOG_ERROR, "the outputs there are no numbers");
     return fine;
 }
@@ -756,7 +748,9 @@ bool part_restore_unknown(Bearing *b, const void *saved)
     memcpy(&b->s, saved, sizeof b->s);
     if (!check_saved(b) || !room_for_cage(b)) return false;
     derive(b);
-    return !b->s.initialized || results_are_numbers(b);
+    const bool fine = !b->s.initialized || outputs_are_numbers(b);
+    outputs_of_the_save(b);
+    return fine;
 }
 
 bool part_is_initialized(const Bearing *b)

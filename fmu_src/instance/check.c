@@ -451,6 +451,7 @@ static bool check_recorded(Bearing *b, double time)
            saved_is(b, lag_is_valid(&s->lag), "a motion that catches up") &&
            saved_is(b, statistics_is_valid(&s->force, Z * time), "statistics of the pocket forces") &&
            saved_is(b, stress, "statistics of the stress") &&
+           saved_is(b, values_are_sane((const double *)&s->out, sizeof s->out / sizeof(double)), "outputs") &&
            saved_is(b, turning, "turning points of the stress");
 }
 
