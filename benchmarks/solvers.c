@@ -7,6 +7,9 @@
 //   dense      SUNDIALS' dense matrix and its own difference quotients: what a general multibody solver does
 //   diagonal   J = -D, the damping rates that the core computes, each state for itself: no factorization
 //
+// The friction states of joints that slip are mapped back behind each step.  Multistep methods, whose history does not know it, begin anew
+// where a joint has slipped.
+//
 // A statistics hook needs the right-hand side at accepted states.  Multistep methods do not evaluate there:
 // those evaluations are made only where a scene wants stress or statistics.
 #include "solvers.h"
@@ -90,6 +93,24 @@ static int right_hand_side(sunrealtype t, N_Vector y, N_Vector f, void *user)
     if (in->choice.method != SOLVER_ERK)
         return 1;  // CVODE tries a smaller step; ERKStep cannot, so its error test is made to fail
     stepping_refuse(in->weight, N_STATES, in->nonfinite_stages++, N_VGetArrayPointer(f));
+    return 0;
+}
+
+// Maps friction states at the end y of a step back; whether any has slipped.  The derivative there depends only on the part of the states
+// that friction bears, so that it stays.
+static bool slide(Integrator *in, double t, double *y)
+{
+    evaluate(in, t, y, &in->s->rhs_evals);
+    in->kernels->cage_slide(in->model, in->s->now.y, y, in->w);
+    const bool slipped = memcmp(&y[Y_JOINT_PLATE_Y], &in->y_latest[Y_JOINT_PLATE_Y],
+                                (Y_WORK - Y_JOINT_PLATE_Y) * sizeof *y) != 0;
+    memcpy(in->y_latest, y, sizeof in->y_latest);
+    return slipped;
+}
+
+static int accepted(sunrealtype t, N_Vector y, void *user)
+{
+    slide(user, t, N_VGetArrayPointer(y));
     return 0;
 }
 
@@ -182,6 +203,7 @@ static bool set_up_erk(Integrator *in)
     return in->solver != NULL && ARKodeSetUserData(in->solver, in) == ARK_SUCCESS &&
            ARKodeWFtolerances(in->solver, weights) == ARK_SUCCESS &&
            ERKStepSetTableName(in->solver, in->choice.table) == ARK_SUCCESS &&
+           ARKodeSetPostprocessStepFn(in->solver, accepted) == ARK_SUCCESS &&
            ARKodeSetMaxErrTestFails(in->solver, 30) == ARK_SUCCESS &&
            ARKodeSetMaxHnilWarns(in->solver, -1) == ARK_SUCCESS &&
            (in->choice.output_interval > 0.0 ||
@@ -310,10 +332,32 @@ static int start(Integrator *in, double t_stop)
            CVodeSetStopTime(in->solver, t_stop);
 }
 
+// Counters of CVODE start anew with CVodeReInit.
+static void count(Integrator *in)
+{
+    long failed = 0, dense_evals = 0;
+    CVodeGetNumErrTestFails(in->solver, &failed);
+    if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE)
+        CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
+    jacobian_evals_made += (double)dense_evals;
+    in->s->error_tests_failed += (double)failed;
+}
+
 static int one_step(Integrator *in, double t_stop, double *t)
 {
     if (in->choice.method == SOLVER_ERK) return ARKodeEvolve(in->solver, t_stop, in->y, t, ARK_ONE_STEP);
     return CVode(in->solver, t_stop, in->y, t, CV_ONE_STEP);
+}
+
+// Maps the friction states behind a step of CVODE, up to t, back.
+static int slide_and_begin_anew(Integrator *in, double t, double t_stop)
+{
+    double h = 0.0;
+    if (!slide(in, t, N_VGetArrayPointer(in->y)) || t >= t_stop) return 0;
+    CVodeGetCurrentStep(in->solver, &h);
+    count(in);
+    return CVodeReInit(in->solver, t, in->y) | CVodeSetInitStep(in->solver, fmin(h, t_stop - t)) |
+           CVodeSetStopTime(in->solver, t_stop);
 }
 
 // Values at the output times that the last step went past.
@@ -335,7 +379,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     IntegratorState *s = in->s;
     const bool observed =
         in->model->p->scene.stress >= STRESS_PEAK || in->model->p->scene.statistics == SWITCH_ON;
-    long failed_before = 0, failed = 0, dense_evals = 0;
+    long failed_before = 0, failed = 0;
     double t = s->t;
     integrator_evaluate(in);
     int status = start(in, t_stop);
@@ -345,6 +389,7 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
         if (step >= max_steps) return CV_TOO_MUCH_WORK;
         if ((status = one_step(in, t_stop, &t)) < 0) break;
         interpolate(in, t);
+        if (in->choice.method != SOLVER_ERK && (status = slide_and_begin_anew(in, t, t_stop)) != 0) break;
         const double h = stepping_accept(s, t, N_VGetArrayPointer(in->y));
         in->rates_known = false;
         if (observed) evaluate(in, s->t, s->now.y, &s->rhs_evals);
@@ -353,12 +398,9 @@ int integrator_advance(Integrator *in, double t_stop, long max_steps)
     if (in->choice.method == SOLVER_ERK) {
         ARKodeGetNumErrTestFails(in->solver, &failed);
         ARKodeGetLastStep(in->solver, &s->h);
-    } else {  // counters start anew with CVodeReInit
-        CVodeGetNumErrTestFails(in->solver, &failed);
+    } else {
+        count(in);
         CVodeGetLastStep(in->solver, &s->h);
-        if (in->choice.method == SOLVER_BDF && in->choice.jacobian == JACOBIAN_DENSE)
-            CVodeGetNumLinRhsEvals(in->solver, &dense_evals);
-        jacobian_evals_made += (double)dense_evals;
     }
     s->error_tests_failed += (double)(failed - failed_before);
     if (status < 0) return status;
