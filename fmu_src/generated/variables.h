@@ -9,7 +9,7 @@
 
 #define FMI2_FUNCTION_PREFIX RivetedBearing_  // of the functions of a source-code FMU
 #define MODEL_IDENTIFIER "RivetedBearing"
-#define MODEL_GUID "{ea0ae4d7-d5fb-95a6-170f-500de736745f}"  // digest of the table
+#define MODEL_GUID "{4e74854a-0aa4-6ae4-675b-2f8acd089ac6}"  // digest of the table
 
 enum { Z = 9 };  // number of balls
 
