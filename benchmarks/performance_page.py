@@ -243,12 +243,7 @@ def scaling(data):
         ]
         for step, row in data["step"].items()
     ]
-    quarters = [quarter for rows in data["horizon"].values() for quarter in rows]
-    return {
-        "steps": steps,
-        "horizons": list(data["horizon"]),
-        "rtf": [q["rtf"] for q in quarters],
-    }
+    return {"steps": steps}
 
 
 CHAPTERS = blind, work_precision, rhs, step, scenes, scaling
