@@ -52,8 +52,8 @@ typedef struct {
     Breakage breakage;
     Loosening loosening;
     EventState event;
-    Outputs
-        out;  // of a saved state in equal steps: their evaluations have other velocities than a new one would
+    // of a saved state in equal steps, whose evaluations have other velocities than a new one would
+    Outputs out;
     int initialized;
 } InstanceState;
 

@@ -24,8 +24,8 @@ typedef struct {
     double middle, c;               // of the step [s]; compliance of the walls beside their modes
     wall_load_array K, Q;           // law w K delta^1.5, load at the step's start
     wall_load_array elastic, more;  // w K delta^1.5, and change of the load since the start
-    wall_load_array
-        towards;  // part of the normal towards the half's side, on which its share w of a contact depends
+    // part of the normal towards the half's side, on which its share w of a contact depends
+    wall_load_array towards;
     wall_load_array moved,
         speed;  // way of the approach since the start; its mean speed in the substep, at first the start's
     wall_load_array mobility;             // of wall, half and ball along the normal, tilts left out [1/kg]
