@@ -9,13 +9,12 @@
 typedef struct {
     double y[N_ALL_STATES];
     double f[N_ALL_STATES];  // dy/dt; after a step: accelerations, mean rates of the friction states, power
-    double
-        jerk[N_ALL_STATES];  // change of f over the last step, without what its substeps foresaw / its length
-    CageMemory cage;         // of the cage there; f lacks the accelerations that it advances by itself
-    Housing housing;         // where it moves on springs, else 0
-    BallTurn turn;           // of balls where one has a spall, else 0
-    Exchange exchange;       // with the shaft there, by the forces that move the balls
-    double h;                // length of that step [s]; 0 before the first one
+    double jerk[N_ALL_STATES];  // unforeseen change of f over the last step / its length
+    CageMemory cage;            // of the cage there; f lacks the accelerations that it advances by itself
+    Housing housing;            // where it moves on springs, else 0
+    BallTurn turn;              // of balls where one has a spall, else 0
+    Exchange exchange;          // with the shaft there, by the forces that move the balls
+    double h;                   // length of that step [s]; 0 before the first one
     double ratio;  // length that its error asks of the next step / h (integrator.c); 0 before the first one
 } VerletState;
 
