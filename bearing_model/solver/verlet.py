@@ -295,7 +295,8 @@ def verlet_step(model, t, h, weight, start, blocks=jacobian_blocks):
 
     # Error and history of the velocities; stiff accelerations give up a part of their second difference.
     unforeseen = delta.copy()
-    unforeseen[BALL[:3].ravel()] -= gamma * balls
+    if model.d.squeeze is None:  # elastic_end says why
+        unforeseen[BALL[:3].ravel()] -= gamma * balls
     second, errors = trapezoid_error(h, start.h, unforeseen, start.jerk[V])
     stiff = second - np.linalg.solve(b.matrix_stiff(gamma), second)
     for rows, values in zip((end.f, end.jerk), trapezoid_end(h, a, delta, unforeseen, stiff), strict=True):

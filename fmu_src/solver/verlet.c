@@ -189,7 +189,8 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     for (int i = 0; i < FRICTION; i++) error[i] = 0.0;
     error[Y_WORK] = 0.0;
     memcpy(unforeseen, delta, sizeof unforeseen);
-    for (int i = 0; i < BALL_MOTIONS; i++) unforeseen[VELOCITY + i] -= gamma * balls[i];
+    if (!model->d->squeeze.filled)  // elastic_end says why
+        for (int i = 0; i < BALL_MOTIONS; i++) unforeseen[VELOCITY + i] -= gamma * balls[i];
     for (int part = 0; part < PARTS; part++)
         trapezoid_error(h, from->h, FIRST[part], END[part], unforeseen, from->jerk, second_difference, error);
     implicit_stiff_part(model, w, gamma, second_difference);

@@ -149,8 +149,10 @@ def elastic_end(model, halves, step, start, end, error, w):
     by_films = rim_modes(model, memory.films.force - step.rim_before)
     add_rates(model, gamma * (slow_rates(model, f) - step.modes + by_films), y)
 
-    # History and errors.
-    halves_remember(model, w, halves, start, unforeseen + gamma * step.halves, unforeseen, end, error)
+    # History and errors.  Where pockets hold oil the foreseen loads count as errors: oil takes the velocities of the ends, without the
+    # turns that these loads make between them.
+    change = unforeseen + gamma * step.halves
+    halves_remember(model, w, halves, start, change, unforeseen if model.d.squeeze is None else change, end, error)
     remember_modes(model, halves.h, step.modes, start, end, error)
     return residual, delta, step.balls, power
 

@@ -185,10 +185,12 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     elastic_slide(model, y, &halves->joints, w);
     correct_modes(model, gamma, step, bent, f, &memory->films, y);
 
-    // History and errors; the evaluations behind foresee no films.
+    // History and errors.  Where pockets hold oil the foreseen loads count as errors: oil takes the velocities of the ends, without
+    // the turns that these loads make between them.  The evaluations behind foresee no films.
     memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     memset(w->squeeze_from, 0, sizeof w->squeeze_from);
-    halves_remember(model, w, halves, from, change, unforeseen, to, at_end->film);
+    halves_remember(model, w, halves, from, change, model->d->squeeze.filled ? change : unforeseen, to,
+                    at_end->film);
     remember_modes(halves->h, from->h, step->foreseen.modes, from->jerk, y, f, to->jerk, to->error);
     return power;
 }
