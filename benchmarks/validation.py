@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+from contextlib import suppress
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -299,8 +300,8 @@ def observed_by_tests():
 
 
 def recorded(file, chosen, marker="not slow"):
-    """Records of the chosen tests of a file, run once more: (test, name, value) of each record; CalledProcessError if a
-    test fails.
+    """Records of the chosen tests of a file, run once more: (test, name, value) of each record in numbers, not of those in words;
+    CalledProcessError if a test fails.
     """
     with tempfile.TemporaryDirectory() as folder:
         record = Path(folder) / "record.xml"
@@ -321,7 +322,8 @@ def recorded(file, chosen, marker="not slow"):
         subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
         for case in ElementTree.parse(record).iter("testcase"):
             for entry in case.iter("property"):
-                yield case.get("name").partition("[")[0], entry.get("name"), ast.literal_eval(entry.get("value"))
+                with suppress(SyntaxError, ValueError):
+                    yield case.get("name").partition("[")[0], entry.get("name"), ast.literal_eval(entry.get("value"))
 
 
 def largest_of(values):
