@@ -7,8 +7,8 @@
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
 #include "numbers/error_norm.h"
-#include "physics/ball_turn.h"
 #include "physics/housing.h"
+#include "physics/race_surface.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
 #include "solver/escape.h"
@@ -236,11 +236,6 @@ const Outputs *part_outputs(const Bearing *b)
     return &b->out;
 }
 
-double *part_state(Bearing *b)
-{
-    return b->s.integrator.now.y;
-}
-
 // The parameters under which the present state was reached; before the start those that have been set.
 static const Parameters *present_parameters(const Bearing *b)
 {
@@ -410,7 +405,9 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = s->integrator.since = t_start;
     s->integrator.h = FIRST_STEP;
-    ball_turn_start(&s->p, &s->integrator.now.turn);
+    memset(&s->integrator.now.turn, 0, sizeof s->integrator.now.turn);
+    for (int j = 0; ball_spalls_given(&s->p) && j < Z; j++)
+        s->integrator.now.turn.angle[j] = s->p.ball.spall_angle[j];
     derive(b);
     if (b->model.housing) {
         housing_at_base(&b->ring_load, &s->integrator.now.housing);

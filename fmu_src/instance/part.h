@@ -42,7 +42,6 @@ Parameters *part_parameters(Part *part);
 // derivatives are 0.
 Inputs *part_inputs(Part *part, int order);
 const Outputs *part_outputs(const Part *part);
-double *part_state(Part *part);  // y, offsets in variables.h
 double part_time(const Part *part);
 
 // Checks all parameters and inputs, derives constants and finds the start (that of the bearing is

@@ -35,9 +35,7 @@ typedef struct {
 #define own_kernels FOR_ISA(own_kernels)
 extern const Kernels own_kernels;
 
-// The kernels of the best instruction set that this processor and its operating system support.
-Kernels kernels_select(void);
-
-// The kernels that the environment variable RIVETED_BEARING_ISA names (avx512, avx2, baseline), for tests; those of
-// kernels_select without it.  refused: its value where this processor has no such kernels, else NULL.
+// The kernels that the environment variable RIVETED_BEARING_ISA names (avx512, avx2, baseline), for tests; without it those of the
+// best instruction set that this processor and its operating system support.  refused: its value where this processor has no such
+// kernels, else NULL.
 Kernels kernels_wanted(const char **refused);
