@@ -236,7 +236,7 @@ typedef struct {
         outer_angle;  // by which the rings have turned since the start [rad]; 0 of perfect races
 } RingLoad;
 
-// ---- how far balls with spalls have turned; written by the step (ball_turn.h) -------------------------------
+// ---- how far balls with spalls have turned; written by the step (verlet.c) --------------------------------
 typedef struct {
     scalar angle[Z];  // of the spall's middle from the ball's outer contact, about the rolling axis [rad]
     scalar rate[Z];   // [rad/s]
