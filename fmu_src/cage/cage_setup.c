@@ -110,7 +110,7 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {
         const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
-        if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
+        if (!bent) rate = fmax(rate, memory->halves.film[h].yy + memory->halves.film[h].zz);
     }
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(2.0 * d, 1.0 / memory->halves.pockets.rate);
@@ -151,7 +151,7 @@ bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
     const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
                  acceleration = elastic ? 1e15 : 0.0;
     const FastState *fast = &memory->elastic.fast;
-    return values_are_within(memory->halves.film[0], 6, LARGEST_FILM) &&
+    return values_are_within(&memory->halves.film[0].yy, 8, LARGEST_FILM) &&
            values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
            values_are_within(fast->u_z, LANES, motion) &&
            values_are_within(fast->touch.x[0], 2 * LANES, motion) &&

@@ -12,14 +12,13 @@
 // and the rivet's loads change by law_0(L_0', P + Delta P) - law_0(L_0, P), which is 0 without a film.  One sweep leaves
 // 10 % of the change, two leave 1.3 %.  A film whose Delta L is less than 0.5 % of the joints' loads has one sweep, from
 // 1 % on two, between them a smooth part of the second.  In the plane friction and play that the motion leaves over carry
-// Delta V, as between rigid halves (joint_slip.h).
+// Delta V, as between rigid halves (joint_slip.c).
 //
 // The second and the third wave of the load bend the rims and so the film's own gap: they act on the modes (land_bent.h), which
 // carry the bonded loads of the joints to 2 %, and leave only Delta P and dm here.  Faint films are left out.
 // Smoothness: that of the law, C1.
 #include "cage/elastic/elastic_lands.h"
 
-#include "cage/common/joint_slip.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/land_bent.h"
 #include "physics/land_film.h"
@@ -170,7 +169,8 @@ bool elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
         const wide T = wide_load(&joints->rivet[0][k]);
         wide_store(&N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
     }
-    const SlipState at = {by_modes->u_y, by_modes->u_z, joints->rivet[0], N_plate};
+    const JointMotion at = {
+        .u_y = by_modes->u_y, .u_z = by_modes->u_z, .T = joints->rivet[0], .N_plate = N_plate};
     joint_slip_add(model, w, &at, rows.row[ROW_V_R], rows.row[ROW_V_T], shear);
     return true;
 }

@@ -26,7 +26,7 @@
 #include "cage/two_half/two_half.h"
 
 #include "cage/common/cage_joint.h"
-#include "cage/common/joint_slip.h"
+#include "cage/common/films.h"
 #include "cage/common/spin_preload.h"
 #include "cage/two_half/joint_open.h"
 #include "numbers/elimination.h"
@@ -130,7 +130,7 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
 ONCE void add_slip(const Model *model, const Work *w, JointShear *shear)
 {
     const TwoHalfWork *t = &w->cage.two_half;
-    const SlipState at = {w->u_y, w->u_z, t->rivet[0], t->N_plate};
+    const JointMotion at = {.u_y = w->u_y, .u_z = w->u_z, .T = t->rivet[0], .N_plate = t->N_plate};
     joint_slip_add(model, w, &at, t->bonded_V[0], t->bonded_V[1], shear);
 }
 
@@ -204,8 +204,7 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
 // Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
 // correction's weight.
-static double solve_joints(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
-                           HalfVelocity half[2])
+static double solve_joints(const Model *model, const Work *w, double gamma, const HalfFilm f[2], double *v)
 {
     double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
     joint_matrix(model, w, gamma, C);
@@ -223,7 +222,8 @@ static double solve_joints(const Model *model, const Work *w, double gamma, cons
     }
 
     // The impulses.
-    const double dv[3] = {half[1].x - half[0].x, half[1].beta - half[0].beta, half[1].gamma - half[0].gamma};
+    const double dv[3] = {v[Y_CAGE_V_X + 1] - v[Y_CAGE_V_X], v[Y_CAGE_BETA_DOT + 1] - v[Y_CAGE_BETA_DOT],
+                          v[Y_CAGE_GAMMA_DOT + 1] - v[Y_CAGE_GAMMA_DOT]};
     for (int i = 0; i < 3; i++) {
         B[i][0] = (i == 0) + C[i][0] * G_xx;
         B[i][1] = (i == 1) + C[i][1] * G_bb + C[i][2] * G_bg;
@@ -233,30 +233,27 @@ static double solve_joints(const Model *model, const Work *w, double gamma, cons
     solve_3(B[0], x);
 
     // The impulses change the velocities of each half, which its own film holds back again.
+    double change[N_STATES];
+    memset(&change[Y_CAGE_V_X], 0, CAGE_MOTIONS * sizeof *change);
     for (int h = 0; h < 2; h++) {
         const double sign = h == 0 ? 1.0 : -1.0;
-        const double dx = sign * x[0] / f[h].m;
-        const double dbeta = sign * x[1] / f[h].J_t, dgamma = sign * x[2] / f[h].J_t;
-        HalfVelocity change = {.x = dx, .beta = dbeta, .gamma = dgamma};
-        half_film_solve(&f[h], &change);
-        half[h].x += change.x, half[h].y += change.y, half[h].z += change.z;
-        half[h].beta += change.beta, half[h].gamma += change.gamma;
+        change[Y_CAGE_V_X + h] = sign * x[0] / f[h].m;
+        change[Y_CAGE_BETA_DOT + h] = sign * x[1] / f[h].J_t;
+        change[Y_CAGE_GAMMA_DOT + h] = sign * x[2] / f[h].J_t;
+        half_film_solve(&f[h], h, change);
     }
+    for (int i = Y_CAGE_V_X; i < Y_CAGE_V_X + CAGE_MOTIONS; i++) v[i] += change[i];
     return correction;
 }
 
 double two_half_solve(const Model *model, const Work *w, double gamma, double *v)
 {
     HalfFilm f[2];
-    HalfVelocity half[2];
     for (int h = 0; h < 2; h++) {
-        half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
-        half_film_solve(&f[h], &half[h]);
+        half_film_solve(&f[h], h, v);
     }
-    const double axial = solve_joints(model, w, gamma, f, half);
-    for (int h = 0; h < 2; h++) half_velocity_store(&half[h], v, h);
-    return axial;
+    return solve_joints(model, w, gamma, f, v);
 }
 
 // Stiffness [N/m] across the axis of a packet's joints from k on: between that of plates which stick and that of heads by
