@@ -9,11 +9,9 @@
 //        ball --> wall | joint k | wall <-- ball        joint k between the pockets k and k + 1
 #pragma once
 
-#include "cage/common/films.h"
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/elastic_step.h"
 #include "cage/two_half/two_half.h"
-#include "physics/land_bent.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 

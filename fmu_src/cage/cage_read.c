@@ -2,11 +2,11 @@
 // motion of the halves by their modes.
 #include "cage/cage.h"
 #include "cage/common/cage_joint.h"
-#include "cage/common/halves.h"
 #include "cage/common/pocket.h"
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
+#include "physics/rotor.h"
 
 // Kinetic energy of both halves.
 static scalar halves_energy(const Model *model, const Work *w)

@@ -1,14 +1,12 @@
 // Constants derived from the parameters at their temperatures (temperature.h), element by element; equations stand in
 // the elements' files.
 #include "cage/cage.h"
-#include "cage/common/centrifugal.h"
 #include "cage/common/pocket_squeeze.h"
 #include "cage/common/spheres_squeeze.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/race_surface.h"
 #include "physics/ring_fit.h"
-#include "physics/traction.h"
 #include "rivet/rivet_rom.h"
 
 #include <stdlib.h>

@@ -141,6 +141,12 @@ typedef struct {
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py
 
+// Factor of the centrifugal loads of the half's rows and modes: its mass over that of the table, 0 without the load.
+static inline double cage_centrifugal(const Parameters *p)
+{
+    return p->cage.centrifugal == SWITCH_ON ? p->cage.m / rivet_table.half.m : 0.0;
+}
+
 // Effective fit [m]: fit_a itself, or with j2 the elastic fit that gives the same pressure as the yielded
 // flange.
 double rivet_rom_fit_eff(const RivetTable *t, double fit_a, bool j2);

@@ -5,7 +5,6 @@
 #include "physics/race_contact.h"
 #include "physics/rhs.h"
 #include "rivet/rivet_rom.h"
-#include "solver/implicit.h"
 #include "solver/verlet.h"
 
 struct _generic_N_Vector;  // N_Vector without the headers of SUNDIALS

@@ -31,7 +31,6 @@
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
 #include "cage/elastic/elastic_lands.h"
-#include "physics/land_bent.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
 
