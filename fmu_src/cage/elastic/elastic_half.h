@@ -24,6 +24,8 @@
 #include "cage/elastic/half_modes.h"
 #include "physics/model.h"
 
+static const double ROOT_HALF = 0.7071067811865476;  // of 1/2
+
 enum { MODES = N_MODES };
 
 // Motions of pads against each other out of the plane and in it.
