@@ -15,8 +15,8 @@
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Carried from an evaluation to the next step; of rigid halves the elastic members are 0.  Part of the saved state: no member is aligned beyond a
-// double, so that there is no padding between them.
+// Carried from an evaluation to the next step; of rigid halves the elastic members are 0.  Part of the saved state: no member of any of
+// its structs is aligned beyond a double, so that there is no padding between them.
 typedef struct {
     HalvesMemory halves;
     ElasticMemory elastic;
