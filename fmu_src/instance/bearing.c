@@ -360,14 +360,6 @@ static void change_parameters(Bearing *b, const Inputs *u)
     s->integrator.now.h = s->integrator.now.ratio = 0.0;
 }
 
-// The preloads follow the wear.
-static void loosen(Bearing *b)
-{
-    InstanceState *s = &b->s;
-    if (loosening_update(b->hot.joint.preload, b->d.P, &s->loosening))
-        rederive(b, &s->u_now, present_energy(b));
-}
-
 // Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
 static bool break_rivets(Bearing *b)
 {
@@ -575,7 +567,8 @@ PartStatus part_step(Bearing *b, double t_end)
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
     s->lost += s->integrator.sum.lost, s->exchanged += s->integrator.sum.exchanged;
     s->jumped += s->integrator.sum.jump;
-    if (status == 0) loosen(b);
+    if (status == 0 && loosening_update(b->hot.joint.preload, b->d.P, &s->loosening))
+        rederive(b, &s->u_now, present_energy(b));
     const bool holds = status != 0 || break_rivets(b);
     if (clocked) b->cpu_time += cpu_clock() - before;
     if (status == 0) {

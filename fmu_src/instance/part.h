@@ -15,8 +15,7 @@ typedef enum {
     PART_OK = 0,
     PART_WARNING,  // done, with a warning in the log
     PART_DISCARD,  // the solver cannot go on: time and outputs are those of the last good state
-    PART_ERROR,    // refused: the log names variable, value and allowed range; nothing has changed
-    PART_FATAL     // out of memory
+    PART_ERROR     // refused: the log names variable, value and allowed range; nothing has changed
 } PartStatus;
 
 // Message categories, in the order of the logger categories of the FMU.

@@ -126,9 +126,15 @@ INLINE void contact_by_contact(const Parameters *p, const SlicedContact *all, in
     for (int m = 0; m < MOMENTS; m++) out[m] = wide_set(0.0);
     for (int k = 0; k < lanes; k++) {
         const int lane = k % balls + k / balls * (LANE_WIDTH / 2);
-        SlicedContact c;
-        for (size_t n = 0; n < sizeof c / sizeof(wide); n++)  // each of its packets
-            ((wide *)&c)[n] = wide_fill(((const wide *)all)[n], lane);
+        const SlicedContact c = {.s_1 = wide_fill(all->s_1, lane),
+                                 .s_2 = wide_fill(all->s_2, lane),
+                                 .k = wide_fill(all->k, lane),
+                                 .b_1 = wide_fill(all->b_1, lane),
+                                 .b_2 = wide_fill(all->b_2, lane),
+                                 .inv_U = wide_fill(all->inv_U, lane),
+                                 .f_a = wide_fill(all->f_a, lane),
+                                 .x_0 = wide_fill(all->x_0, lane),
+                                 .Q = wide_fill(all->Q, lane)};
         Slice slice[THIRDS];
         wide g[THIRDS][MOMENTS];
         for (int i = 0; i < THIRDS; i++)

@@ -5,13 +5,6 @@
 //   residual = gamma (a^ - a_n) + removed       at the prediction; the kind of halves solves for delta
 //   v_{n+1} = v^ + delta,  a_{n+1}, errors      trapezoidal rule (trapezoid.h)
 //   u' = (way of the joint)/h                   mean rate of a friction state
-//
-// A of the films in the block Jacobian (implicit.c has the form of its terms and those of balls and ring):
-//
-//   contact                 relative velocity B v                        coefficient C
-//   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
-//   land and bent rim       and its shapes                               Newton's method (land_bent.c)
-//   land, Couette and dry   spin s                                       film.spin
 #include "cage/common/halves_step.h"
 
 #include "cage/common/films.h"

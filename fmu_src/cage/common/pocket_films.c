@@ -76,7 +76,8 @@ static int find_films(const Model *model, double gamma, const PocketFilms *films
                 const int k = j + lane;
                 if (!(mask >> lane & 1)) continue;
                 PocketFilm *film = &found[count++];
-                *film = (PocketFilm){.h = h, .k = k, .D = films->D[h][k], .F_0 = films->F[h][k]};
+                const double F = films->F[h][k];
+                *film = (PocketFilm){.h = h, .k = k, .D = films->D[h][k], .F_0 = F, .F = F};
                 film->rate = approach.rate[lane], film->acceleration = approach.acceleration[lane];
                 for (int i = 0; i < RELATIVE_MOTIONS; i++) film->along[i] = approach.along[i][lane];
                 for (int i = 0; i < 3; i++) film->direction[i] = approach.direction[i][lane];
@@ -90,11 +91,9 @@ static int find_films(const Model *model, double gamma, const PocketFilms *films
 void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,
                        const double *state, const double *y, const Work *w, PocketFilmsStep *step)
 {
-    step->count = 0;
     step->middle = 0.5 * h;
-    if (!model->d->squeeze.filled) return;
-    step->count = find_films(model, step->middle, films, f, state, y, w, step->film);
-    for (int i = 0; i < step->count; i++) step->film[i].F = step->film[i].F_0;
+    step->count =
+        model->d->squeeze.filled ? find_films(model, step->middle, films, f, state, y, w, step->film) : 0;
 }
 
 // Adds velocities of both halves' modes to those of S and D.

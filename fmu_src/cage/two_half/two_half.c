@@ -149,11 +149,6 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
 //                    S (1 + gamma A + gamma^2 K) delta = residual     S = 1 + gamma^2 K_shear, across the axis, a factor of
 //                    its own (two_half_shear); A, K of films and joints along the axis (two_half_solve)
 //                    v_{n+1} = v^ + delta; positions and friction states follow with weights; history and errors
-//
-// Terms of the joints in the block Jacobian (implicit.c), all of half 1 against half 0:
-//
-//   rivets and plates       v_x + z beta_dot - y gamma_dot               c; k of tense rivets, pressed plates
-//   sticking, hole contact  v_y - s z, v_z + s y                         stiffness k/(1 + gamma D), k_hole
 #ifndef DUAL
 // Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
 // matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
