@@ -34,7 +34,7 @@
 // ---- joints -------------------------------------------------------------------------------------------------
 
 // Rows of the loads of bonded joints by pocket forces, films of the lands and centrifugal load.
-static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathRows *rows)
+static void bonded_rows(const Model *model, const Work *w, scalar omega_2, ball_array rows[ROWS])
 {
     PathForces forces[2];
     for (int h = 0; h < 2; h++) {
@@ -42,7 +42,7 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
         forces[h] = (PathForces){on->F_x, on->F_r, on->F_t, on->push_x, on->push_t, on->radius};
     }
     const bool touched = half_path_rows(&rivet_table.half.path, forces, rows);
-    if (!touched) memset(rows, 0, sizeof *rows);
+    if (!touched) memset(rows, 0, ROWS * sizeof *rows);
     if (model->d->guided) {
         const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
         half_path_add_lands(&model->d->land_path, re, im, rows);
@@ -50,17 +50,17 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
     for (int i = 0; i < ROWS; i++) {
         const wide spin = wide_set(omega_2 * model->d->centrifugal[i]);
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-            wide_store(&rows->row[i][k], wide_load(&rows->row[i][k]) + spin);
+            wide_store(&rows[i][k], wide_load(&rows[i][k]) + spin);
     }
 }
 
 // Adds the bending of a ribbon's lands to the rows of the preload; returns its addition to the mean preload.
-static scalar bend_lands(const Derived *d, scalar omega_2, PathRows *rows)
+static scalar bend_lands(const Derived *d, scalar omega_2, ball_array rows[ROWS])
 {
     const CageHalfData *half = &rivet_table.half;
     if (half->spin_steps == 0) return 0.0;
     const scalar w = omega_2 * d->centrifugal[ROW_DP];
-    for (int k = 0; k < Z; k++) rows->row[ROW_DP][k] += spin_bending(half, d->P[k], w);
+    for (int k = 0; k < Z; k++) rows[ROW_DP][k] += spin_bending(half, d->P[k], w);
     return spin_bending(half, d->P_mean, w);
 }
 
@@ -69,21 +69,20 @@ static void open_joints(const Model *model, Work *w)
 {
     const Derived *d = model->d;
     TwoHalfWork *t = &w->cage.two_half;
-    PathRows rows;
-    ball_array bonded[3], P;
+    ball_array rows[ROWS], bonded[3], P;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
     const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1);
-    bonded_rows(model, w, omega_2, &rows);
-    const scalar bending = bend_lands(d, omega_2, &rows);
+    bonded_rows(model, w, omega_2, rows);
+    const scalar bending = bend_lands(d, omega_2, rows);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide rigid = wide_load(&t->pull[k]) - wide_load(&t->push[k]);
-        wide_store(&bonded[0][k], rigid + wide_load(&rows.row[ROW_N][k]));
-        wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]));
-        wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
+        wide_store(&bonded[0][k], rigid + wide_load(&rows[ROW_N][k]));
+        wide_store(&bonded[1][k], wide_load(&rows[ROW_M_R][k]));
+        wide_store(&bonded[2][k], wide_load(&rows[ROW_M_T][k]));
         wide_store(&P[k], wide_load(&d->intact[k]) *
-                              wide_max(wide_load(&d->P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
-        wide_store(&t->bonded_V[0][k], wide_load(&rows.row[ROW_V_R][k]));
-        wide_store(&t->bonded_V[1][k], wide_load(&rows.row[ROW_V_T][k]));
+                              wide_max(wide_load(&d->P[k]) + wide_load(&rows[ROW_DP][k]), wide_set(0.0)));
+        wide_store(&t->bonded_V[0][k], wide_load(&rows[ROW_V_R][k]));
+        wide_store(&t->bonded_V[1][k], wide_load(&rows[ROW_V_T][k]));
     }
     const scalar spin_M = omega_2 * d->centrifugal[ROW_M_T],
                  spin_P = scalar_max(d->P_mean + omega_2 * d->centrifugal[ROW_DP] + bending, 0.0);
@@ -97,7 +96,7 @@ static void open_joints(const Model *model, Work *w)
         wide_store(&t->rivet[0][k], T);
         wide_store(&t->N_plate[k], wide_select(wide_above(intact, 0.0), closed, wide_load(&t->push[k])));
         for (int i = 1; i < 3; i++) {
-            const wide more = wide_load(&rows.row[ROW_DM_R + i - 1][k]);
+            const wide more = wide_load(&rows[ROW_DM_R + i - 1][k]);
             wide_store(&t->rivet[i][k], intact * (wide_load(&t->rivet[i][k]) + more));
         }
     }
