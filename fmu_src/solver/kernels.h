@@ -12,10 +12,6 @@ struct _generic_N_Vector;  // N_Vector without the headers of SUNDIALS
 // ARKODE's vectors have memory for whole passes of a kernel over their rows.
 enum { VECTOR_PASS = 32, VECTOR_ROWS = (N_ALL_STATES + VECTOR_PASS - 1) / VECTOR_PASS * VECTOR_PASS };
 
-// SUNDIALS' linear combination of n such vectors, and its norm of an error.
-typedef int VectorCombine(int n, double *c, struct _generic_N_Vector **x, struct _generic_N_Vector *z);
-typedef double VectorNorm(struct _generic_N_Vector *x, struct _generic_N_Vector *weight);
-
 // The kernels of one instruction set.
 typedef struct {
     const char *name;
@@ -26,8 +22,9 @@ typedef struct {
     CageLoads *cage_loads;
     CageSlide *cage_slide;
     RivetRomStress *rivet_rom_stress;
-    VectorCombine *combine;
-    VectorNorm *norm;
+    // SUNDIALS' linear combination of n such vectors, and its norm of an error
+    int (*combine)(int n, double *c, struct _generic_N_Vector **x, struct _generic_N_Vector *z);
+    double (*norm)(struct _generic_N_Vector *x, struct _generic_N_Vector *weight);
     bool (*all_finite)(int n, const double *x);
 } Kernels;
 
