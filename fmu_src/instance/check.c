@@ -499,8 +499,7 @@ static bool check_running(Bearing *b)
            check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now) &&
            saved_is(b, fixed_are_kept(&s->p, &s->p_now), "parameters that cannot change in a run") &&
            saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs") &&
-           saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle") &&
-           saved_is(b, values_are_sane(s->ring_angle, 2), "the rings' angles") &&
+           saved_is(b, values_are_sane(s->angle, 3), "the frame's and the rings' angles") &&
            saved_is(b, history_is_valid(&s->history), "the motions given before") &&
            saved_is(b,
                     variable_allows(variable_named("solver.tol"), 0, s->tolerance, message, sizeof message),

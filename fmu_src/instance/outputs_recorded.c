@@ -84,8 +84,7 @@ void outputs_fill(Bearing *b, OutputGroup group)
     const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
                             &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     const IntegratorState *i = &b->s.integrator;
-    const double covered =
-        i->t - i->since;  // by the integrals over the communication step [s]; 0 before the first one
+    const double covered = i->t - i->since;  // by the integrals [s]; 0 before the first communication step
     switch (group) {
     case GROUP_CONSTANT: b->out.bearing.Z = Z; return;
     case GROUP_PEAK: fill_peak(b); return;

@@ -196,11 +196,10 @@ typedef struct {
     scalar t_0;                  // communication point [s]
     Inputs u[INPUT_ORDERS + 1];  // inputs there, and their derivatives
     scalar pulse_r, pulse_a;     // radial and axial amplitude of the half-sine in progress [N]; 0 if none is
-    scalar pulse_start, pulse_rate;   // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
-    scalar gravity[2], radius;        // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
-    scalar frame_angle;               // by which the frame has turned since the start, at t_0 [rad]
-    scalar inner_angle, outer_angle;  // by which the rings have turned since the start, at t_0 [rad]
-    scalar angles_matter;             // not 0 if a race is not perfect: else the rings' angles stay 0
+    scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
+    scalar gravity[2], radius;       // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
+    scalar angle[3];       // by which frame, inner ring, outer ring have turned from the start to t_0 [rad]
+    scalar angles_matter;  // not 0 if a race is not perfect: else the rings' angles stay 0
 } InputTrajectory;
 
 // ---- loads and motions that the inputs impose on the bearing at one time; written by ring_load_at ---------
