@@ -87,7 +87,7 @@ endif()
 target_include_directories(core INTERFACE ${core_includes})
 target_link_libraries(core INTERFACE m)
 
-file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c)
+file(GLOB test_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_library.c ${PROJECT_SOURCE_DIR}/tests/jacobian_products.c)
 file(GLOB elementary_test CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/test_elementary.c)
 
 # An object library of these files, compiled for one instruction set.

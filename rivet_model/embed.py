@@ -149,12 +149,11 @@ def _modes_source(t):
     if modes is None:
         return [], "{0}"
     entries = [
-        f"{{{omega!r}, {n}, {parity}, {count}, {_braces(at)}, {spin!r}, {_braces(rim)}}}"
-        for omega, n, parity, count, at, spin, rim in zip(
+        f"{{{omega!r}, {n}, {parity}, {_braces(at)}, {spin!r}, {_braces(rim)}}}"
+        for omega, n, parity, at, spin, rim in zip(
             modes.omega.tolist(),
             modes.harmonic.tolist(),
             modes.parity.tolist(),
-            modes.count.tolist(),
             modes.pad,
             modes.spin.tolist(),
             rim_amplitudes(modes),
@@ -214,7 +213,7 @@ def c_source(t):
     joint = ", ".join(f".{key} = {float(value)!r}" for key, value in joint.items())
     parts.append(f"""
 const RivetTable rivet_table = {{
-    .kind = {t.kind_number}, .geometry_hash = "{t.geometry_hash}", .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(shank.length)!r},
+    .kind = {t.kind_number}, .digest = "@digest@", .Z = {t.Z}, .moment_length = {float(shank.length)!r},
     .axis = {{{", ".join(axes)}}},
     .primary = primary, .secondary = secondary, .head_friction = {float(t.head_friction)!r}, .head_friction_vm = {float(t.head_friction_vm)!r},
     .yield_rivet = {float(t.yield_rivet)!r}, .fit_flange_yield = {float(t.fit_flange_yield)!r},
@@ -222,7 +221,7 @@ const RivetTable rivet_table = {{
     .joint = {{{joint},
               .hole_count = {len(t.joint["hole_fit"])}, .hole_fit = hole_fit, .k_hole = k_hole}},
     .half = {half},
-    .modes = {modes}{", .shape = 2" if t.shape == "ribbon" else ""}}};
+    .modes = {modes}}};
 // clang-format on
 """)
     text = "".join(parts)

@@ -359,14 +359,13 @@ class Instance:
 def c_opens(core, bonded, P, spin_M, spin_P, isa=None, intact=True):
     """(N, M_r, M_t), (T, m_r, m_t) [Z, 3] by the C core."""
     ffi, lib = core.ffi, core.lib
-    given = [core.new("PathRows") for _ in range(2)]  # aligned rows
+    rows, out = (core.new("ball_array", 8) for _ in range(2))  # aligned
     for i in range(3):
-        given[0].row[i][0:Z] = bonded[:, i].tolist()
-    given[0].row[3][0:Z] = P.tolist()
-    given[0].row[4][0:Z] = np.broadcast_to(intact, Z).astype(float).tolist()
-    rows, out = ffi.cast("ball_array *", given[0]), ffi.cast("ball_array *", given[1])
+        rows[i][0:Z] = bonded[:, i].tolist()
+    rows[3][0:Z] = P.tolist()
+    rows[4][0:Z] = np.broadcast_to(intact, Z).astype(float).tolist()
     core.model(isa=isa).kernel("joints_open")(
         ffi.addressof(lib.rivet_table.half, "law"), rows, rows[3], rows[4], spin_M, spin_P, out, out + 3
     )
-    found = np.array([list(given[1].row[i])[:Z] for i in range(6)])
+    found = np.array([list(out[i])[:Z] for i in range(6)])
     return found[:3].T, found[3:].T

@@ -133,7 +133,7 @@ def test_step_equals_the_dense_step(core, scene, monkeypatch, record_property):
         at, end = View(core, state), verlet_evaluate(model, 0.0, y)
         assert np.max(np.abs(at.f - end.f) * 1e-6 / scale) < 1e-6
         for h in (3e-6, 1.4e-5):  # one substep, five
-            film = np.array([[[yy, yz], [yz, zz]] for yy, yz, zz in state.cage.halves.film])
+            film = np.array([[[f.yy, f.yz], [f.yz, f.zz]] for f in state.cage.halves.film])
             end.cage.film = film
             start = VerletState(at.y.copy(), at.f.copy(), at.jerk.copy(), state.h, end.cage)
             state, error = c.verlet(0.0, h, state, 1.0 / scale)

@@ -32,7 +32,7 @@ def rows(request, core):
     ffi, lib = core.ffi, core.lib
 
     def call(side, push, force):
-        both, kept, found = core.new("PathForces", 2), [], core.new("PathRows")
+        both, kept, found = core.new("PathForces", 2), [], core.new("ball_array", 8)
         for h in range(2):
             acts = 1.0 if 2 * h - 1 == side else 0.0
             for name, values in zip(("F_x", "F_r", "F_t", "push_x", "push_t"), (*force, *push), strict=True):
@@ -40,7 +40,7 @@ def rows(request, core):
                 setattr(both[h], name, kept[-1])
         touched = core.model().kernel("half_path_rows")(ffi.addressof(lib.rivet_table.half, "path"), both, found)
         assert touched == bool(np.any(force))
-        return np.array([list(row)[:Z] for row in found.row]).T if touched else np.zeros((Z, 8))
+        return np.array([list(found[i])[:Z] for i in range(8)]).T if touched else np.zeros((Z, 8))
 
     return call
 
@@ -181,7 +181,7 @@ def ribbon_half():
 
 def c_ribbon_rows(core, half, side, push, force, radius):
     """Rows [Z, 8] of that half by the C core."""
-    ffi, both, found = core.ffi, core.new("PathForces", 2), core.new("PathRows")
+    ffi, both, found = core.ffi, core.new("PathForces", 2), core.new("ball_array", 8)
     numbers = np.ascontiguousarray(embed.path_rows(half), dtype=np.float32)
     kept = [ffi.from_buffer("float[]", numbers), doubles(ffi, half.chi), doubles(ffi, half.radii)]
     members = {"nodes": len(half.chi), "chi": kept[1], "rows": kept[0], "radii": len(half.radii), "radius": kept[2]}
@@ -194,7 +194,7 @@ def c_ribbon_rows(core, half, side, push, force, radius):
             kept.append(doubles(ffi, acts * values))
             setattr(both[h], name, kept[-1])
     assert core.model().kernel("half_path_rows")(path, both, found)
-    return np.array([list(row)[:Z] for row in found.row]).T
+    return np.array([list(found[i])[:Z] for i in range(8)]).T
 
 
 @pytest.mark.parametrize("side", [-1, 1])

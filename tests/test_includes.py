@@ -14,8 +14,8 @@ GROUPS = {  # from the bottom up
     "numbers": "aligned build_info cpu_clock dual elementary elimination error_norm fatigue float_environment kernel_names lanes limits octet part "
     "reserved_memory saved_numbers scalar statistics trapezoid variable_table variables vec viscosity",
     "data of the cage": "cage_work half_modes half_path joint_law land_path",
-    "laws and tables": "ball_spall ball_turn elastic_half elastic_wall frame hertz land_bent model outer_ring ring_fit rivet_joint rivet_rom "
-    "race_normal race_spin race_surface race_traction rivet_splines rotor temperature traction centrifugal spin_preload",
+    "laws and tables": "ball_spall elastic_half elastic_wall frame hertz land_bent model outer_ring ring_fit rivet_joint rivet_rom "
+    "race_normal race_spin race_surface race_traction rivet_splines rotor temperature traction spin_preload",
     "elements": "ball drag land_film race_contact ring ring_load",
     "both cages": "cage_joint films halves halves_step joint_slip pocket pocket_films pocket_forces pocket_spheres pocket_spheres_setup "
     "pocket_squeeze rigid_approach spheres_squeeze",
@@ -35,7 +35,7 @@ FILES = sorted(SOURCES.rglob("*.[ch]"))
 # the sources that are compiled again with dual numbers.
 INNER = {
     "rivet_rom.h": {"half_modes.h", "half_path.h", "joint_law.h"},
-    "derived.c": {"centrifugal.h", "pocket_squeeze.h", "spheres_squeeze.h"},
+    "derived.c": {"pocket_squeeze.h", "spheres_squeeze.h"},
 }
 ONE_KIND = {"two_half": "elastic/", "elastic": "two_half/"}
 

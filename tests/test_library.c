@@ -2,8 +2,7 @@
 // as the kernels want it.
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
-#include "instance/jacobian.h"
-#include "instance/part.h"
+#include "instance/instance.h"
 #include "numbers/elementary.h"
 #include "numbers/lanes.h"
 #include "physics/hertz.h"
@@ -16,7 +15,12 @@
 
 void *test_allocate(size_t size);
 void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *ring_load);
+void jacobian_product(const Model *model, double t, const double *y, const double *dy,
+                      const double *d_ring_load, double *dy_dot, double *dw);  // jacobian_products.c
+void jacobian_housing(const double *w, const double *dw, double dF[3], double dM[3]);
 void jacobian_matrix(const Model *model, double t, const double *y, double *J);
+double *part_state(Part *part);
+Kernels kernels_select(void);
 ElasticHalf *test_elastic_half(const Parameters *p, const Derived *d);
 void test_spin_bending(int n, int steps, const double *S, double P, const double *w, double *more);
 void test_ring_tilts(double beta, double gamma, double *tilt_y, double *tilt_z);
@@ -59,6 +63,18 @@ void ring_load_update(const Parameters *p, const Inputs *u, double t, RingLoad *
     InputTrajectory trajectory;
     input_trajectory_update(p, held, t, t, &trajectory);
     ring_load_at(&trajectory, t, ring_load);
+}
+
+double *part_state(Part *part)
+{
+    return part->s.integrator.now.y;
+}
+
+// The kernels of the best instruction set that this processor and its operating system support.
+Kernels kernels_select(void)
+{
+    const char *refused;
+    return kernels_wanted(&refused);
 }
 
 // All derivatives by the states, column by column: J[j * cage_states(model) + i] = d(y_dot[i])/d(y[j]).

@@ -50,7 +50,7 @@ def started(core, c, y):
 
 def copied(state):
     """The same as the twin's."""
-    film = [[[yy, yz], [yz, zz]] for yy, yz, zz in state.cage.halves.film]
+    film = [[[f.yy, f.yz], [f.yz, f.zz]] for f in state.cage.halves.film]
     return VerletState(
         *(np.array(list(rows))[:N_STATES] for rows in (state.y, state.f, state.jerk)),
         state.h,

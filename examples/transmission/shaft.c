@@ -219,11 +219,6 @@ const Outputs *part_outputs(const Part *part)
     return &part->out;
 }
 
-double *part_state(Part *part)
-{
-    return part->s.y;
-}
-
 double part_time(const Part *part)
 {
     return part->s.t;

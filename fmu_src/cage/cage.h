@@ -9,16 +9,14 @@
 //        ball --> wall | joint k | wall <-- ball        joint k between the pockets k and k + 1
 #pragma once
 
-#include "cage/common/films.h"
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/elastic_step.h"
 #include "cage/two_half/two_half.h"
-#include "physics/land_bent.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
 
-// Carried from an evaluation to the next step; of rigid halves the elastic members are 0.  Part of the saved state: no member is aligned beyond a
-// double, so that there is no padding between them.
+// Carried from an evaluation to the next step; of rigid halves the elastic members are 0.  Part of the saved state: no member of any of
+// its structs is aligned beyond a double, so that there is no padding between them.
 typedef struct {
     HalvesMemory halves;
     ElasticMemory elastic;

@@ -2,11 +2,11 @@
 // motion of the halves by their modes.
 #include "cage/cage.h"
 #include "cage/common/cage_joint.h"
-#include "cage/common/halves.h"
 #include "cage/common/pocket.h"
 #include "cage/common/pocket_spheres.h"
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
+#include "physics/rotor.h"
 
 // Kinetic energy of both halves.
 static scalar halves_energy(const Model *model, const Work *w)
@@ -107,20 +107,6 @@ static scalar elastic_energy(const Model *model, const scalar *y, const Work *w)
     return w->cage.elastic.energy + 2.0 * V + joints_energy(model, y, &k_in, joints->u_y, joints->u_z);
 }
 
-static void elastic_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z])
-{
-    // Half 0 is the mirror image of half 1.
-    const ElasticHalf *half = model->modes;
-    const double inv_root = sqrt(0.5), side = h == 1 ? inv_root : -inv_root;
-    const scalar *q = w->cage.elastic.q[h];
-    for (int i = 0; i < half->n; i++)
-        for (int k = 0; k < Z; k++) {
-            x[k] += side * elastic_half_pad(half, true, i, 0, k) * q[i];
-            r[k] += inv_root * elastic_half_pad(half, false, i, 0, k) * q[i];
-            t[k] += inv_root * elastic_half_pad(half, false, i, 1, k) * q[i];
-        }
-}
-
 void cage_slip(const Model *model, const Work *w, scalar slip[Z])
 {
     const scalar *u_y = model->modes ? w->cage.elastic.joints.u_y : w->u_y;
@@ -138,5 +124,16 @@ scalar cage_energy(const Model *model, const scalar *y, const Work *w)
 void cage_flex(const Model *model, const Work *w, int h, scalar x[Z], scalar r[Z], scalar t[Z])
 {
     for (int k = 0; k < Z; k++) x[k] = r[k] = t[k] = 0.0;
-    if (model->modes) elastic_flex(model, w, h, x, r, t);
+    if (!model->modes) return;
+
+    // Half 0 is the mirror image of half 1.
+    const ElasticHalf *half = model->modes;
+    const double inv_root = sqrt(0.5), side = h == 1 ? inv_root : -inv_root;
+    const scalar *q = w->cage.elastic.q[h];
+    for (int i = 0; i < half->n; i++)
+        for (int k = 0; k < Z; k++) {
+            x[k] += side * elastic_half_pad(half, true, i, 0, k) * q[i];
+            r[k] += inv_root * elastic_half_pad(half, false, i, 0, k) * q[i];
+            t[k] += inv_root * elastic_half_pad(half, false, i, 1, k) * q[i];
+        }
 }

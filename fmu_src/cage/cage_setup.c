@@ -110,7 +110,7 @@ double cage_longest_step(const Model *model, const CageMemory *memory)
     double rate = 0.0;
     for (int h = 0; h < 2; h++) {
         const bool bent = memory->elastic.films.rates[h][0][0] + memory->elastic.films.rates[h][1][1] > 0.0;
-        if (!bent) rate = fmax(rate, memory->halves.film[h][0] + memory->halves.film[h][2]);
+        if (!bent) rate = fmax(rate, memory->halves.film[h].yy + memory->halves.film[h].zz);
     }
     const double lands = fmax(2.0 * d, model->p->cage.m / rate);
     const double pockets = fmax(2.0 * d, 1.0 / memory->halves.pockets.rate);
@@ -143,39 +143,36 @@ void cage_keep_films(const CageMemory *memory, Work *w)
         }
 }
 
+// Motions and loads of the joints are up to those of anything that holds; of rigid halves there are films alone.  Members that follow each
+// other with one bound are one row.
 bool cage_memory_is_valid(const CageMemory *memory, const Parameters *p)
 {
-    // Films; motions and loads of the joints up to those of anything that holds, fast accelerations.
-    const double LARGEST_FILM = 1e30;  // [N.s/m]
-    const bool elastic = cage_vibrates(p);
-    const double motion = elastic ? 1.0 : 0.0, load = elastic ? 1e9 : 0.0,
-                 acceleration = elastic ? 1e15 : 0.0;
+    const double elastic = cage_vibrates(p) ? 1.0 : 0.0;
     const FastState *fast = &memory->elastic.fast;
-    return values_are_within(memory->halves.film[0], 6, LARGEST_FILM) &&
-           values_are_within(fast->e[0], 3 * LANES, motion) && values_are_within(fast->u_y, LANES, motion) &&
-           values_are_within(fast->u_z, LANES, motion) &&
-           values_are_within(fast->touch.x[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch.t[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch.K[0], 2 * LANES, elastic ? 1e15 : 0.0) &&
-           values_are_within(fast->touch.delta[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch.Q[0], 2 * LANES, load) &&
-           values_are_within(fast->touch.r[0], 2 * LANES, motion) &&
-           values_are_within(fast->touch.chi[0], 2 * LANES, 2.0 * motion) &&
-           values_are_within(fast->touch.radius[0], 2 * LANES, 10.0 * motion) &&
-           values_are_within(fast->touch.front[0], 2 * LANES, motion) &&
+    const WallTouch *touch = &fast->touch;
+    const RimFilms *rims = &memory->elastic.films;
+    const PocketFilms *pockets = &memory->halves.pockets;
+    return values_are_within(&memory->halves.film[0].yy, 8, 1e30) &&  // [N.s/m]
+           values_are_within(fast->e[0], 5 * LANES, elastic) &&       // e, u_y, u_z
+           values_are_within(touch->x[0], 4 * LANES, elastic) &&      // x, t
+           values_are_within(touch->K[0], 2 * LANES, 1e15 * elastic) &&
+           values_are_within(touch->delta[0], 2 * LANES, elastic) &&
+           values_are_within(touch->Q[0], 2 * LANES, 1e9 * elastic) &&
+           values_are_within(touch->r[0], 2 * LANES, elastic) &&
+           values_are_within(touch->chi[0], 2 * LANES, 2.0 * elastic) &&
+           values_are_within(touch->radius[0], 2 * LANES, 10.0 * elastic) &&
+           values_are_within(touch->front[0], 2 * LANES, elastic) &&
            values_are_within(&fast->omega_2, 1, 1e18) &&
-           values_are_within(fast->modes, 2 * N_MODES, acceleration) &&
-           values_are_within(fast->rigid, RELATIVE_MOTIONS, acceleration) &&
-           values_are_within(memory->elastic.films.force[0], 2 * RIM, load) &&
-           values_are_within(memory->elastic.films.rates[0][0], 2 * SQUEEZE * SQUEEZE,
-                             elastic ? 1e30 : 0.0) &&
-           values_are_within(&memory->elastic.films.stiffness, 1, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->elastic.squeeze[0], 2 * SQUEEZE, elastic ? 1e6 : 0.0) &&
-           values_are_within(memory->elastic.force[0], 2 * SQUEEZE, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->halves.pockets.D[0], 2 * LANES, 1e15) &&
-           values_are_within(&memory->halves.pockets.rate, 1, elastic ? 1e30 : 0.0) &&
-           values_are_within(memory->halves.pockets.u[0], 2 * LANES, 1e6) &&
-           values_are_within(memory->halves.pockets.F[0], 2 * LANES, 1e9) &&
-           values_are_within(memory->halves.pockets.m_x[0], 6 * LANES, 2.0) &&
-           values_are_within(memory->halves.pockets.shape[0][0], 2 * Z * N_MODES, elastic ? 1e3 : 0.0);
+           values_are_within(fast->modes, 2 * N_MODES + RELATIVE_MOTIONS, 1e15 * elastic) &&  // modes, rigid
+           values_are_within(rims->force[0], 2 * RIM, 1e9 * elastic) &&
+           values_are_within(rims->rates[0][0], 2 * SQUEEZE * SQUEEZE + 1,
+                             1e30 * elastic) &&  // and stiffness
+           values_are_within(memory->elastic.squeeze[0], 2 * SQUEEZE, 1e6 * elastic) &&
+           values_are_within(memory->elastic.force[0], 2 * SQUEEZE, 1e30 * elastic) &&
+           values_are_within(pockets->D[0], 2 * LANES, 1e15) &&
+           values_are_within(pockets->u[0], 2 * LANES, 1e6) &&
+           values_are_within(pockets->F[0], 2 * LANES, 1e9) &&
+           values_are_within(pockets->m_x[0], 6 * LANES, 2.0) &&
+           values_are_within(pockets->shape[0][0], 2 * Z * N_MODES, 1e3 * elastic) &&
+           values_are_within(&pockets->rate, 1, 1e30 * elastic);
 }

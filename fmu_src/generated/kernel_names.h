@@ -67,7 +67,6 @@
 #define implicit_stiff_part FOR_ISA(implicit_stiff_part)
 #define joint_slip_add FOR_ISA(joint_slip_add)
 #define joints_open FOR_ISA(joints_open)
-#define joints_slip FOR_ISA(joints_slip)
 #define land_film_force FOR_ISA(land_film_force)
 #define land_film_loads FOR_ISA(land_film_loads)
 #define land_growth_power FOR_ISA(land_growth_power)

@@ -87,7 +87,7 @@ enum {  // Method
 };
 
 typedef struct {
-    struct {
+    struct Parameters_bearing {
         double D;  // [m] Ball diameter
         double d_m;  // [m] Pitch diameter: mean of the groove-bottom diameters
         double f_i;  // [1] Inner groove radius / ball diameter
@@ -102,7 +102,7 @@ typedef struct {
         double p_limit;  // [Pa] Contact pressure of the races beyond which a warning is given
         double expansion;  // [1/K] Thermal expansion of the rings, and of the balls unless ball.expansion is set; dimensions are those at assembly
     } bearing;
-    struct {
+    struct Parameters_ball {
         double E;  // [Pa] Young's modulus of the balls
         double nu;  // [1] Poisson's ratio of the balls
         double expansion;  // [1/K] Thermal expansion of the balls
@@ -113,7 +113,7 @@ typedef struct {
         double spall_depth[Z];  // [m] Depth of the spall
         double spall_edge[Z];  // [m] Length over which the path into the spall is rounded where the race meets the bottom or the other edge
     } ball;
-    struct {
+    struct Parameters_outer {
         double spall_angle;  // [rad] Angle of the spall's middle on the outer ring at the start, from +Y toward +Z; it turns with the ring
         double spall_length;  // [m] Length of the spall along the track
         double spall_width;  // [m] Width of the spall across the track, in the middle of the contacts
@@ -122,7 +122,7 @@ typedef struct {
         double waviness[60];  // [m] Amplitude of n waves around the outer race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])
         double waviness_phase[60];  // [rad] Phase of n waves around the outer race; phi from +Y toward +Z at the start, turning with the ring
     } outer;
-    struct {
+    struct Parameters_inner {
         double spall_angle;  // [rad] Angle of the spall's middle on the inner ring at the start, from +Y toward +Z; it turns with the ring
         double spall_length;  // [m] Length of the spall along the track
         double spall_width;  // [m] Width of the spall across the track, in the middle of the contacts
@@ -131,7 +131,7 @@ typedef struct {
         double waviness[60];  // [m] Amplitude of n waves around the inner race, a height into the bearing's clearance: waviness[n] cos(n phi + waviness_phase[n])
         double waviness_phase[60];  // [rad] Phase of n waves around the inner race; phi from +Y toward +Z at the start, turning with the ring
     } inner;
-    struct {
+    struct Parameters_cage {
         double pocket_clearance;  // [m] Pocket diameter - ball diameter
         double guide_clearance;  // [m] Outer ring land diameter - cage outer diameter
         double pocket_filling;  // [1] Oil in the pockets, layer of oil / mean gap: 0 dry, 1 flooded; oil.flow does not enter
@@ -166,11 +166,11 @@ typedef struct {
         double modal_damping;  // [1] Damping ratio of each vibration mode of the halves, scene.cage = elastic
         double modal_damping_high;  // [1] Damping ratio of the highest mode; from that of the lowest, cage.modal_damping, linear over ln of the frequency
     } cage;
-    struct {
+    struct Parameters_pocket {
         double dtheta[Z];  // [rad] Angle of the pocket beyond its place 2 pi (j - 1)/Z, in the sense of rotation
         double dD[Z];  // [m] Excess of the pocket's diameter
     } pocket;
-    struct {
+    struct Parameters_joint {
         double preload;  // [N] Preload of each rivet at 293.15 K
         double fit;  // [m] Rivet diameter - hole diameter, negative = clearance
         double swell;  // [m] Growth of the rivet's diameter by riveting, added to the fit
@@ -179,14 +179,14 @@ typedef struct {
         double F_floor;  // [N] Friction capacity that remains in an open joint
         double wear;  // [1/Pa] Wear coefficient of plates and heads, volume / (normal force x slip): preload that the rivets lose
     } joint;
-    struct {
+    struct Parameters_rivet {
         double preload_factor[Z];  // [1] Preload of this rivet / joint.preload
         double dfit[Z];  // [m] Fit of this rivet less joint.fit
         int intact[Z];  // 0: the rivet is broken and carries nothing; the plates still meet under pressure
         double strength_factor[Z];  // [1] Strength of this rivet: factor on fatigue.sigma_D, sigma_m and sigma_f
         int fit_model;  // FitModel: Interference: elastic, or with yield of the flange
     } rivet;
-    struct {
+    struct Parameters_oil {
         double eta;  // [Pa.s] Dynamic viscosity of the oil at oil.T_0; left at its start value it follows from oil.nu_1, oil.nu_2; one set in a run is in force
         double alpha;  // [1/Pa] Pressure-viscosity coefficient at the temperature oil.T_0
         double A;  // [1] Traction law mu(s) = (A + B s) exp(-C s) - A
@@ -216,7 +216,7 @@ typedef struct {
         double K_rs;  // [1] Starvation of the race inlets
         double K_Z;  // [1] Starvation of the race inlets: factor of the bearing type
     } oil;
-    struct {
+    struct Parameters_ring {
         double m;  // [kg] Mass of the inner ring with its share of the shaft
         double J_p;  // [kg.m2] Polar moment of inertia of the inner ring
         double J_t;  // [kg.m2] Transverse moment of inertia of the inner ring
@@ -232,7 +232,7 @@ typedef struct {
         double effective_i;  // [m] Outside diameter of the cylinder that the inner ring is for growth and fit
         double effective_e;  // [m] Inside diameter of the cylinder that the outer ring is for its fit
     } ring;
-    struct {
+    struct Parameters_shaft {
         double interference;  // [m] Shaft diameter - bore of the inner ring before mounting, at assembly temperature; negative = clearance
         double bore;  // [m] Bore of the shaft
         double E;  // [Pa] Young's modulus of the shaft
@@ -240,7 +240,7 @@ typedef struct {
         double rho;  // [kg/m3] Density of the shaft
         double expansion;  // [1/K] Thermal expansion of the shaft, whose seat has the inner ring's temperature
     } shaft;
-    struct {
+    struct Parameters_housing {
         double interference;  // [m] Outside diameter of the outer ring - bore of the housing before mounting, at assembly temperature; negative = clearance
         double outside;  // [m] Outside diameter of the housing
         double E;  // [Pa] Young's modulus of the housing
@@ -260,14 +260,14 @@ typedef struct {
         double c_tilt_y;  // [N.m.s/rad] Damping of the housing's support about Y
         double c_tilt_z;  // [N.m.s/rad] Damping of the housing's support about Z
     } housing;
-    struct {
+    struct Parameters_gravity {
         double y;  // [m/s2] Gravity along Y of the fixed frame, to which the bearing's frame is parallel at the start
         double z;  // [m/s2] Gravity along Z of the fixed frame
     } gravity;
-    struct {
+    struct Parameters_frame {
         double radius;  // [m] Distance of the bearing from the axis of frame.omega, which lies on -Y
     } frame;
-    struct {
+    struct Parameters_pulse {
         double F_r;  // [N] Amplitude of the built-in half-sine impacts along the radial load
         double F_a;  // [N] Amplitude of the built-in half-sine impacts along +X
         double t_start;  // [s] Start of the first impact
@@ -275,7 +275,7 @@ typedef struct {
         double interval;  // [s] Time from one impact's start to the next one's (not shorter than the duration)
         int count;  // Number of impacts
     } pulse;
-    struct {
+    struct Parameters_fatigue {
         double sigma_D;  // [Pa] Stress amplitude at the knee of the S-N curve (R = -1)
         double N_D;  // [1] Cycles at the knee
         double k_1;  // [1] Slope above the knee: N = N_D (sigma_a/sigma_D)^-k_1
@@ -286,7 +286,7 @@ typedef struct {
         double fretting;  // [1] Fretting strength reduction: divides the strength of the middle of a shank on which its hole presses
         int mean_stress;  // MeanStress: Mean-stress correction
     } fatigue;
-    struct {
+    struct Parameters_scene {
         int cage;  // CageModel: Cage of two halves, rigid or elastic ones
         int traction;  // Traction: Traction at a point or over slices of the contact ellipse
         int lubrication;  // Lubrication: Full film or mixed lubrication
@@ -298,14 +298,14 @@ typedef struct {
         int growth;  // Switch: Growth of the inner ring by its rotation, which takes clearance
         int breakage;  // Switch: Whether a rivet breaks at the end of the communication step in which its damage reaches 1
     } scene;
-    struct {
+    struct Parameters_solver {
         double tol;  // [1] Tolerance: local error / scale of each state class; a tolerance of fmi2SetupExperiment takes its place
         int method;  // Method: Integration method
         double step;  // [s] Longest internal step of solver.method = fixed, at least 1 ns (0: derived at the start; solver.step_size shows it)
         int clock;  // Switch: Measure solver.cpu_time
         int max_steps;  // Largest number of internal steps in one communication step; 0: 6000 for each 0.1 ms begun, 20000 with solver.method = fixed
     } solver;
-    struct {
+    struct Parameters_start {
         int seed;  // Seed of the balls' initial spacing (splitmix64)
         double spacing;  // [1] Initial spacing error: uniform within +- this part of the pocket clearance
         double settle;  // [s] Time before which stat.* and damage do not count
@@ -317,7 +317,7 @@ typedef struct {
 } Parameters;
 
 typedef struct {
-    struct {
+    struct Inputs_shaft {
         scalar F_x;  // [N] Axial load on the inner ring
         scalar F_y;  // [N] Radial load on the inner ring along Y
         scalar F_z;  // [N] Radial load on the inner ring along Z
@@ -335,11 +335,11 @@ typedef struct {
         scalar tilt_y_dot;  // [rad/s] Rate of shaft.tilt_y (prescribed motion)
         scalar tilt_z_dot;  // [rad/s] Rate of shaft.tilt_z (prescribed motion)
     } shaft;
-    struct {
+    struct Inputs_impact {
         scalar F_r;  // [N] Impact load added along the present radial load (+Y if there is none)
         scalar F_a;  // [N] Impact load added along +X
     } impact;
-    struct {
+    struct Inputs_housing {
         scalar x;  // [m] Position of the outer ring along X
         scalar y;  // [m] Position of the outer ring along Y
         scalar z;  // [m] Position of the outer ring along Z
@@ -352,30 +352,30 @@ typedef struct {
         scalar tilt_z_dot;  // [rad/s] Rate of housing.tilt_z
         scalar omega;  // [rad/s] Speed of the outer ring about X
     } housing;
-    struct {
+    struct Inputs_frame {
         scalar a_x;  // [m/s2] Acceleration of the frame's axis of rotation along X of the frame
         scalar a_y;  // [m/s2] Acceleration of the frame's axis of rotation along Y of the frame
         scalar a_z;  // [m/s2] Acceleration of the frame's axis of rotation along Z of the frame
         scalar omega;  // [rad/s] Speed of the frame about an axis parallel to X, frame.radius away on -Y
         scalar omega_dot;  // [rad/s2] Rate of frame.omega
     } frame;
-    struct {
+    struct Inputs_oil {
         scalar T;  // [K] Temperature of the oil
     } oil;
-    struct {
+    struct Inputs_ring {
         scalar T_i;  // [K] Temperature of the inner ring
         scalar T_e;  // [K] Temperature of the outer ring
     } ring;
-    struct {
+    struct Inputs_ball {
         scalar T;  // [K] Temperature of the balls
     } ball;
-    struct {
+    struct Inputs_cage {
         scalar T;  // [K] Temperature of cage and rivets
     } cage;
 } Inputs;
 
 typedef struct {
-    struct {
+    struct Outputs_bearing {
         scalar Z;  // [1] Number of balls (build-time constant)
         scalar energy;  // [J] Kinetic energy of balls and cage in the frame, and elastic energy of all contacts
         scalar friction_torque;  // [N.m] Torque that the shaft must supply about X; mean over the communication step
@@ -386,7 +386,7 @@ typedef struct {
         scalar penetration;  // [m] Largest elastic approach of all contacts
         scalar clearance;  // [m] Diametral clearance at the present speed, temperatures and fits
     } bearing;
-    struct {
+    struct Outputs_ring {
         scalar x;  // [m] Displacement of the inner ring along X
         scalar y;  // [m] Displacement of the inner ring along Y
         scalar z;  // [m] Displacement of the inner ring along Z
@@ -405,7 +405,7 @@ typedef struct {
         scalar beta_ddot;  // [1/s2] Second derivative of ring.beta
         scalar gamma_ddot;  // [1/s2] Second derivative of ring.gamma
     } ring;
-    struct {
+    struct Outputs_housing {
         scalar F_x;  // [N] Force on the housing along X (by balls and cage through the outer ring)
         scalar F_y;  // [N] Force on the housing along Y
         scalar F_z;  // [N] Force on the housing along Z
@@ -422,7 +422,7 @@ typedef struct {
         scalar a_z;  // [m/s2] Acceleration of the outer ring along Z: what an accelerometer on the housing measures; at the last step
         scalar power;  // [W] Power of the housing into balls and cage
     } housing;
-    struct {
+    struct Outputs_shaft {
         scalar R_x;  // [N] Force of the bearing's contacts and films on the shaft along X
         scalar R_y;  // [N] Force of the bearing's contacts and films on the shaft along Y
         scalar R_z;  // [N] Force of the bearing's contacts and films on the shaft along Z
@@ -430,10 +430,10 @@ typedef struct {
         scalar R_Mz;  // [N.m] Moment of the bearing's contacts and films on the shaft about Z, at the inner ring's centre
         scalar power;  // [W] Power of the shaft into balls and cage: by torque, translation and tilting of the inner ring; mean over the communication step
     } shaft;
-    struct {
+    struct Outputs_frame {
         scalar power;  // [W] Power of gravity and of the frame's inertia forces into balls and cage
     } frame;
-    struct {
+    struct Outputs_ball {
         scalar Q_i[Z];  // [N] Contact load on the inner race
         scalar Q_e[Z];  // [N] Contact load on the outer race
         scalar alpha_i[Z];  // [rad] Contact angle at the inner race (0 without contact)
@@ -450,7 +450,7 @@ typedef struct {
         scalar r[Z];  // [m] Distance of the ball's centre from the axis
         scalar psi[Z];  // [rad] Azimuth of the ball from Y toward Z, unbounded
     } ball;
-    struct {
+    struct Outputs_half_0 {
         scalar x;  // [m] Displacement of the cage half on the -X side along X
         scalar y;  // [m] Displacement of the cage half on the -X side along Y
         scalar z;  // [m] Displacement of the cage half on the -X side along Z
@@ -458,7 +458,7 @@ typedef struct {
         scalar tilt_z;  // [rad] Tilt of the cage half on the -X side about Z
         scalar psi;  // [rad] Rotation of the cage half on the -X side about its axis, unbounded: 0 has a pocket on Y
     } half_0;
-    struct {
+    struct Outputs_half_1 {
         scalar x;  // [m] Displacement of the cage half on the +X side along X
         scalar y;  // [m] Displacement of the cage half on the +X side along Y
         scalar z;  // [m] Displacement of the cage half on the +X side along Z
@@ -466,7 +466,7 @@ typedef struct {
         scalar tilt_z;  // [rad] Tilt of the cage half on the +X side about Z
         scalar psi;  // [rad] Rotation of the cage half on the +X side about its axis, unbounded: 0 has a pocket on Y
     } half_1;
-    struct {
+    struct Outputs_cage {
         scalar dislocation;  // [m] Largest slip of one cage half against the other over the joints, in the plane; at an instant of a chaotic motion: compare stat.*
         scalar omega;  // [rad/s] Speed of the cage (mean of the halves)
         scalar slip_ratio;  // [1] 1 - cage speed / epicyclic speed (0 at standstill)
@@ -476,7 +476,7 @@ typedef struct {
         scalar F_pocket_max;  // [N] Largest pocket contact load of all balls; at an instant of a chaotic motion: compare stat.*
         scalar F_pocket_peak;  // [N] Largest pocket contact load since the last communication point
     } cage;
-    struct {
+    struct Outputs_rivet {
         scalar sigma_head[Z];  // [Pa] Largest principal stress in the head fillet; at an instant of a chaotic motion: compare stat.*
         scalar sigma_mid[Z];  // [Pa] von Mises stress of the shank at the split (|z| <= 0.1 mm); at an instant of a chaotic motion: compare stat.*
         scalar sigma_head_vm[Z];  // [Pa] von Mises stress in the head fillet
@@ -513,7 +513,7 @@ typedef struct {
         scalar flex_1_r[Z];  // [m] Motion of the cage half on the +X side at the rivet away from the axis by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
         scalar flex_1_t[Z];  // [m] Motion of the cage half on the +X side at the rivet in the sense of psi by its vibration modes, against its rigid motion (0 unless scene.cage = elastic)
     } rivet;
-    struct {
+    struct Outputs_loss {
         scalar races;  // [W] Power dissipated in the race contacts
         scalar inlet;  // [W] Part of loss.races: rolling friction of the inlets
         scalar spin;  // [W] Part of loss.races: spin of the balls about the contact normals (sliced traction)
@@ -525,7 +525,7 @@ typedef struct {
         scalar joints;  // [W] Power dissipated in the joints of the cage
         scalar modes;  // [W] Power dissipated by the vibration of elastic cage halves
     } loss;
-    struct {
+    struct Outputs_stat {
         scalar time;  // [s] Time that the statistics cover
         scalar Q_c_mean;  // [N] Pocket force of all balls pooled: mean, zeros included
         scalar Q_c_rms;  // [N] Pocket force of all balls pooled: RMS
@@ -552,7 +552,7 @@ typedef struct {
         scalar rivet_mid_p999[Z];  // [Pa] Middle stress of each rivet: 99.9 % quantile
         scalar rivet_mid_max[Z];  // [Pa] Middle stress of each rivet: largest
     } stat;
-    struct {
+    struct Outputs_solver {
         scalar steps;  // [1] Accepted internal steps
         scalar rhs_evals;  // [1] Evaluations of the right-hand side
         scalar step_size;  // [s] Internal step size that the next step starts with
@@ -561,7 +561,7 @@ typedef struct {
         scalar method_used;  // [1] Integration method in use: 1 velocity Verlet, 2 Runge-Kutta, 3 velocity Verlet with fixed steps
         scalar cpu_time;  // [s] Processor time of this instance inside fmi2DoStep, from its creation on, with solver.clock = on, else 0 (not part of the saved state)
     } solver;
-    struct {
+    struct Outputs_event {
         scalar land_contact;  // [1] Cage halves whose land touches the outer ring
         scalar pocket_exit;  // [1] Balls whose centre has left the section of the cage: a real pocket ends there
         scalar ellipse_cut;  // [1] Race contacts whose ellipse reaches over the shoulder

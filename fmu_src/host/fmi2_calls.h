@@ -13,8 +13,7 @@ typedef enum {
     STEPPING = 4,
     FAILED = 8,
     TERMINATED = 16,
-    ERRONEOUS = 32,
-    FATAL = 64
+    ERRONEOUS = 32
 } Phase;
 
 enum {

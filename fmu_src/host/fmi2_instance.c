@@ -83,14 +83,14 @@ bool instance_enter(fmi2Component c, Call call, FloatEnvironment *host_floats)
     m->host_floats = host_floats;
     m->call = call;
     if (m->session.phase & CALLS[call].phases) return true;
-    if (m->session.phase != FATAL) refuse(m, "not allowed in state \"%s\"", phase_name(m->session.phase));
+    refuse(m, "not allowed in state \"%s\"", phase_name(m->session.phase));
     return false;
 }
 
 void instance_refuse_unsupported(fmi2Component c, const char *function, FloatEnvironment *host_floats)
 {
     Instance *m = c;
-    if (!m || m->session.phase == FATAL) return;
+    if (!m) return;
     m->host_floats = host_floats;
     char message[128];
     snprintf(message, sizeof message, "%s is not offered by this FMU (see its capability flags)", function);
@@ -104,11 +104,10 @@ fmi2Status conclude(Instance *m, PartStatus status)
     case PART_OK: return fmi2OK;
     case PART_WARNING: return fmi2Warning;
     case PART_DISCARD: m->session.phase = FAILED; return fmi2Discard;
-    case PART_ERROR: m->session.phase = ERRONEOUS; return fmi2Error;
-    case PART_FATAL: break;
+    case PART_ERROR: break;
     }
-    m->session.phase = FATAL;
-    return fmi2Fatal;
+    m->session.phase = ERRONEOUS;
+    return fmi2Error;
 }
 
 // A new part with the present parameters and inputs.

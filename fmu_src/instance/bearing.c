@@ -7,8 +7,8 @@
 #include "numbers/aligned.h"
 #include "numbers/cpu_clock.h"
 #include "numbers/error_norm.h"
-#include "physics/ball_turn.h"
 #include "physics/housing.h"
+#include "physics/race_surface.h"
 #include "physics/ring_load.h"
 #include "physics/temperature.h"
 #include "solver/escape.h"
@@ -236,11 +236,6 @@ const Outputs *part_outputs(const Bearing *b)
     return &b->out;
 }
 
-double *part_state(Bearing *b)
-{
-    return b->s.integrator.now.y;
-}
-
 // The parameters under which the present state was reached; before the start those that have been set.
 static const Parameters *present_parameters(const Bearing *b)
 {
@@ -260,8 +255,7 @@ static void present_trajectory(const Bearing *b, InputTrajectory *trajectory)
     const InstanceState *s = &b->s;
     const Inputs u[INPUT_ORDERS + 1] = {s->u_now, s->u_now_dot};
     input_trajectory_update(present_parameters(b), u, s->integrator.t, s->integrator.t, trajectory);
-    trajectory->frame_angle = s->frame_angle;
-    trajectory->inner_angle = s->ring_angle[0], trajectory->outer_angle = s->ring_angle[1];
+    memcpy(trajectory->angle, s->angle, sizeof s->angle);
 }
 
 // Puts the outer ring where a housing on springs is, and lets the model see how far balls with spalls have turned.
@@ -365,14 +359,6 @@ static void change_parameters(Bearing *b, const Inputs *u)
     s->integrator.now.h = s->integrator.now.ratio = 0.0;
 }
 
-// The preloads follow the wear.
-static void loosen(Bearing *b)
-{
-    InstanceState *s = &b->s;
-    if (loosening_update(b->hot.joint.preload, b->d.P, &s->loosening))
-        rederive(b, &s->u_now, present_energy(b));
-}
-
 // Breaks the rivets whose damage has reached 1; returns whether any rivet is left in a cage whose rivets may break.
 static bool break_rivets(Bearing *b)
 {
@@ -406,11 +392,13 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
     s->u_now = s->u[0];
     s->u_now_dot = s->u[1];
     memcpy(&s->p_now, &s->p, sizeof s->p);
-    s->frame_angle = s->ring_angle[0] = s->ring_angle[1] = 0.0;
+    memset(s->angle, 0, sizeof s->angle);
     s->history = (MotionHistory){.steps = 0};
     s->integrator.t = s->integrator.since = t_start;
     s->integrator.h = FIRST_STEP;
-    ball_turn_start(&s->p, &s->integrator.now.turn);
+    memset(&s->integrator.now.turn, 0, sizeof s->integrator.now.turn);
+    for (int j = 0; ball_spalls_given(&s->p) && j < Z; j++)
+        s->integrator.now.turn.angle[j] = s->p.ball.spall_angle[j];
     derive(b);
     if (b->model.housing) {
         housing_at_base(&b->ring_load, &s->integrator.now.housing);
@@ -450,15 +438,14 @@ PartStatus part_initialize(Bearing *b, double t_start, double tolerance)
 // Sets the trajectory of the inputs u from the present time to `stop`, the next edge of a pulse or the end of a step of
 // a fixed length, in a communication step that began at t_0 with the frame and the rings at these angles.  Where the load on the ring
 // jumps, the derivative at the present state is no longer current.
-static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, double frame_angle,
-                             const double ring_angle[2], double stop)
+static void begin_trajectory(Bearing *b, const Inputs u[INPUT_ORDERS + 1], double t_0, const double angle[3],
+                             double stop)
 {
     InstanceState *s = &b->s;
     const RingLoad before = b->ring_load;
     input_trajectory_update(&s->p, u, t_0, s->integrator.t, &b->trajectory);
     if (is_fixed(b)) pulse_average(&s->p, stop, 0.5 * (stop - s->integrator.t), &b->trajectory);
-    b->trajectory.frame_angle = frame_angle;
-    b->trajectory.inner_angle = ring_angle[0], b->trajectory.outer_angle = ring_angle[1];
+    memcpy(b->trajectory.angle, angle, sizeof b->trajectory.angle);
     b->model.trajectory = input_trajectory_varies(&b->trajectory) ? &b->trajectory : NULL;
     ring_load_at(&b->trajectory, s->integrator.t, &b->ring_load);
     place_housing(b);
@@ -473,9 +460,9 @@ static void end_trajectory(Bearing *b)
 {
     InstanceState *s = &b->s;
     input_trajectory_rates_at(&b->trajectory, s->integrator.t, &s->u_now, &s->u_now_dot);
-    s->frame_angle = frame_angle_at(&b->trajectory, s->integrator.t);
+    s->angle[0] = frame_angle_at(&b->trajectory, s->integrator.t);
     if (b->trajectory.angles_matter != 0.0)
-        ring_angles_at(&b->trajectory, s->integrator.t, &s->ring_angle[0], &s->ring_angle[1]);
+        ring_angles_at(&b->trajectory, s->integrator.t, &s->angle[1], &s->angle[2]);
     hold_ring_load(b);
     if (s->p.ring.motion == RING_MOTION_PRESCRIBED) ring_follow(&b->ring_load, s->integrator.now.y);
 }
@@ -531,8 +518,8 @@ static bool check_fixed_steps(Bearing *b, double h)
 PartStatus part_step(Bearing *b, double t_end)
 {
     InstanceState *s = &b->s;
-    const double t_begin = s->integrator.t, steps_before = s->integrator.steps, frame_angle = s->frame_angle;
-    const double ring_angle[2] = {s->ring_angle[0], s->ring_angle[1]};
+    const double t_begin = s->integrator.t, steps_before = s->integrator.steps;
+    const double angle[3] = {s->angle[0], s->angle[1], s->angle[2]};
     Inputs u[INPUT_ORDERS + 1];
     if (!check_change(b) || !check_inputs(b, t_end - t_begin) || !check_fixed_steps(b, t_end - t_begin))
         return PART_ERROR;
@@ -557,7 +544,7 @@ PartStatus part_step(Bearing *b, double t_end)
     char reason[256] = "";
     for (int stretch = 1; status == 0 && s->integrator.t < t_end; stretch++) {
         const double stop = next_stop(b, t_begin, t_end, stretch);
-        begin_trajectory(b, u, t_begin, frame_angle, ring_angle, stop);
+        begin_trajectory(b, u, t_begin, angle, stop);
         const long left = (long)fmax(most - (s->integrator.steps - steps_before), 1.0);
         status = integrator_advance(b->integrator, stop, left);
         if (status == ADVANCE_ESCAPED) {
@@ -578,7 +565,8 @@ PartStatus part_step(Bearing *b, double t_end)
     inputs_reach(&s->p, t_begin, s->integrator.t, s->u);
     s->lost += s->integrator.sum.lost, s->exchanged += s->integrator.sum.exchanged;
     s->jumped += s->integrator.sum.jump;
-    if (status == 0) loosen(b);
+    if (status == 0 && loosening_update(b->hot.joint.preload, b->d.P, &s->loosening))
+        rederive(b, &s->u_now, present_energy(b));
     const bool holds = status != 0 || break_rivets(b);
     if (clocked) b->cpu_time += cpu_clock() - before;
     if (status == 0) {

@@ -1,8 +1,6 @@
 // Rivets that break by their damage: see breakage.h.
 #include "instance/breakage.h"
 
-#include "numbers/saved_numbers.h"
-
 bool rivet_holds(const Parameters *p, const Breakage *broken, int k)
 {
     return rivet_broken(p, broken, k) == HOLDS;

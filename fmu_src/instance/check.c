@@ -34,17 +34,14 @@ static bool inputs_lie_within(const Inputs *u)
     return fine;
 }
 
-// Checks inputs that the caller asks for; the table with its messages is for those beyond a limit.
-static bool check_given(Bearing *b, const Inputs *u)
-{
-    return inputs_lie_within(u) || check_variables(b, CAUSALITY_INPUT, u);
-}
+// Part of a limit by which the polynomial of a trajectory may round a limit that the caller asks for.
+static const double REACHED = 1e-12;
 
-// Checks inputs that a trajectory reaches: its polynomial may round a limit that the caller asks for by a few
-// units of the last place.
-static bool check_reached(Bearing *b, const Inputs *u)
+// Checks inputs; the table with its messages is for those beyond a limit.  rounding: 0 of inputs that the caller asks for, REACHED of
+// those that a trajectory reaches.
+static bool check_within(Bearing *b, const Inputs *u, double rounding)
 {
-    return inputs_lie_within(u) || variables_allow(CAUSALITY_INPUT, u, 1e-12, report_error, b);
+    return inputs_lie_within(u) || variables_allow(CAUSALITY_INPUT, u, rounding, report_error, b);
 }
 
 // Checks the acceleration of the bearing's centre, which the frame's arm makes of its rotation: at most the limit of frame.a_*.
@@ -76,7 +73,7 @@ static bool check_motions(Bearing *b, double h)
     if (memcmp(u, b->s.u, sizeof u) == 0) return true;
     memcpy(trajectory.u, u, sizeof u);
     input_trajectory_at(&trajectory, h, &end);
-    return check_reached(b, &end);
+    return check_within(b, &end, REACHED);
 }
 
 // Parameters at temperatures: for their refusals.
@@ -123,16 +120,16 @@ bool check_inputs(Bearing *b, double h)
     Inputs u = b->s.u[0], turning = u;
     if (!check_motions(b, h)) return false;
     if (!input_trajectory_varies(&trajectory))
-        return check_given(b, &u) && check_frame(b, &u) &&
+        return check_within(b, &u, 0.0) && check_frame(b, &u) &&
                (temperature_same(&b->s.u_now, &u) || check_temperatures(b, &u));
     input_trajectory_at(&trajectory, h, &u);
     for (int i = 0; i < N_INPUTS; i++) {
         const double tau = -u_1[i] / u_2[i];
         if (tau > 0.0 && tau < h) ((double *)&turning)[i] += 0.5 * tau * u_1[i];
     }
-    return check_given(b, &b->s.u[0]) && check_reached(b, &u) && check_reached(b, &turning) &&
-           check_frame(b, &b->s.u[0]) && check_frame(b, &u) && check_temperatures(b, &b->s.u[0]) &&
-           check_temperatures(b, &u);
+    return check_within(b, &b->s.u[0], 0.0) && check_within(b, &u, REACHED) &&
+           check_within(b, &turning, REACHED) && check_frame(b, &b->s.u[0]) && check_frame(b, &u) &&
+           check_temperatures(b, &b->s.u[0]) && check_temperatures(b, &u);
 }
 
 // Logs value and limit unless the condition holds.
@@ -469,7 +466,8 @@ static bool check_saved_inputs(Bearing *b, const Inputs *reached)
     Inputs u = *reached;
     for (int i = 0; i < MOTIONS; i++)
         ((double *)&u)[MOTION[i].position] = ((double *)&u)[MOTION[i].velocity] = 0.0;
-    return check_reached(b, &u) && saved_is(b, values_are_sane((const double *)reached, N_INPUTS), "inputs");
+    return check_within(b, &u, REACHED) &&
+           saved_is(b, values_are_sane((const double *)reached, N_INPUTS), "inputs");
 }
 
 // Whether the parameters that cannot change in a run are those in force.
@@ -501,8 +499,7 @@ static bool check_running(Bearing *b)
            check_saved_inputs(b, &s->u_now) && check_temperatures(b, &s->u_now) &&
            saved_is(b, fixed_are_kept(&s->p, &s->p_now), "parameters that cannot change in a run") &&
            saved_is(b, values_are_sane((const double *)&s->u_now_dot, N_INPUTS), "rates of inputs") &&
-           saved_is(b, values_are_sane(&s->frame_angle, 1), "the frame's angle") &&
-           saved_is(b, values_are_sane(s->ring_angle, 2), "the rings' angles") &&
+           saved_is(b, values_are_sane(s->angle, 3), "the frame's and the rings' angles") &&
            saved_is(b, history_is_valid(&s->history), "the motions given before") &&
            saved_is(b,
                     variable_allows(variable_named("solver.tol"), 0, s->tolerance, message, sizeof message),

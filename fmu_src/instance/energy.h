@@ -7,8 +7,6 @@
 // Total energy [J] at the state y, whose results are w.
 scalar energy_total(const Model *model, const scalar *y, const Work *w);
 
-#ifndef DUAL
 // Elastic energy that a jump of the speed from `before` to `after`, both in the fixed frame, adds to the inner race
 // contacts [J], at the state y: the ring grows at once.
 double energy_of_speed(const Model *model, const double *y, double before, double after);
-#endif

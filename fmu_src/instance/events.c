@@ -1,7 +1,6 @@
 // Events: conditions from the results of one evaluation, see events.h.
 #include "instance/events.h"
 
-#include "cage/cage.h"
 #include "numbers/elementary.h"
 #include "numbers/saved_numbers.h"
 #include "physics/hertz.h"

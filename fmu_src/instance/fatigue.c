@@ -7,13 +7,9 @@
 #include <math.h>
 #include <string.h>
 
-_Static_assert(sizeof(FatigueLaw) == sizeof(((Parameters *)0)->fatigue),
-               "FatigueLaw is p->fatigue, member by member");
-
 FatigueLaw fatigue_law(const Parameters *p, int k)
 {
-    FatigueLaw law;
-    memcpy(&law, &p->fatigue, sizeof law);
+    FatigueLaw law = p->fatigue;
     law.sigma_D *= p->rivet.strength_factor[k];
     law.sigma_m *= p->rivet.strength_factor[k];
     law.sigma_f *= p->rivet.strength_factor[k];

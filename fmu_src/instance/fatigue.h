@@ -21,13 +21,8 @@
 
 #include <stdbool.h>
 
-// Material: p->fatigue of the variable table, in its order [Pa, 1].
-typedef struct {
-    double sigma_D, N_D, k_1, k_2, sigma_m, sigma_f;
-    double acceleration;  // factor on the damage of each cycle
-    double fretting;
-    int mean_stress;  // MEAN_STRESS_* of variables.h
-} FatigueLaw;
+// Material: parameters fatigue.* of the variable table.
+typedef struct Parameters_fatigue FatigueLaw;
 
 // The law of rivet k, whose strength_factor scales all strengths.
 FatigueLaw fatigue_law(const Parameters *p, int k);

@@ -32,8 +32,7 @@ typedef struct {
     Parameters p_now;            // under which the present state was reached
     MotionHistory history;       // of the motions that the host gave
     MotionLag lag;               // of the motions in the last step
-    double frame_angle;          // by which the frame has turned since the start [rad]
-    double ring_angle[2];        // by which inner and outer ring have; 0 of perfect races
+    double angle[3];             // by which frame, inner, outer ring have turned [rad] (InputTrajectory)
     IntegratorState integrator;
     double t_start, tolerance;
     double energy_start;     // total energy at the start [J]

@@ -30,9 +30,7 @@
 #include "rivet/rivet_rom.c"
 
 enum {
-    LOAD_SCALARS = sizeof(RingLoad) / sizeof(scalar),
     TRAJECTORY_SCALARS = sizeof(InputTrajectory) / sizeof(scalar),
-    WORK_SCALARS = sizeof(Work) / sizeof(scalar),
     OUTPUT_SCALARS = sizeof(Outputs) / sizeof(scalar)
 };
 
@@ -57,30 +55,6 @@ static const BallTurn *turn_drift(const Model *model, double dt, BallTurn *turn)
         turn->rate[j] = scalar_dual(rate[j], 0.0);
     }
     return turn;
-}
-
-void jacobian_product(const Model *model, double t, const double *y, const double *dy,
-                      const double *d_ring_load, double *dy_dot, double *dw)
-{
-    RingLoad ring_load;
-    InputTrajectory trajectory;
-    BallTurn turn;
-    Work work = {0};
-    scalar state[N_ALL_STATES] = {0.0}, rate[N_ALL_STATES] = {0.0};
-    const int states = cage_states(model);
-    const Model dual = {
-        model->p, model->d, &ring_load, NULL, model->modes, model->housing, turn_drift(model, 0.0, &turn)};
-    scalars_join(LOAD_SCALARS, (const double *)model->ring_load, NULL, (scalar *)&ring_load);
-    if (model->trajectory) {
-        scalars_join(TRAJECTORY_SCALARS, (const double *)model->trajectory, NULL, (scalar *)&trajectory);
-        ring_load_at(&trajectory, t, &ring_load);
-    }
-    if (d_ring_load)
-        for (int i = 0; i < LOAD_SCALARS; i++) ((scalar *)&ring_load)[i] += scalar_dual(0.0, d_ring_load[i]);
-    scalars_join(states, y, dy, state);
-    rhs(&dual, t, state, rate, &work);
-    scalars_derivative(states, rate, dy_dot);
-    if (dw) scalars_derivative(WORK_SCALARS, (const scalar *)&work, dw);
 }
 
 // The housing's motion where time goes on by dt.
@@ -121,14 +95,4 @@ void jacobian_outputs(const Model *model, const double *trajectory, double t, do
     const Evaluation at = {&dual, state, rate, &work, cage_loads, rivet_rom_stress};
     for (int group = 0; group < GROUP_COUNT; group++) outputs_evaluate(&at, group, &out);
     scalars_derivative(OUTPUT_SCALARS, (const scalar *)&out, d_out);
-}
-
-void jacobian_housing(const double *w, const double *dw, double dF[3], double dM[3])
-{
-    Work work;
-    scalar F[3], M[3];
-    scalars_join(WORK_SCALARS, w, dw, (scalar *)&work);
-    housing_reaction(&work, F, M);
-    scalars_derivative(3, F, dF);
-    scalars_derivative(3, M, dM);
 }

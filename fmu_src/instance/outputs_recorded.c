@@ -79,18 +79,12 @@ static void fill_event(Bearing *b)
 #undef FILL
 }
 
-// Time that the integrals over the communication step cover [s]; 0 before the first one, where outputs are those of the
-// start.
-static double covered(const IntegratorState *i)
-{
-    return fmax(i->t - i->since, 0.0);
-}
-
 void outputs_fill(Bearing *b, OutputGroup group)
 {
     const Evaluation now = {&b->model, b->s.integrator.now.y, b->y_dot,
                             &b->w,     b->kernels.cage_loads, b->kernels.rivet_rom_stress};
     const IntegratorState *i = &b->s.integrator;
+    const double covered = i->t - i->since;  // by the integrals [s]; 0 before the first communication step
     switch (group) {
     case GROUP_CONSTANT: b->out.bearing.Z = Z; return;
     case GROUP_PEAK: fill_peak(b); return;
@@ -98,23 +92,13 @@ void outputs_fill(Bearing *b, OutputGroup group)
     case GROUP_STAT: fill_stat(b); return;
     case GROUP_SOLVER: fill_solver(b); return;
     case GROUP_EVENT: fill_event(b); return;
-    case GROUP_ENERGY:
-        outputs_evaluate(&now, group, &b->out);
+    default: outputs_evaluate(&now, group, &b->out);
+    }
+    if (group == GROUP_ENERGY) {
         b->out.bearing.energy_residual -= b->s.energy_start;
         b->out.bearing.energy_residual -= b->s.energy_change;
         b->out.bearing.energy_change = b->s.energy_change;
-        if (covered(i) > 0.0) b->out.shaft.power = i->sum.power / covered(i);
-        return;
-    case GROUP_RING:
-        outputs_evaluate(&now, group, &b->out);
-        if (covered(i) > 0.0) b->out.bearing.friction_torque = i->sum.torque / covered(i);
-        return;
-    case GROUP_STATE:
-    case GROUP_POSE:
-    case GROUP_BALL:
-    case GROUP_CAGE:
-    case GROUP_RIVET:
-    case GROUP_STRESS: outputs_evaluate(&now, group, &b->out); return;
-    case GROUP_COUNT: return;
     }
+    if (group == GROUP_ENERGY && covered > 0.0) b->out.shaft.power = i->sum.power / covered;
+    if (group == GROUP_RING && covered > 0.0) b->out.bearing.friction_torque = i->sum.torque / covered;
 }

@@ -15,8 +15,7 @@ typedef enum {
     PART_OK = 0,
     PART_WARNING,  // done, with a warning in the log
     PART_DISCARD,  // the solver cannot go on: time and outputs are those of the last good state
-    PART_ERROR,    // refused: the log names variable, value and allowed range; nothing has changed
-    PART_FATAL     // out of memory
+    PART_ERROR     // refused: the log names variable, value and allowed range; nothing has changed
 } PartStatus;
 
 // Message categories, in the order of the logger categories of the FMU.
@@ -42,7 +41,6 @@ Parameters *part_parameters(Part *part);
 // derivatives are 0.
 Inputs *part_inputs(Part *part, int order);
 const Outputs *part_outputs(const Part *part);
-double *part_state(Part *part);  // y, offsets in variables.h
 double part_time(const Part *part);
 
 // Checks all parameters and inputs, derives constants and finds the start (that of the bearing is

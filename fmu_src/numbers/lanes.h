@@ -279,15 +279,6 @@ INLINE wide wide_abs(wide x)
 // The sum of x and this number, 1.5 * 2^52, rounds |x| < 2^51 to the nearest integer, which its last bits hold.
 static const double ROUND_SHIFT = 6755399441055744.0;
 
-// Nearest integer to x, |x| < 2^51, as a double and as the integer n.
-INLINE wide wide_round(wide x, bits *n)
-{
-    const wide shift = wide_set(ROUND_SHIFT);
-    const wide shifted = x + shift;
-    *n = (bits)shifted - (bits)shift;
-    return shifted - shift;
-}
-
 // Largest integer that is not above x, |x| < 2^51.
 INLINE wide wide_floor(wide x)
 {
@@ -402,8 +393,8 @@ INLINE void wide_log2(wide x, wide y, wide *ln_x, wide *ln_y)
 // sin x and cos x, absolute error < 3e-16 for |x| < 1e7.
 INLINE void wide_sincos(wide x, wide *sine, wide *cosine)
 {
-    bits n;
-    const wide k = wide_round(x * 0.6366197723675814, &n);
+    const wide shift = wide_set(ROUND_SHIFT), shifted = x * 0.6366197723675814 + shift, k = shifted - shift;
+    const bits n = (bits)shifted - (bits)shift;  // k as an integer
     const wide near =
         wide_fma(k, wide_set(-9.920935791635221e-10), wide_fma(k, wide_set(-1.570796325802803), x));
     const wide r = wide_fma(k, wide_set(-5.170182981794105e-19), near);  // pi/2 in three parts

@@ -4,33 +4,8 @@
 
 #include "numbers/lanes.h"
 
-#ifdef DUAL
-typedef struct {
-    scalar x[8];
-} octet;
-
-INLINE void octet_add(scalar w, const octet *x, octet *sum)
-{
-    for (int i = 0; i < 8; i++) sum->x[i] += w * x->x[i];
-}
-
-INLINE void octet_add_from(scalar w, const double *x, octet *sum)
-{
-    for (int i = 0; i < 8; i++) sum->x[i] += w * x[i];
-}
-
-INLINE void octet_add_floats(scalar w, const float *x, octet *sum)
-{
-    for (int i = 0; i < 8; i++) sum->x[i] += w * x[i];
-}
-
-INLINE void octet_store_sum(const octet *x, const octet *y, scalar *to)
-{
-    for (int i = 0; i < 8; i++) to[i] = x->x[i] + y->x[i];
-}
-#else
 typedef union {
-    double x[8];
+    scalar x[8];
 #if defined(FUSED) && defined(__AVX512F__)
     __m512d part[1];
 #elif defined(FUSED) && defined(__FMA__)
@@ -39,7 +14,7 @@ typedef union {
 } octet;
 
 // sum += w x.
-INLINE void octet_add_from(double w, const double *x, octet *sum)
+INLINE void octet_add_from(scalar w, const double *x, octet *sum)
 {
 #if defined(FUSED) && defined(__AVX512F__)
     sum->part[0] = _mm512_fmadd_pd(_mm512_set1_pd(w), _mm512_loadu_pd(x), sum->part[0]);
@@ -53,7 +28,7 @@ INLINE void octet_add_from(double w, const double *x, octet *sum)
 #endif
 }
 
-INLINE void octet_add_floats(double w, const float *x, octet *sum)
+INLINE void octet_add_floats(scalar w, const float *x, octet *sum)
 {
 #if defined(FUSED) && defined(__AVX512F__)
     sum->part[0] = _mm512_fmadd_pd(_mm512_set1_pd(w), _mm512_cvtps_pd(_mm256_loadu_ps(x)), sum->part[0]);
@@ -68,17 +43,20 @@ INLINE void octet_add_floats(double w, const float *x, octet *sum)
 #endif
 }
 
-INLINE void octet_add(double w, const octet *x, octet *sum)
+INLINE void octet_add(scalar w, const octet *x, octet *sum)
 {
+#ifdef DUAL
+    for (int i = 0; i < 8; i++) sum->x[i] += w * x->x[i];
+#else
     octet_add_from(w, x->x, sum);
+#endif
 }
 
 // to = x + y.
-INLINE void octet_store_sum(const octet *x, const octet *y, double *to)
+INLINE void octet_store_sum(const octet *x, const octet *y, scalar *to)
 {
     for (int i = 0; i < 8; i += LANE_WIDTH) wide_store(&to[i], wide_load(&x->x[i]) + wide_load(&y->x[i]));
 }
-#endif
 
 // sum += w_0 rows_0 + w_1 rows_1 + ...: rows of a number of octets each, even and odd ones by themselves.
 INLINE void octets_add_rows(int count, const scalar *w, int octets, const double *rows, octet *sum,

@@ -80,13 +80,3 @@ INLINE void vec_store(vec v, scalar *x, scalar *r, scalar *t)
     wide_store(r, v.r);
     wide_store(t, v.t);
 }
-
-INLINE vec vec_join(vec u, vec v)
-{
-    return (vec){wide_join(u.x, v.x), wide_join(u.r, v.r), wide_join(u.t, v.t)};
-}
-
-INLINE vec vec_last_half(vec v)
-{
-    return (vec){wide_last_half(v.x), wide_last_half(v.r), wide_last_half(v.t)};
-}

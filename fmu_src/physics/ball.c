@@ -13,8 +13,6 @@
 // arise because the frame turns with the orbit; the sphere itself needs no orientation.
 #include "physics/ball.h"
 
-#include "numbers/vec.h"
-
 void ball_kinematics(const scalar *y, Work *w)
 {
     scalar *positions[] = {w->x, w->r, w->theta}, *velocities[] = {w->v_x, w->v_r, w->omega_m};

@@ -1,14 +1,12 @@
 // Constants derived from the parameters at their temperatures (temperature.h), element by element; equations stand in
 // the elements' files.
 #include "cage/cage.h"
-#include "cage/common/centrifugal.h"
 #include "cage/common/pocket_squeeze.h"
 #include "cage/common/spheres_squeeze.h"
 #include "numbers/elementary.h"
 #include "physics/hertz.h"
 #include "physics/race_surface.h"
 #include "physics/ring_fit.h"
-#include "physics/traction.h"
 #include "rivet/rivet_rom.h"
 
 #include <stdlib.h>
@@ -69,19 +67,20 @@ static void derive_race(const Parameters *p, double f, double side, Race *race)
     race->ln_Lambda = ln_film(2.0 * E_star, 1.0 / rho_x, race->hertz.k, p, p->oil.sigma_race);
 }
 
-// A spall at the contacts with one race (race_surface.h).
-static Spall spall_of(const Race *race, double length, double width, double depth, double edge)
+// The spall at the contact of ball j with one race (race_surface.h).
+static void derive_spall(const Race *race, double track, double length, double width, double depth,
+                         double edge, int j, Spalls *s)
 {
-    if (!spall_given(length, width, depth)) return (Spall){.bend = 1.0};
     const double c = fmin(edge, 0.25 * length), R_x = race->hertz.R_x;
-    Spall s = {.half_length = 0.5 * length, .half_width = 0.5 * width};
+    s->track[j] = track, s->bend[j] = 1.0;
+    if (!spall_given(length, width, depth)) return;
+    s->half_length[j] = 0.5 * length, s->half_width[j] = 0.5 * width;
 
     // u_1 (u_1 + c) = 2 R_x depth; a short spall ends before
-    s.u_1 = fmin(0.5 * (sqrt(c * c + 8.0 * R_x * depth) - c), s.half_length - c);
-    s.u_2 = s.u_1 + c;
-    s.bend = 1.0 + s.u_1 / c;
-    s.flank = s.half_width * s.half_width / (race->hertz.a_delta * race->hertz.a_delta);
-    return s;
+    s->u_1[j] = fmin(0.5 * (sqrt(c * c + 8.0 * R_x * depth) - c), s->half_length[j] - c);
+    s->u_2[j] = s->u_1[j] + c;
+    s->bend[j] = 1.0 + s->u_1[j] / c;
+    s->flank[j] = s->half_width[j] * s->half_width[j] / (race->hertz.a_delta * race->hertz.a_delta);
 }
 
 // Table of the waves over a turn that begins at phi = -pi.
@@ -117,24 +116,10 @@ static void derive_surface(const double amplitude[WAVES], const double phase[WAV
     RaceSurface *s = &race->surface;
     s->wavy = race_waves_given(amplitude);
     if (s->wavy) derive_waves(amplitude, phase, s->wave);
-    s->track = track;
     s->curvature = 1.0 / race->hertz.R_x;
     s->middle_cos = portable_cos(middle), s->middle_sin = portable_sin(middle);
     s->spalled = spall_given(length, width, depth);
-    s->spall = spall_of(race, length, width, depth, edge);
-}
-
-// Spalls of the balls.
-static void derive_ball_spalls(const Parameters *p, Race *race)
-{
-    BallSpalls *b = &race->balls;
-    for (int j = 0; j < LANES; j++) {
-        const Spall s = j < Z ? spall_of(race, p->ball.spall_length[j], p->ball.spall_width[j],
-                                         p->ball.spall_depth[j], p->ball.spall_edge[j])
-                              : (Spall){.bend = 1.0};
-        b->half_length[j] = s.half_length, b->half_width[j] = s.half_width;
-        b->u_1[j] = s.u_1, b->u_2[j] = s.u_2, b->bend[j] = s.bend, b->flank[j] = s.flank;
-    }
+    for (int j = 0; j < LANES; j++) derive_spall(race, track, length, width, depth, edge, j, &s->spall);
 }
 
 static void derive_surfaces(const Parameters *p, Derived *d)
@@ -145,8 +130,11 @@ static void derive_surfaces(const Parameters *p, Derived *d)
                    p->inner.spall_width, p->inner.spall_depth, p->inner.spall_edge, bottom_i, &d->inner);
     derive_surface(p->outer.waviness, p->outer.waviness_phase, p->outer.spall_angle, p->outer.spall_length,
                    p->outer.spall_width, p->outer.spall_depth, p->outer.spall_edge, bottom_e, &d->outer);
-    derive_ball_spalls(p, &d->inner);
-    derive_ball_spalls(p, &d->outer);
+    Race *const race[2] = {&d->inner, &d->outer};
+    for (int side = 0; side < 2; side++)
+        for (int j = 0; j < Z; j++)
+            derive_spall(race[side], d->R[j], p->ball.spall_length[j], p->ball.spall_width[j],
+                         p->ball.spall_depth[j], p->ball.spall_edge[j], j, &race[side]->balls);
     d->rough = race_surfaces_given(p);
     d->spalled = ball_spalls_given(p);
 }

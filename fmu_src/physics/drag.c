@@ -114,21 +114,12 @@ INLINE void drag_packet(const Model *model, Work *w, int j, bool churning, const
     wide_store(&w->drag_dissipated[j], lost);
 }
 
-// Balls of a bearing whose outer ring moves.
-static __attribute__((noinline)) void drag_force_moving(const Model *model, Work *w, bool churning)
-{
-    const Rotor outer = outer_ring(model->ring_load);
-    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, &outer);
-}
-
 void drag_force(const Model *model, Work *w)
 {
-    const bool churning = model->p->scene.churning == SWITCH_ON;
-    if (outer_ring_moves(model->ring_load)) {
-        drag_force_moving(model, w, churning);
-        return;
-    }
-    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, NULL);
+    const bool churning = model->p->scene.churning == SWITCH_ON, moves = outer_ring_moves(model->ring_load);
+    Rotor outer;
+    if (moves) outer = outer_ring(model->ring_load);
+    for (int b = 0; b < PACKETS; b++) drag_packet(model, w, b * LANE_WIDTH, churning, moves ? &outer : NULL);
 }
 
 void drag_cage(const Model *model, Work *w)

@@ -497,14 +497,6 @@ scalar land_growth_power(const Model *model, const Work *w, const scalar *y_dot)
     return w->land_growth[0] * (y_dot[Y_CAGE_S] + frame) + w->land_growth[1] * (y_dot[Y_CAGE_S + 1] + frame);
 }
 
-// Lands of a cage whose outer ring moves.
-static __attribute__((noinline)) void land_film_moving(const Model *model, Work *w)
-{
-    Rotor outer = outer_ring(model->ring_load);
-    rotor_body_axes(&outer, 1.0, 0.0);
-    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, &outer);
-}
-
 void land_film_force(const Model *model, Work *w)
 {
     w->land_elastic = w->cage_dissipated = w->land_dissipated = 0.0;
@@ -515,9 +507,12 @@ void land_film_force(const Model *model, Work *w)
         memset(w->land, 0, sizeof w->land);
         return;
     }
-    if (outer_ring_moves(model->ring_load))
-        land_film_moving(model, w);
-    else
-        for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, NULL);
+    const bool moves = outer_ring_moves(model->ring_load);
+    Rotor outer;
+    if (moves) {
+        outer = outer_ring(model->ring_load);
+        rotor_body_axes(&outer, 1.0, 0.0);
+    }
+    for (int first = 0; first < 2; first += HALVES) land_film_packet(model, w, first, moves ? &outer : NULL);
     w->land_dissipated = w->cage_dissipated;  // before drag_cage adds its power
 }

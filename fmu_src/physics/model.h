@@ -30,13 +30,13 @@ typedef struct {
 
 enum { WAVES = 60, WAVE_CELLS = 512 };  // orders of a race's waviness, cells of its table over a turn
 
-// A spall at the contacts with one race (race_surface.h).
+// Spalls at the contacts of each ball with one race (race_surface.h): the race's own, or those of the balls; sizes are 0 where there is none.
 typedef struct {
-    double half_length, half_width;  // [m]
-    double u_1, u_2;  // distances from its edge to the end of the circle, to the largest drop [m]
-    double bend;      // 1 + u_1/(u_2 - u_1)
-    double flank;     // drop at which the ball rests on the spall's flanks [m]
-} Spall;
+    constants track, half_length, half_width;  // radius of the ball's path through it; sizes [m]
+    constants u_1, u_2;  // distances from its edge to the end of the circle, to the largest drop [m]
+    constants bend;      // 1 + u_1/(u_2 - u_1)
+    constants flank;     // drop at which the ball rests on the spall's flanks [m]
+} Spalls;
 
 // Waves and spall of a race (race_surface.h); all is 0 of a perfect one.
 typedef struct {
@@ -44,15 +44,9 @@ typedef struct {
     double wave[WAVE_CELLS + 1][2];  // their height w, slope dw/dphi x width of a cell at its ends [m]
     bool spalled;                    // whether there is a spall
     double middle_cos, middle_sin;   // of the angle of its middle
-    double track;                    // radius of the track [m]
     double curvature;                // 1/R_x [1/m]
-    Spall spall;
+    Spalls spall;
 } RaceSurface;
-
-// Spalls of the balls at the contacts with one race, as in Spall; all is 0 of a ball without.
-typedef struct {
-    constants half_length, half_width, u_1, u_2, bend, flank;
-} BallSpalls;
 
 typedef struct {
     double R_g;         // radius of the circle of groove-curvature centres [m]
@@ -63,7 +57,7 @@ typedef struct {
     double ln_Lambda;   // ln of Lambda at U = 1 m/s, Q = 1 N
     Hertz hertz;
     RaceSurface surface;
-    BallSpalls balls;
+    Spalls balls;
 } Race;
 
 // A ring of the radius rho of its section that touches a pocket's sphere along a circle, the seam.
@@ -202,11 +196,10 @@ typedef struct {
     scalar t_0;                  // communication point [s]
     Inputs u[INPUT_ORDERS + 1];  // inputs there, and their derivatives
     scalar pulse_r, pulse_a;     // radial and axial amplitude of the half-sine in progress [N]; 0 if none is
-    scalar pulse_start, pulse_rate;   // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
-    scalar gravity[2], radius;        // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
-    scalar frame_angle;               // by which the frame has turned since the start, at t_0 [rad]
-    scalar inner_angle, outer_angle;  // by which the rings have turned since the start, at t_0 [rad]
-    scalar angles_matter;             // not 0 if a race is not perfect: else the rings' angles stay 0
+    scalar pulse_start, pulse_rate;  // its start [s], pi / duration [1/s]; rate 0: amplitudes are means
+    scalar gravity[2], radius;       // parameters gravity.y, gravity.z [m/s2] and frame.radius [m]
+    scalar angle[3];       // by which frame, inner ring, outer ring have turned from the start to t_0 [rad]
+    scalar angles_matter;  // not 0 if a race is not perfect: else the rings' angles stay 0
 } InputTrajectory;
 
 // ---- loads and motions that the inputs impose on the bearing at one time; written by ring_load_at ---------
@@ -236,7 +229,7 @@ typedef struct {
         outer_angle;  // by which the rings have turned since the start [rad]; 0 of perfect races
 } RingLoad;
 
-// ---- how far balls with spalls have turned; written by the step (ball_turn.h) -------------------------------
+// ---- how far balls with spalls have turned; written by the step (verlet.c) --------------------------------
 typedef struct {
     scalar angle[Z];  // of the spall's middle from the ball's outer contact, about the rolling axis [rad]
     scalar rate[Z];   // [rad/s]

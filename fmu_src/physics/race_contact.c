@@ -164,11 +164,11 @@ INLINE void surface_contacts(const Model *model, const Work *w, int side, const 
         const BallMotion ball = ball_motion(model, w, b * LANE_WIDTH);
         const wide none = wide_set(0.0);
         SpallPlace in = {.f = none, .df = none, .f_ball = none, .df_ball = none, .two = roll != NULL};
-        in.race = race_spall(&race->surface);
-        in.ball = (SpallLanes){none, none, none, none, none, none, none, none};
-        if (race->surface.spalled) race_surface_drop(&race->surface, cos_phi[b], sin_phi[b], &in.f, &in.df);
+        in.race = spall_lanes(&race->surface, &race->surface.spall, b * LANE_WIDTH);
+        in.ball = spall_lanes(&race->surface, &race->balls, b * LANE_WIDTH);
+        if (race->surface.spalled)
+            race_surface_drop(&race->surface, &in.race, cos_phi[b], sin_phi[b], &in.f, &in.df);
         if (roll) {
-            in.ball = ball_spall(race, ball.R, b * LANE_WIDTH);
             spall_drop(&in.ball, roll[b].cosine[side], roll[b].sine[side], &in.f_ball, &in.df_ball);
             in.rate = roll[b].rate[side];
         }

@@ -19,10 +19,9 @@ enum { SIDES = 2, ONE_SIDE = 6, THREES = 4, THIRDS = 3, ROW = 8 };
 #define BOTH_SIDES(sign, x, y) {sign(x), sign(y), x, y, sign(x), sign(y), x, y}
 
 static const struct {
-    double near[THIRDS][ROW];    // 1 - z, coefficient of x_0 in x
-    double far[THIRDS][ROW];     // side z, part of x by the ellipse's end
-    double w[THIRDS][ROW];       // w
-    double side_w[THIRDS][ROW];  // side w
+    double near[THIRDS][ROW];  // 1 - z, coefficient of x_0 in x
+    double far[THIRDS][ROW];   // side z, part of x by the ellipse's end
+    double w[THIRDS][ROW];     // w
 } SLICE = {{BOTH_SIDES(+, 0.9706835728402151, 0.4413284812284498),
             BOTH_SIDES(+, 0.8519214003315158, 0.2307661379699455),
             BOTH_SIDES(+, 0.6630153097188457, 0.073054328680259)},
@@ -31,10 +30,7 @@ static const struct {
             BOTH_SIDES(-, 0.3369846902811543, 0.926945671319741)},
            {BOTH_SIDES(+, 0.0723103307255089, 0.0986611508906552),
             BOTH_SIDES(+, 0.13554249723151868, 0.04395516555050896),
-            BOTH_SIDES(+, 0.14079255378819883, 0.008738301813609529)},
-           {BOTH_SIDES(-, 0.0723103307255089, 0.0986611508906552),
-            BOTH_SIDES(-, 0.13554249723151868, 0.04395516555050896),
-            BOTH_SIDES(-, 0.14079255378819883, 0.008738301813609529)}};
+            BOTH_SIDES(+, 0.14079255378819883, 0.008738301813609529)}};
 
 // A race's constants at the contacts of a packet.
 typedef struct {
@@ -58,7 +54,7 @@ typedef struct {
 
 // A slice: its side, -1 or 1, and coefficients of SLICE.
 typedef struct {
-    wide side, near, far, w, side_w;
+    wide side, near, far, w;
 } Slice;
 
 // Sums over the slices of g x^n, n < MOMENTS, g = |traction| / |slip|.  The traction is -g times the slip, and the slip a
@@ -88,7 +84,8 @@ INLINE void slice_tractions(const Parameters *p, int n, const SlicedContact *c, 
     traction_mu(p, n, s, f_a, mixed, mu);
     for (int i = 0; i < n; i++) {
         const wide half = 1.0 - slice[i].side * c->x_0, load = 0.75 * c->Q * (half * half);
-        g[i][0] = wide_fma(slice[i].side_w, x[i], slice[i].w) * load * (mu[i] * inv_slip[i]);
+        const wide side_w = slice[i].side * slice[i].w;
+        g[i][0] = wide_fma(side_w, x[i], slice[i].w) * load * (mu[i] * inv_slip[i]);
         for (int m = 1; m < MOMENTS; m++) g[i][m] = g[i][m - 1] * x[i];
     }
 }
@@ -109,7 +106,7 @@ INLINE void slice_by_slice(const Parameters *p, const SlicedContact *c, bool mix
         for (int i = 0; i < ONE_SIDE; i++) {
             const int third = i % THIRDS, three = THREES / SIDES * side + i / THIRDS;
             slice[i] = (Slice){sign, wide_set(SLICE.near[third][three]), wide_set(SLICE.far[third][three]),
-                               wide_set(SLICE.w[third][three]), wide_set(SLICE.side_w[third][three])};
+                               wide_set(SLICE.w[third][three])};
         }
         slice_tractions(p, ONE_SIDE, c, slice, mixed, g);
         for (int m = 0; m < MOMENTS; m++)
@@ -142,7 +139,7 @@ INLINE void contact_by_contact(const Parameters *p, const SlicedContact *all, in
         wide g[THIRDS][MOMENTS];
         for (int i = 0; i < THIRDS; i++)
             slice[i] = (Slice){wide_load(SIDE), wide_load(SLICE.near[i]), wide_load(SLICE.far[i]),
-                               wide_load(SLICE.w[i]), wide_load(SLICE.side_w[i])};
+                               wide_load(SLICE.w[i])};
         slice_tractions(p, THIRDS, &c, slice, mixed, g);
         const bits here = wide_above(0.5 - wide_abs(wide_load(LANE) - (double)lane), 0.0);
         for (int m = 0; m < MOMENTS; m++)

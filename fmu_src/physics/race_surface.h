@@ -112,25 +112,13 @@ typedef struct {
     wide half_length, half_width, u_1, u_2, bend, flank;
 } SpallLanes;
 
-INLINE SpallLanes race_spall(const RaceSurface *s)
+// From ball j on, of a race with this surface or of the balls.
+INLINE SpallLanes spall_lanes(const RaceSurface *surface, const Spalls *s, int j)
 {
-    const Spall *one = &s->spall;
-    return (SpallLanes){wide_set(s->track),        wide_set(s->curvature), wide_set(one->half_length),
-                        wide_set(one->half_width), wide_set(one->u_1),     wide_set(one->u_2),
-                        wide_set(one->bend),       wide_set(one->flank)};
-}
-
-INLINE SpallLanes ball_spall(const Race *race, wide R, int j)
-{
-    const BallSpalls *b = &race->balls;
-    return (SpallLanes){R,
-                        wide_set(race->surface.curvature),
-                        wide_load(&b->half_length[j]),
-                        wide_load(&b->half_width[j]),
-                        wide_load(&b->u_1[j]),
-                        wide_load(&b->u_2[j]),
-                        wide_load(&b->bend[j]),
-                        wide_load(&b->flank[j])};
+    return (SpallLanes){wide_load(&s->track[j]),       wide_set(surface->curvature),
+                        wide_load(&s->half_length[j]), wide_load(&s->half_width[j]),
+                        wide_load(&s->u_1[j]),         wide_load(&s->u_2[j]),
+                        wide_load(&s->bend[j]),        wide_load(&s->flank[j])};
 }
 
 // Drop f of the ball's path in a spall and its derivative by the angle from the spall's middle.
@@ -145,12 +133,12 @@ INLINE void spall_drop(const SpallLanes *s, wide cosine, wide sine, wide *f, wid
 }
 
 // Drop f and its derivative in the spall of a race, at the angle phi on the race.
-INLINE void race_surface_drop(const RaceSurface *s, wide cos_phi, wide sin_phi, wide *f, wide *df)
+INLINE void race_surface_drop(const RaceSurface *s, const SpallLanes *spall, wide cos_phi, wide sin_phi,
+                              wide *f, wide *df)
 {
-    const SpallLanes spall = race_spall(s);
     const wide cosine = wide_fma(cos_phi, wide_set(s->middle_cos), sin_phi * s->middle_sin);
     const wide sine = wide_fma(sin_phi, wide_set(s->middle_cos), -(cos_phi * s->middle_sin));
-    spall_drop(&spall, cosine, sine, f, df);
+    spall_drop(spall, cosine, sine, f, df);
 }
 
 // Load and energy of a contact with the approach delta outside the spall and delta - f in it.

@@ -71,39 +71,17 @@ INLINE RaceConstants race_constants(const Race *race)
                            wide_set(race->ln_Lambda), wide_set(race->rolling), wide_set(race->horizontal)};
 }
 
-INLINE RaceConstants join_races(const RaceConstants *i, const RaceConstants *e)
+// Structs of packets: those at the inner race in the first half of each packet, those at the outer race in the last half; and back.
+INLINE void join_halves(size_t size, const void *inner, const void *outer, void *both)
 {
-    return (RaceConstants){wide_join(i->a_delta, e->a_delta), wide_join(i->half_curvature, e->half_curvature),
-                           wide_join(i->ln_Lambda, e->ln_Lambda), wide_join(i->rolling, e->rolling),
-                           wide_join(i->horizontal, e->horizontal)};
+    for (size_t k = 0; k < size / sizeof(wide); k++)
+        ((wide *)both)[k] = wide_join(((const wide *)inner)[k], ((const wide *)outer)[k]);
 }
 
-// Both contacts side by side, as far as the tractions need them.
-INLINE Contact join_contacts(const Contact *inner, const Contact *outer)
+INLINE void last_half(size_t size, const void *both, void *outer)
 {
-    return (Contact){.n = vec_join(inner->n, outer->n),
-                     .t_1 = vec_join(inner->t_1, outer->t_1),
-                     .t_2 = vec_join(inner->t_2, outer->t_2),
-                     .slip = vec_join(inner->slip, outer->slip),
-                     .roll = vec_join(inner->roll, outer->roll),
-                     .spin = vec_join(inner->spin, outer->spin),
-                     .approach = vec_join(inner->approach, outer->approach),
-                     .R = wide_join(inner->R, outer->R),
-                     .sqrt_delta = wide_join(inner->sqrt_delta, outer->sqrt_delta),
-                     .Q = wide_join(inner->Q, outer->Q)};
-}
-
-INLINE Tangential last_half(const Tangential *T)
-{
-    return (Tangential){.F_s = vec_last_half(T->F_s),
-                        .F_c = vec_last_half(T->F_c),
-                        .M = vec_last_half(T->M),
-                        .g = wide_last_half(T->g),
-                        .g_spin = wide_last_half(T->g_spin),
-                        .U = wide_last_half(T->U),
-                        .dissipated = wide_last_half(T->dissipated),
-                        .inlet_dissipated = wide_last_half(T->inlet_dissipated),
-                        .spin_dissipated = wide_last_half(T->spin_dissipated)};
+    for (size_t k = 0; k < size / sizeof(wide); k++)
+        ((wide *)outer)[k] = wide_last_half(((const wide *)both)[k]);
 }
 
 // Tractions of all balls at both races.  If the last packet is at most half full, its contacts at both races share one.
@@ -122,7 +100,8 @@ INLINE void race_tractions(const Model *model, const Contact inner[PACKETS], con
         race[2 * b + 1] = &outer_race, c[2 * b + 1] = &outer[b];
     }
     if (JOINED) {
-        both_races = join_races(&inner_race, &outer_race), both = join_contacts(&inner[WHOLE], &outer[WHOLE]);
+        join_halves(sizeof both_races, &inner_race, &outer_race, &both_races);
+        join_halves(sizeof both, &inner[WHOLE], &outer[WHOLE], &both);
         race[2 * WHOLE] = &both_races, c[2 * WHOLE] = &both;
     }
     race_films(model, race, c, mixed, film);
@@ -135,7 +114,7 @@ INLINE void race_tractions(const Model *model, const Contact inner[PACKETS], con
     if (JOINED) {
         T_i[WHOLE] =
             race_traction(model, &both_races, &both, &film[2 * WHOLE], 2 * REST, REST, mixed, sliced);
-        T_e[WHOLE] = last_half(&T_i[WHOLE]);
+        last_half(sizeof *T_e, &T_i[WHOLE], &T_e[WHOLE]);
     } else if (REST > 0) {
         T_i[WHOLE] =
             race_traction(model, &inner_race, &inner[WHOLE], &film[2 * WHOLE], REST, REST, mixed, sliced);

@@ -4,7 +4,6 @@
 #include "cage/cage.h"
 #include "physics/ball.h"
 #include "physics/drag.h"
-#include "physics/frame.h"
 #include "physics/housing.h"
 #include "physics/land_film.h"
 #include "physics/outer_ring.h"
@@ -12,7 +11,6 @@
 #include "physics/race_contact.h"
 #include "physics/ring.h"
 #include "physics/ring_load.h"
-#include "physics/rotor.h"
 
 // Sum of the race contacts on the ring.
 static void ring_sum(Work *w)

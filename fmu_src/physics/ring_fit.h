@@ -39,8 +39,6 @@ INLINE scalar ring_fit_rate(const RingFit *fit, scalar omega, scalar omega_dot)
     return 2.0 * omega * omega_dot * (fit->growth - (tight ? fit->per_fit * fit->loosening : 0.0));
 }
 
-#ifndef DUAL
-
 // Diameters of the rings, after the rules where parameters leave them open.
 double ring_fit_bore(const Parameters *p);
 double ring_fit_outside(const Parameters *p);
@@ -52,5 +50,3 @@ RingFit ring_fit_of(const Parameters *p);
 
 // How much the housing's fit takes from the radius r of the outer ring [m].
 double ring_fit_housing(const Parameters *p, double r);
-
-#endif

@@ -187,7 +187,7 @@ void input_trajectory_update(const Parameters *p, const Inputs u[INPUT_ORDERS + 
     trajectory->gravity[0] = p->gravity.y;
     trajectory->gravity[1] = p->gravity.z;
     trajectory->radius = p->frame.radius;
-    trajectory->frame_angle = trajectory->inner_angle = trajectory->outer_angle = 0.0;
+    memset(trajectory->angle, 0, sizeof trajectory->angle);
     trajectory->angles_matter = race_surfaces_given(p) ? 1.0 : 0.0;
 }
 

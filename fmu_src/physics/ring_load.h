@@ -86,7 +86,7 @@ INLINE scalar frame_angle_at(const InputTrajectory *trajectory, scalar t)
     const scalar tau = t - trajectory->t_0, w = trajectory->u[0].frame.omega;
     const scalar w_1 = trajectory->u[1].frame.omega, w_2 = trajectory->u[2].frame.omega;
     const scalar w_3 = trajectory->u[2].frame.omega_dot;
-    return trajectory->frame_angle + tau * (w + tau * (w_1 / 2.0 + tau * (w_2 / 6.0 + tau * w_3 / 24.0)));
+    return trajectory->angle[0] + tau * (w + tau * (w_1 / 2.0 + tau * (w_2 / 6.0 + tau * w_3 / 24.0)));
 }
 
 // Angle by which a ring has turned at time t: `angle` at t_0, its speed a polynomial with the values and derivatives w there.
@@ -101,8 +101,8 @@ INLINE void ring_angles_at(const InputTrajectory *trajectory, scalar t, scalar *
     const Inputs *u = trajectory->u;
     const scalar shaft[3] = {u[0].shaft.omega, u[1].shaft.omega, u[2].shaft.omega};
     const scalar housing[3] = {u[0].housing.omega, u[1].housing.omega, u[2].housing.omega};
-    *inner = ring_angle_at(t - trajectory->t_0, trajectory->inner_angle, shaft);
-    *outer = ring_angle_at(t - trajectory->t_0, trajectory->outer_angle, housing);
+    *inner = ring_angle_at(t - trajectory->t_0, trajectory->angle[1], shaft);
+    *outer = ring_angle_at(t - trajectory->t_0, trajectory->angle[2], housing);
 }
 
 // Whether a built-in pulse has begun and not ended at time t.

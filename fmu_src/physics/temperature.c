@@ -66,12 +66,9 @@ static void heat_cage(const Parameters *p, double e_c, double e_e, double e_b, P
     const double D = p->bearing.D, pocket = p->cage.pocket_clearance, guide = p->cage.guide_clearance;
     hot->cage.pocket_clearance = pocket + (e_c * (D + pocket) - e_b * D);
     hot->cage.guide_clearance = guide + (e_e * (p->cage.D_o + guide) - e_c * p->cage.D_o);
-    hot->cage.D_o = p->cage.D_o + e_c * p->cage.D_o;
-    hot->cage.D_i = p->cage.D_i + e_c * p->cage.D_i;
-    hot->cage.sheet = p->cage.sheet + e_c * p->cage.sheet;
-    hot->cage.pocket_depth = p->cage.pocket_depth + e_c * p->cage.pocket_depth;
-    hot->cage.pocket_fillet = p->cage.pocket_fillet + e_c * p->cage.pocket_fillet;
-    hot->cage.pocket_edge = p->cage.pocket_edge + e_c * p->cage.pocket_edge;
+    double *const sizes[] = {&hot->cage.D_o,          &hot->cage.D_i,           &hot->cage.sheet,
+                             &hot->cage.pocket_depth, &hot->cage.pocket_fillet, &hot->cage.pocket_edge};
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) *sizes[i] += e_c * *sizes[i];
 }
 
 // Fits at temperature; contraction of groove and land of the outer ring by the housing.

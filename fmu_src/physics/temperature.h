@@ -20,8 +20,6 @@
 
 #include "physics/model.h"
 
-#ifndef DUAL
-
 enum { TEMPERATURES = 5 };
 
 // The i-th temperature of the inputs: oil, inner ring, outer ring, balls, cage.
@@ -32,5 +30,3 @@ bool temperature_same(const Inputs *u, const Inputs *v);
 
 // The parameters p at the temperatures in u; hot may be p.
 void temperature_apply(const Parameters *p, const Inputs *u, Parameters *hot);
-
-#endif

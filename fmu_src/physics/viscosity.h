@@ -5,8 +5,6 @@
 
 #include "numbers/elementary.h"
 
-#ifndef DUAL
-
 typedef struct {
     double A, B;
 } Oil;
@@ -36,5 +34,3 @@ static inline double oil_beta(const Oil *oil, double T)
     const double z = 1e6 * oil_nu(oil, T) + 0.7;
     return portable_log(z) * oil->B / T * z / (z - 0.7);
 }
-
-#endif

@@ -120,9 +120,8 @@ typedef struct {
 } CageHalfData;
 
 typedef struct {
-    int kind;                   // 1 finite elements, 2 coarse finite elements, 3 closed forms
-    const char *geometry_hash;  // of the rivet, flanges and cage that it was computed for
-    const char *digest;         // SHA-256 of this table
+    int kind;            // 1 finite elements, 2 coarse finite elements, 3 closed forms
+    const char *digest;  // SHA-256 of this table
     int Z;
     double moment_length;  // L [m]
     RivetAxis axis[RIVET_AXES];
@@ -136,10 +135,15 @@ typedef struct {
     JointData joint;
     CageHalfData half;
     HalfModes modes;
-    int shape;  // of the half: 2 ribbon, else machined
 } RivetTable;
 
 extern const RivetTable rivet_table;  // rivet_table.c, written by rivet_model/embed.py
+
+// Factor of the centrifugal loads of the half's rows and modes: its mass over that of the table, 0 without the load.
+static inline double cage_centrifugal(const Parameters *p)
+{
+    return p->cage.centrifugal == SWITCH_ON ? p->cage.m / rivet_table.half.m : 0.0;
+}
 
 // Effective fit [m]: fit_a itself, or with j2 the elastic fit that gives the same pressure as the yielded
 // flange.

@@ -1,8 +1,6 @@
 // The default step as a time-stepping module of ARKODE: see bearing_step.h.
 #include "solver/bearing_step.h"
 
-#include "numbers/reserved_memory.h"
-
 #include <arkode_impl.h>
 #include <float.h>
 #include <math.h>

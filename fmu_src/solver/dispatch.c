@@ -85,11 +85,6 @@ static const char *environment(const char *name)
 #endif
 }
 
-Kernels kernels_select(void)
-{
-    return *kernels_best();
-}
-
 Kernels kernels_wanted(const char **refused)
 {
     const char *name = environment("RIVETED_BEARING_ISA");

@@ -22,9 +22,7 @@
 #include "solver/implicit.h"
 
 #include "numbers/elimination.h"
-#include "numbers/octet.h"
 #include "numbers/vec.h"
-#include "physics/rotor.h"
 
 // ---- balls ------------------------------------------------------------------------------------------------
 

@@ -75,27 +75,23 @@ struct Integrator {
 // ---- functions that ARKODE calls --------------------------------------------------------------------------
 
 // dy/dt; at a step's start the one that is already known.
-static void evaluate(Integrator *in, double t, const double *y, double *f)
+static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector y_dot, void *user)
 {
+    Integrator *in = user;
+    double *f = N_VGetArrayPointer(y_dot);
     if (in->warming_up) {
         memset(f, 0, sizeof in->s->now.f);
-        return;
-    }
-    if (in->starting) {
+    } else if (in->starting) {
         in->starting = false;
         memcpy(f, in->s->now.f, sizeof in->s->now.f);
-        return;
+    } else {
+        const int states = cage_states(in->model);
+        in->kernels->rhs(in->model, t, N_VGetArrayPointer(y), f, in->w);
+        in->s->rhs_evals += 1.0;
+        in->latest = f;
+        if (!in->kernels->all_finite(states, f))
+            stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
     }
-    in->kernels->rhs(in->model, t, y, f, in->w);
-    in->s->rhs_evals += 1.0;
-    in->latest = f;
-    const int states = cage_states(in->model);
-    if (!in->kernels->all_finite(states, f)) stepping_refuse(in->weight, states, in->nonfinite_stages++, f);
-}
-
-static int explicit_rhs(sunrealtype t, N_Vector y, N_Vector f, void *user)
-{
-    evaluate(user, t, N_VGetArrayPointer(y), N_VGetArrayPointer(f));
     return 0;
 }
 

@@ -5,17 +5,12 @@
 #include "physics/race_contact.h"
 #include "physics/rhs.h"
 #include "rivet/rivet_rom.h"
-#include "solver/implicit.h"
 #include "solver/verlet.h"
 
 struct _generic_N_Vector;  // N_Vector without the headers of SUNDIALS
 
 // ARKODE's vectors have memory for whole passes of a kernel over their rows.
 enum { VECTOR_PASS = 32, VECTOR_ROWS = (N_ALL_STATES + VECTOR_PASS - 1) / VECTOR_PASS * VECTOR_PASS };
-
-// SUNDIALS' linear combination of n such vectors, and its norm of an error.
-typedef int VectorCombine(int n, double *c, struct _generic_N_Vector **x, struct _generic_N_Vector *z);
-typedef double VectorNorm(struct _generic_N_Vector *x, struct _generic_N_Vector *weight);
 
 // The kernels of one instruction set.
 typedef struct {
@@ -27,17 +22,16 @@ typedef struct {
     CageLoads *cage_loads;
     CageSlide *cage_slide;
     RivetRomStress *rivet_rom_stress;
-    VectorCombine *combine;
-    VectorNorm *norm;
+    // SUNDIALS' linear combination of n such vectors, and its norm of an error
+    int (*combine)(int n, double *c, struct _generic_N_Vector **x, struct _generic_N_Vector *z);
+    double (*norm)(struct _generic_N_Vector *x, struct _generic_N_Vector *weight);
     bool (*all_finite)(int n, const double *x);
 } Kernels;
 
 #define own_kernels FOR_ISA(own_kernels)
 extern const Kernels own_kernels;
 
-// The kernels of the best instruction set that this processor and its operating system support.
-Kernels kernels_select(void);
-
-// The kernels that the environment variable RIVETED_BEARING_ISA names (avx512, avx2, baseline), for tests; those of
-// kernels_select without it.  refused: its value where this processor has no such kernels, else NULL.
+// The kernels that the environment variable RIVETED_BEARING_ISA names (avx512, avx2, baseline), for tests; without it those of the
+// best instruction set that this processor and its operating system support.  refused: its value where this processor has no such
+// kernels, else NULL.
 Kernels kernels_wanted(const char **refused);

@@ -10,6 +10,8 @@
 //   v_{n+1} = v^ + delta,  a_{n+1} = (v_{n+1} - v_n)/gamma - a_n   v_{n+1} = v_n + gamma (a_n + a_{n+1})
 //   q_{n+1} += gamma (delta - gamma b)                             where K acts, z too: trapezoidal rule; b: changes of a by loads on
 //                                                                  walls, which q_{n+1} has
+//   chi^ = chi_n + h chi'_n,  chi_{n+1} = chi_n + gamma (chi'_n + chi'(chi^))    turn of balls with spalls (ball_spall.h), beside the error
+//                                                                  norm: 1e-2 rad a step, at a rate that changes little
 //   a_{n+1} -= SMOOTHING H (a_{n+1} - 2 a_n + a_{n-1})             stiff rates: H = 1 - (1 + gamma A)^-1
 //
 // cage_begin and cage_end do this for the rows of the cage; here are those of balls and ring.
@@ -23,7 +25,6 @@
 #include "cage/cage.h"
 #include "numbers/error_norm.h"
 #include "numbers/trapezoid.h"
-#include "physics/ball_turn.h"
 #include "physics/housing.h"
 #include "physics/powers.h"
 #include "physics/rhs.h"
@@ -117,7 +118,7 @@ static __attribute__((noinline)) void rhs_beside(const Model *model, double t, V
     }
     rhs(&with, t, now->y, now->f, w);
     if (model->housing) housing_acceleration(&with, w, &now->housing);
-    if (model->turn) ball_turn_rates(w, &now->turn);
+    for (int j = 0; model->turn && j < Z; j++) now->turn.rate[j] = w->turn_rate[j];
 }
 
 static void rhs_now(const Model *model, double t, VerletState *now, Work *w)
@@ -128,15 +129,25 @@ static void rhs_now(const Model *model, double t, VerletState *now, Work *w)
         rhs(model, t, now->y, now->f, w);
 }
 
-// Place of the housing at the end of the step, with predicted velocities.
-static void housing_predict(double h, const Housing *from, Housing *to)
+// Motions beside the state at the end of the step: place of the housing, with predicted velocities; predicted turn of balls with spalls.
+static void predict_beside(const Model *model, double h, const VerletState *from, VerletState *to)
 {
-    for (int i = 0; i < HOUSING_DOF; i++) {
-        to->x[i] = from->x[i] + h * (from->v[i] + 0.5 * h * from->a[i]);
-        to->v[i] = from->v[i] + h * from->a[i];
-        to->a[i] = from->a[i];
-        to->rest[i] = from->rest[i];
+    const Housing *housing = &from->housing;
+    to->housing = from->housing, to->turn = from->turn;
+    for (int i = 0; model->housing && i < HOUSING_DOF; i++) {
+        to->housing.x[i] = housing->x[i] + h * (housing->v[i] + 0.5 * h * housing->a[i]);
+        to->housing.v[i] = housing->v[i] + h * housing->a[i];
     }
+    for (int j = 0; model->turn && j < Z; j++) to->turn.angle[j] += h * from->turn.rate[j];
+}
+
+// The same by the trapezoidal rule, with the evaluation at the end.
+static void correct_beside(const Model *model, double gamma, const VerletState *from, VerletState *to)
+{
+    for (int i = 0; model->housing && i < HOUSING_DOF; i++)
+        to->housing.v[i] = from->housing.v[i] + gamma * (from->housing.a[i] + to->housing.a[i]);
+    for (int j = 0; model->turn && j < Z; j++)
+        to->turn.angle[j] = from->turn.angle[j] + gamma * (from->turn.rate[j] + to->turn.rate[j]);
 }
 
 void verlet_evaluate(const Model *model, double t, VerletState *now, Work *w)
@@ -161,13 +172,9 @@ double verlet_step(const Model *model, double t, double h, const double *weight,
     // Positions of the step's end; predicted velocities v^ there; the evaluation.
     predict(h, from, middle, y);
     cage_begin(model, h, &start, &from->cage, middle, y, &cage, w);
-    to->housing = from->housing, to->turn = from->turn;
-    if (model->housing) housing_predict(h, &from->housing, &to->housing);
-    if (model->turn) ball_turn_predict(h, &to->turn);
+    predict_beside(model, h, from, to);
     rhs_now(model, t + h, to, w);
-    for (int i = 0; model->housing && i < HOUSING_DOF; i++)  // by the trapezoidal rule
-        to->housing.v[i] = from->housing.v[i] + gamma * (from->housing.a[i] + to->housing.a[i]);
-    if (model->turn) ball_turn_correct(gamma, &from->turn, &to->turn);
+    correct_beside(model, gamma, from, to);
     const double film_power = cage_end(model, &cage, &start, &from->cage, &end, &to->cage, w);
 
     // The residual of the trapezoidal rule at v^, and the linear solve that corrects v^.

@@ -29,7 +29,7 @@ enum {  // {{ name }}
 {% macro struct(name, causalities, real_type) %}
 typedef struct {
 {% for group, members in table.of(*causalities) | struct_members %}
-    struct {
+    struct {{ name }}_{{ group }} {
 {% for member, v in members %}
         {{ real_type if v.type == "Real" else "int" }} {{ member }}{{ "[%s]" % v.size if v.is_array }};  // {{ "[%s] " % v.unit if v.type == "Real" -}}
            {{ v.type ~ ": " if v.type in table.enumerations }}{{ v.description }}

@@ -50,6 +50,11 @@ typedef struct {
 
 void cage_joint_carried(const Model *model, const Work *w, JointShear *shear);
 
+// Adds the loads by the bonded loads V_r, V_t of joints between halves that bend (joint_slip.c).  at: offset, tension, force
+// between the plates.
+void joint_slip_add(const Model *model, const Work *w, const JointMotion *at, const ball_array V_r,
+                    const ball_array V_t, JointShear *shear);
+
 // Loads of all joints from (N, M_r, M_t) of the joints, (T, m_r, m_t) of their rivets and their loads in the plane.
 void cage_joint_loads(const Model *model, const ball_array joint[3], const ball_array rivet[3],
                       const JointShear *shear, JointLoads *load);

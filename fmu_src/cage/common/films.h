@@ -7,11 +7,6 @@
 
 #include "physics/model.h"
 
-// Velocities of one half.
-typedef struct {
-    double x, y, z, beta, gamma, s;
-} HalfVelocity;
-
 // A land's film ready to be solved for one half.
 typedef struct {
     double m, J_p, J_t;  // inertia of the half
@@ -49,36 +44,21 @@ INLINE HalfFilm half_film(const Model *model, const LandFilm *film, int h, doubl
     return (HalfFilm){m, J_p, J_t, x, impulse_yy, impulse_yz, impulse_zz, gamma * film->spin / J_p};
 }
 
-// Takes an impulse (y, z) on the land from the half's velocities.
-INLINE void half_push_land(const HalfFilm *f, double I_y, double I_z, HalfVelocity *v)
+// Takes an impulse (y, z) on the land of half h from the half's velocities in v.
+INLINE void half_push_land(const HalfFilm *f, int h, double I_y, double I_z, double *v)
 {
-    v->y -= I_y / f->m;
-    v->z -= I_z / f->m;
-    v->gamma -= f->x * I_y / f->J_t;
-    v->beta += f->x * I_z / f->J_t;
+    v[Y_CAGE_V_Y + h] -= I_y / f->m;
+    v[Y_CAGE_V_Z + h] -= I_z / f->m;
+    v[Y_CAGE_GAMMA_DOT + h] -= f->x * I_y / f->J_t;
+    v[Y_CAGE_BETA_DOT + h] += f->x * I_z / f->J_t;
 }
 
-// v = (1 + gamma A)^-1 v, A of this film.
-INLINE void half_film_solve(const HalfFilm *f, HalfVelocity *v)
+// v = (1 + gamma A)^-1 v of the velocities of half h, A of this film.
+INLINE void half_film_solve(const HalfFilm *f, int h, double *v)
 {
-    const double u_y = v->y + v->gamma * f->x, u_z = v->z - v->beta * f->x;
-    half_push_land(f, f->yy * u_y + f->yz * u_z, f->yz * u_y + f->zz * u_z, v);
-    v->s /= 1.0 + f->spin;
-}
-
-INLINE HalfVelocity half_velocity_load(const double *v, int h)
-{
-    return (HalfVelocity){.x = v[Y_CAGE_V_X + h],
-                          .y = v[Y_CAGE_V_Y + h],
-                          .z = v[Y_CAGE_V_Z + h],
-                          .beta = v[Y_CAGE_BETA_DOT + h],
-                          .gamma = v[Y_CAGE_GAMMA_DOT + h],
-                          .s = v[Y_CAGE_S + h]};
-}
-
-INLINE void half_velocity_store(const HalfVelocity *half, double *v, int h)
-{
-    v[Y_CAGE_V_X + h] = half->x, v[Y_CAGE_V_Y + h] = half->y, v[Y_CAGE_V_Z + h] = half->z;
-    v[Y_CAGE_BETA_DOT + h] = half->beta, v[Y_CAGE_GAMMA_DOT + h] = half->gamma, v[Y_CAGE_S + h] = half->s;
+    const double u_y = v[Y_CAGE_V_Y + h] + v[Y_CAGE_GAMMA_DOT + h] * f->x,
+                 u_z = v[Y_CAGE_V_Z + h] - v[Y_CAGE_BETA_DOT + h] * f->x;
+    half_push_land(f, h, f->yy * u_y + f->yz * u_z, f->yz * u_y + f->zz * u_z, v);
+    v[Y_CAGE_S + h] /= 1.0 + f->spin;
 }
 #endif

@@ -5,13 +5,6 @@
 //   residual = gamma (a^ - a_n) + removed       at the prediction; the kind of halves solves for delta
 //   v_{n+1} = v^ + delta,  a_{n+1}, errors      trapezoidal rule (trapezoid.h)
 //   u' = (way of the joint)/h                   mean rate of a friction state
-//
-// A of the films in the block Jacobian (implicit.c has the form of its terms and those of balls and ring):
-//
-//   contact                 relative velocity B v                        coefficient C
-//   land, film              v_y + gamma_dot x, v_z - beta_dot x          2 x 2; x: lever of the land
-//   land and bent rim       and its shapes                               Newton's method (land_bent.c)
-//   land, Couette and dry   spin s                                       film.spin
 #include "cage/common/halves_step.h"
 
 #include "cage/common/films.h"
@@ -38,10 +31,8 @@ void halves_move(const Model *model, double h, const StepFrom *from, const doubl
 static void films_solve(const Model *model, const LandFilm film[2], double gamma, double *v)
 {
     for (int h = 0; h < 2; h++) {
-        HalfVelocity half = half_velocity_load(v, h);
         const HalfFilm f = half_film(model, &film[h], h, gamma);
-        half_film_solve(&f, &half);
-        half_velocity_store(&half, v, h);
+        half_film_solve(&f, h, v);
     }
 }
 
@@ -49,7 +40,7 @@ static void films_solve(const Model *model, const LandFilm film[2], double gamma
 // film on which the half rests.  The part of h a_n that is new since the last step, h (a_n - minmod(a_n, a_{n-1})),
 // is therefore damped implicitly with the film matrix at the step's start; the part that both accelerations
 // share is steady and stays.
-static void limit_prediction(const Model *model, const StepFrom *from, const double film[2][3],
+static void limit_prediction(const Model *model, const StepFrom *from, const LandFilm film[2],
                              HalvesStep *step)
 {
     // The new part: minmod is the smaller of two accelerations of the same sign, else 0.
@@ -61,14 +52,11 @@ static void limit_prediction(const Model *model, const StepFrom *from, const dou
     }
 
     // The part that the films leave of it, (1 + h A)^-1 of the films alone, without their spin.
-    LandFilm films[2];
-    for (int land = 0; land < 2; land++)
-        films[land] = (LandFilm){film[land][0], film[land][1], film[land][2], 0.0};
-    films_solve(model, films, step->h, kept);
+    films_solve(model, film, step->h, kept);
     for (int i = FIRST; i < END; i++) step->removed[i] -= kept[i];
 }
 
-void halves_predict(const Model *model, const StepFrom *from, const double film[2][3], double *y,
+void halves_predict(const Model *model, const StepFrom *from, const LandFilm film[2], double *y,
                     HalvesStep *step)
 {
     limit_prediction(model, from, film, step);
@@ -127,16 +115,13 @@ static void remember_friction(const HalvesStep *step, const StepFrom *from, cons
 
 void halves_remember(const Model *model, const Work *w, const HalvesStep *step, const StepFrom *from,
                      const double change[N_STATES], const double unforeseen[N_STATES], const StepTo *to,
-                     double film[2][3])
+                     LandFilm film[2])
 {
     double second_difference[N_STATES];
     trapezoid_error(step->h, from->h, FIRST, END, unforeseen, from->jerk, second_difference, to->error);
     halves_stiff_part(model, w, step->gamma, second_difference);
     trapezoid_end(step->h, FIRST, END, from->f, change, unforeseen, second_difference, to->f, to->jerk);
     remember_friction(step, from, to);
-    for (int land = 0; land < 2; land++) {
-        const double at_end[3] = {w->film[land].yy, w->film[land].yz, w->film[land].zz};
-        memcpy(film[land], at_end, sizeof at_end);
-    }
+    for (int h = 0; h < 2; h++) film[h] = (LandFilm){w->film[h].yy, w->film[h].yz, w->film[h].zz, 0.0};
 }
 #endif

@@ -6,10 +6,9 @@
 #include "cage/common/pocket_films.h"
 #include "physics/model.h"
 
-// Carried from an evaluation to the next step: -dF/dv of each land's film yy, yz, zz [N.s/m]; films in pockets.  Part of the saved
-// state: no member is aligned beyond a double, so that nothing lies between them.
+// Carried from an evaluation to the next step: rates of each land's film but that of the spin, which is 0; films in pockets.
 typedef struct {
-    double film[2][3];
+    LandFilm film[2];
     PocketFilms pockets;
 } HalvesMemory;
 
@@ -40,8 +39,8 @@ typedef struct {
 void halves_move(const Model *model, double h, const StepFrom *from, const double *middle, double *y,
                  HalvesStep *step, Work *w);
 
-// Velocities of the halves at the end as predicted, from those of the middle.  film: -dF/dv of each land's film at the start.
-void halves_predict(const Model *model, const StepFrom *from, const double film[2][3], double *y,
+// Velocities of the halves at the end as predicted, from those of the middle.  film: that of each land at the start.
+void halves_predict(const Model *model, const StepFrom *from, const LandFilm film[2], double *y,
                     HalvesStep *step);
 
 // Residual of the trapezoidal rule at the prediction.
@@ -62,5 +61,5 @@ void halves_slide(const Model *model, const JointStiffness *k, const double *T, 
 // unforeseen: without the part that the substeps foresaw.
 void halves_remember(const Model *model, const Work *w, const HalvesStep *step, const StepFrom *from,
                      const double change[N_STATES], const double unforeseen[N_STATES], const StepTo *to,
-                     double film[2][3]);
+                     LandFilm film[2]);
 #endif

@@ -1,7 +1,9 @@
-// Joints that slip under the loads of the load path: see joint_slip.h.
-#include "cage/common/joint_slip.h"
-
-#include "rivet/rivet_rom.h"
+// Loads of the joints in the plane of the split beside those of the motion: the load path gives the loads of bonded joints
+// between halves that bend.
+//
+// A joint slips, by s along V: of the bonded V the part that friction and hole do not take is relieved through the slip
+// stiffness of the halves (joint_slip).  Friction and play are those that the motion leaves over.
+#include "cage/common/cage_joint.h"
 
 enum { SLIP_SWEEPS = 3 };
 
@@ -37,18 +39,16 @@ static void add_vector(ball_array sum[2], int k, wide r, wide t)
     wide_store(&sum[1][k], wide_load(&sum[1][k]) + t);
 }
 
-void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t, const SlipLimits *limits,
-                 ball_array plates[2], ball_array heads[2], ball_array shank[2])
+// Friction of plates and heads [N] and play [m] that the motion leaves over for more.
+typedef struct {
+    ball_array plates, heads, gap;
+} SlipLimits;
+
+// Adds the loads by the bonded loads V of joints of which some slip.
+static void joints_slip(const Model *model, const SlipLimits *left, const ball_array V_r,
+                        const ball_array V_t, JointShear *shear)
 {
-    bool slips = false;
-    for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-        slips |= wide_any(wide_above(
-            wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - wide_load(&limits->plates[k]), 0.0));
-    if (!slips) {
-        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-            add_vector(plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
-        return;
-    }
+    const JointLaw *law = &rivet_table.half.law;
     const double (*K)[2] = law->K_slip[0];
     scalar slip[2][2 * Z + LANES] = {{0.0}};  // once more behind the last one
     for (int sweep = 0; sweep < SLIP_SWEEPS; sweep++) {
@@ -74,40 +74,45 @@ void joints_slip(const JointLaw *law, const ball_array V_r, const ball_array V_t
             const wide along = e_r * (K[0][0] * e_r + (K[0][1] + K[1][0]) * e_t) + K[1][1] * (e_t * e_t);
             const wide stiffness = wide_select(wide_above(V_rt, 0.0), along, wide_set(K[0][0]));
             wide head, hole;
-            const wide gap = wide_load(&limits->gap[k]), plate = wide_load(&limits->plates[k]),
-                       rest = wide_load(&limits->heads[k]), k_hole = wide_load(&limits->k_hole[k]);
+            const wide gap = wide_load(&left->gap[k]), plate = wide_load(&left->plates[k]),
+                       rest = wide_load(&left->heads[k]), k_hole = wide_load(&model->d->k_hole[k]);
             const wide moved =
-                joint_slip(V_rt, stiffness, gap, plate, rest, limits->k_head, k_hole, &head, &hole);
+                joint_slip(V_rt, stiffness, gap, plate, rest, model->d->k_head, k_hole, &head, &hole);
             const wide s_r = moved * e_r, s_t = moved * e_t;
             wide_store(&next[0][k], s_r);
             wide_store(&next[1][k], s_t);
             if (sweep < SLIP_SWEEPS - 1) continue;
             const wide left_r = r - (K[0][0] * s_r + K[0][1] * s_t),
                        left_t = t - (K[1][0] * s_r + K[1][1] * s_t), rivet = head + hole;
-            add_vector(plates, k, left_r - rivet * e_r, left_t - rivet * e_t);
-            add_vector(heads, k, head * e_r, head * e_t);
-            add_vector(shank, k, hole * e_r, hole * e_t);
+            add_vector(shear->plates, k, left_r - rivet * e_r, left_t - rivet * e_t);
+            add_vector(shear->heads, k, head * e_r, head * e_t);
+            add_vector(shear->shank, k, hole * e_r, hole * e_t);
         }
         for (int i = 0; i < 2; i++)
             for (int k = 0; k < Z; k++) slip[i][k] = slip[i][Z + k] = next[i][k];
     }
 }
 
-void joint_slip_add(const Model *model, const Work *w, const SlipState *at, const ball_array V_r,
+void joint_slip_add(const Model *model, const Work *w, const JointMotion *at, const ball_array V_r,
                     const ball_array V_t, JointShear *shear)
 {
-    const Derived *d = model->d;
     const double mu = model->p->joint.mu;
     const wide zero = wide_set(0.0);
-    SlipLimits left = {.k_head = d->k_head};  // friction and play that the motion leaves for more
+    SlipLimits left;
+    bool slips = false;
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide u = wide_hypot(wide_load(&at->u_y[k]), wide_load(&at->u_z[k]));
         const wide S = wide_hypot(wide_load(&w->S_y[k]), wide_load(&w->S_z[k]));
         const wide H = wide_hypot(wide_load(&w->H_y[k]), wide_load(&w->H_z[k]));
-        wide_store(&left.plates[k], wide_max(mu * wide_load(&at->N_plate[k]) - S, zero));
+        const wide plates = wide_max(mu * wide_load(&at->N_plate[k]) - S, zero);
+        slips |= wide_any(wide_above(wide_hypot(wide_load(&V_r[k]), wide_load(&V_t[k])) - plates, 0.0));
+        wide_store(&left.plates[k], plates);
         wide_store(&left.heads[k], wide_max(mu * wide_load(&at->T[k]) - H, zero));
-        wide_store(&left.gap[k], wide_max(wide_load(&d->hole_gap[k]) - u, zero));
-        wide_store(&left.k_hole[k], wide_load(&d->k_hole[k]));
+        wide_store(&left.gap[k], wide_max(wide_load(&model->d->hole_gap[k]) - u, zero));
     }
-    joints_slip(&rivet_table.half.law, V_r, V_t, &left, shear->plates, shear->heads, shear->shank);
+    if (slips)
+        joints_slip(model, &left, V_r, V_t, shear);
+    else
+        for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
+            add_vector(shear->plates, k, wide_load(&V_r[k]), wide_load(&V_t[k]));
 }

@@ -24,8 +24,6 @@
 #include "cage/elastic/elastic_half.h"
 #include "physics/rotor.h"
 
-static const double ROOT_HALF = 0.70710678118654752;
-
 // Damping below which a film stays a slow force [N.s/m].
 static double weak_film(const Model *model)
 {
@@ -51,50 +49,51 @@ void pocket_films_split(const Model *model, const Work *w, PocketFilms *films)
         }
 }
 
-// Motion along m by velocities of the half, of one lane.
-static void take_lane(const RigidApproach *approach, int lane, double along[RELATIVE_MOTIONS])
+// Velocity of the wall along m by an impulse of 1 N.s on it.
+static double mobility_of(const Model *model, const PocketFilm *film)
 {
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) along[i] = approach->along[i][lane];
+    const double *inertia = &model->d->inertia[Y_CAGE_V_X + film->h];
+    double by_modes = 0.0, by_half = 0.0;
+    for (int i = 0; model->modes && i < N_MODES; i++) by_modes += film->shape[i] * film->shape[i];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) by_half += film->along[i] * film->along[i] / inertia[2 * i];
+    return by_modes / model->p->cage.m + by_half;
 }
 
-// Velocity of the wall along m by an impulse of 1 N.s on it.
-static double mobility_of(const Model *model, int h, const double *shape,
-                          const double along[RELATIVE_MOTIONS])
+// The films of both halves under the rates f, whose approach is that at the time gamma before the positions y; state: velocities there.
+// Returns how many there are.
+static int find_films(const Model *model, double gamma, const PocketFilms *films, const double *f,
+                      const double *state, const double *y, const Work *w, PocketFilm found[2 * Z])
 {
-    const double *inertia = &model->d->inertia[Y_CAGE_V_X + h];
-    double by_modes = 0.0, by_half = 0.0;
-    for (int i = 0; model->modes && i < N_MODES; i++) by_modes += shape[i] * shape[i];
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) by_half += along[i] * along[i] / inertia[2 * i];
-    return by_modes / model->p->cage.m + by_half;
+    int count = 0;
+    for (int h = 0; h < 2; h++)
+        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
+            const int mask = wide_mask(wide_above(wide_load(&films->D[h][j]), 0.0));
+            RigidApproach approach;
+            if (mask == 0) continue;
+            const double *const m[3] = {films->m_x[h], films->m_r[h], films->m_t[h]};
+            rigid_approach(model, gamma, m, f, state, y, w, h, j, &approach);
+            for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
+                const int k = j + lane;
+                if (!(mask >> lane & 1)) continue;
+                PocketFilm *film = &found[count++];
+                const double F = films->F[h][k];
+                *film = (PocketFilm){.h = h, .k = k, .D = films->D[h][k], .F_0 = F, .F = F};
+                film->rate = approach.rate[lane], film->acceleration = approach.acceleration[lane];
+                for (int i = 0; i < RELATIVE_MOTIONS; i++) film->along[i] = approach.along[i][lane];
+                for (int i = 0; i < 3; i++) film->direction[i] = approach.direction[i][lane];
+                memcpy(film->shape, films->shape[h][k], sizeof films->shape[h][k]);
+                film->mobility = mobility_of(model, film);
+            }
+        }
+    return count;
 }
 
 void pocket_films_find(const Model *model, double h, const PocketFilms *films, const double *f,
                        const double *state, const double *y, const Work *w, PocketFilmsStep *step)
 {
-    step->count = 0;
     step->middle = 0.5 * h;
-    if (!model->d->squeeze.filled) return;
-    for (int half = 0; half < 2; half++)
-        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&films->D[half][j]), 0.0));
-            RigidApproach approach;
-            if (mask == 0) continue;
-            const double *const m[3] = {films->m_x[half], films->m_r[half], films->m_t[half]};
-            rigid_approach(model, step->middle, m, f, state, y, w, half, j, &approach);
-            for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
-                const int k = j + lane, i = step->count;
-                if (!(mask >> lane & 1)) continue;
-                take_lane(&approach, lane, step->along[i]);
-                step->half[i] = half, step->ball[i] = k;
-                step->mobility[i] = mobility_of(model, half, films->shape[half][k], step->along[i]);
-                step->D[i] = films->D[half][k], step->F_0[i] = step->F[i] = films->F[half][k],
-                step->impulse[i] = 0.0;
-                step->rate[i] = approach.rate[lane], step->acceleration[i] = approach.acceleration[lane];
-                memset(step->shape[i], 0, sizeof step->shape[i]);
-                memcpy(step->shape[i], films->shape[half][k], sizeof films->shape[half][k]);
-                step->count++;
-            }
-        }
+    step->count =
+        model->d->squeeze.filled ? find_films(model, step->middle, films, f, state, y, w, step->film) : 0;
 }
 
 // Adds velocities of both halves' modes to those of S and D.
@@ -107,21 +106,19 @@ static void add_half_modes(mode_array half[2], double *v)
 }
 
 // Velocity of a wall by velocities of its half's modes and of the half.
-static double wall_speed(const Model *model, const double *shape, const double *modes,
-                         const double along[RELATIVE_MOTIONS], const double *rows)
+static double wall_speed(const Model *model, const PocketFilm *film, const double *modes, const double *rows)
 {
-    double sum = model->modes ? elastic_sum(shape, modes) : 0.0;
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) sum += along[i] * rows[2 * i];
+    double sum = model->modes ? elastic_sum(film->shape, modes) : 0.0;
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) sum += film->along[i] * rows[2 * i];
     return sum;
 }
 
 // Adds an impulse [N.s] on a wall to these velocities.
-static void push_wall(const Model *model, int h, double impulse, const double *shape,
-                      const double along[RELATIVE_MOTIONS], double *modes, double *rows)
+static void push_wall(const Model *model, const PocketFilm *film, double impulse, double *modes, double *rows)
 {
-    const double *inertia = &model->d->inertia[Y_CAGE_V_X + h], part = impulse / model->p->cage.m;
-    for (int i = 0; model->modes && i < N_MODES; i++) modes[i] += part * shape[i];
-    for (int i = 0; i < RELATIVE_MOTIONS; i++) rows[2 * i] += impulse * along[i] / inertia[2 * i];
+    const double *inertia = &model->d->inertia[Y_CAGE_V_X + film->h], part = impulse / model->p->cage.m;
+    for (int i = 0; model->modes && i < N_MODES; i++) modes[i] += part * film->shape[i];
+    for (int i = 0; i < RELATIVE_MOTIONS; i++) rows[2 * i] += impulse * film->along[i] / inertia[2 * i];
 }
 
 // Force of a film whose gap closes with u less `give` times the force.
@@ -142,25 +139,23 @@ void pocket_films_follow(const Model *model, double t, double d, double *v,
         modes[1][i] = ROOT_HALF * (v[i] + v[N_MODES + i]);
     }
     memset(change, 0, sizeof change);
-    for (int i = 0; i < step->count; i++) {
-        const int h = step->half[i];
-        double u = step->rate[i] + step->acceleration[i] * (t - step->middle);
-        u -= wall_speed(model, step->shape[i], modes[h], step->along[i], &halves[h]);
-        u -= wall_speed(model, step->shape[i], change[h], step->along[i], &rows[h]);
-        step->F[i] =
-            implicit_force(step->D[i], u + step->mobility[i] * d * step->F_0[i], d * step->mobility[i]);
-        step->impulse[i] += d * step->F[i];
-        push_wall(model, h, d * (step->F[i] - step->F_0[i]), step->shape[i], step->along[i], change[h],
-                  &rows[h]);
+    for (PocketFilm *film = step->film; film < step->film + step->count; film++) {
+        const int h = film->h;
+        double u = film->rate + film->acceleration * (t - step->middle);
+        u -= wall_speed(model, film, modes[h], &halves[h]);
+        u -= wall_speed(model, film, change[h], &rows[h]);
+        film->F = implicit_force(film->D, u + film->mobility * d * film->F_0, d * film->mobility);
+        film->impulse += d * film->F;
+        push_wall(model, film, d * (film->F - film->F_0), change[h], &rows[h]);
     }
     add_half_modes(change, v);
     for (int i = 0; i < 2 * RELATIVE_MOTIONS; i++) pushed[i] += rows[i];
 }
 
 // Force at the step's end that, with that at its start, makes the impulses of the substeps.
-static double foreseen_force(const PocketFilmsStep *step, int i)
+static double foreseen_force(const PocketFilmsStep *step, const PocketFilm *film)
 {
-    return step->impulse[i] / step->middle - step->F_0[i];
+    return film->impulse / step->middle - film->F_0;
 }
 
 void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, double modes[2 * N_MODES],
@@ -169,11 +164,8 @@ void pocket_films_foreseen(const Model *model, const PocketFilmsStep *step, doub
     mode_array change[2];
     if (step->count == 0) return;
     memset(change, 0, sizeof change);
-    for (int i = 0; i < step->count; i++) {
-        const int h = step->half[i];
-        push_wall(model, h, foreseen_force(step, i) - step->F_0[i], step->shape[i], step->along[i], change[h],
-                  &halves[h]);
-    }
+    for (const PocketFilm *film = step->film; film < step->film + step->count; film++)
+        push_wall(model, film, foreseen_force(step, film) - film->F_0, change[film->h], &halves[film->h]);
     add_half_modes(change, modes);
 }
 
@@ -183,30 +175,23 @@ typedef struct {
     double halves[2 * RELATIVE_MOTIONS], balls[Z][3];
 } FilmChange;
 
-// A film at the end of a step: motion of the wall along m by its modes and by velocities of the half, m along (x, r, t) of the ball.
-typedef struct {
-    int h, k;
-    mode_array shape;
-    double along[RELATIVE_MOTIONS], direction[3];
-} EndFilm;
-
 // Adds an impulse on a wall, and another one against it on the ball.
-static void push_both(const Model *model, const EndFilm *film, double on_wall, double on_ball, FilmChange *to)
+static void push_both(const Model *model, const PocketFilm *film, double on_wall, double on_ball,
+                      FilmChange *to)
 {
-    push_wall(model, film->h, on_wall, film->shape, film->along, to->modes[film->h], &to->halves[film->h]);
+    push_wall(model, film, on_wall, to->modes[film->h], &to->halves[film->h]);
     for (int i = 0; i < 3; i++) to->balls[film->k][i] -= on_ball / model->d->m * film->direction[i];
 }
 
-// Solves for the force of one film, which both changes get; returns the power that it saves [W].
-static double solve_film(const Model *model, double gamma, const EndFilm *film, double F_0, double F_f,
+// Solves for the force of one film at a step's end, which both changes get; returns the power that it saves [W].
+static double solve_film(const Model *model, double gamma, const PocketFilm *film, double F_0, double F_f,
                          FilmChange *solved, FilmChange *rates, PocketFilms *films, Work *w)
 {
     const int h = film->h, k = film->k;
-    const double D = films->D[h][k], F = films->F[h][k];
-    const double of_wall = mobility_of(model, h, film->shape, film->along);
+    const double D = film->D, F = film->F_0, of_wall = film->mobility;  // F: of the evaluation
     const double of_ball = dot3(film->direction, film->direction) / model->d->m;
     double u = films->u[h][k] + dot3(film->direction, solved->balls[k]);
-    u -= wall_speed(model, film->shape, solved->modes[h], film->along, &solved->halves[h]);
+    u -= wall_speed(model, film, solved->modes[h], &solved->halves[h]);
     const double push = gamma * (of_wall * F_f + of_ball * F_0);
     const double F_new = implicit_force(D, u + push, gamma * (of_wall + of_ball));
     push_both(model, film, gamma * (F_new - F_f), gamma * (F_new - F_0), solved);
@@ -234,31 +219,18 @@ double pocket_films_arrive(const Model *model, double gamma, const PocketFilmsSt
                            const PocketFilms *before, const double *y, Work *w, double *f, PocketFilms *films)
 {
     FilmChange solved, rates;
+    PocketFilm end[2 * Z];
     double foreseen[2][LANES], saved = 0.0;
     if (!model->d->squeeze.filled) return 0.0;
     memset(&solved, 0, sizeof solved);
     memset(&rates, 0, sizeof rates);
     memcpy(foreseen, before->F, sizeof foreseen);
     for (int i = 0; step && i < step->count; i++)
-        foreseen[step->half[i]][step->ball[i]] = foreseen_force(step, i);
-    for (int h = 0; h < 2; h++)
-        for (int j = 0; j < PACKETS * LANE_WIDTH; j += LANE_WIDTH) {
-            const int mask = wide_mask(wide_above(wide_load(&films->D[h][j]), 0.0));
-            RigidApproach approach;
-            if (mask == 0) continue;
-            const double *const m[3] = {films->m_x[h], films->m_r[h], films->m_t[h]};
-            rigid_approach(model, 0.0, m, f, y, y, w, h, j, &approach);
-            for (int lane = 0; lane < LANE_WIDTH && j + lane < Z; lane++) {
-                const int k = j + lane;
-                EndFilm film = {.h = h, .k = k};
-                if (!(mask >> lane & 1)) continue;
-                take_lane(&approach, lane, film.along);
-                for (int i = 0; i < 3; i++) film.direction[i] = approach.direction[i][lane];
-                memcpy(film.shape, films->shape[h][k], sizeof films->shape[h][k]);
-                saved += solve_film(model, gamma, &film, before->F[h][k], foreseen[h][k], &solved, &rates,
-                                    films, w);
-            }
-        }
+        foreseen[step->film[i].h][step->film[i].k] = foreseen_force(step, &step->film[i]);
+    const int count = find_films(model, 0.0, films, f, y, y, w, end);
+    for (const PocketFilm *film = end; film < end + count; film++)
+        saved += solve_film(model, gamma, film, before->F[film->h][film->k], foreseen[film->h][film->k],
+                            &solved, &rates, films, w);
     add_rates(model, &rates, y, f);
     return saved;
 }

@@ -4,8 +4,7 @@
 
 #include "physics/model.h"
 
-// The films of both halves at an evaluation, D = 0 where there is none.  Part of the saved state: no member is aligned beyond a
-// double.
+// The films of both halves at an evaluation, D = 0 where there is none.
 typedef struct {
     double D[2][LANES], u[2][LANES], F[2][LANES];        // damping [N.s/m], speed of closing [m/s], force [N]
     double m_x[2][LANES], m_r[2][LANES], m_t[2][LANES];  // direction along the pocket's axes
@@ -14,17 +13,23 @@ typedef struct {
     double rate;
 } PocketFilms;
 
+// A film within a step.
+typedef struct {
+    int h, k;                        // of this half, before this ball
+    double D, F_0, F;                // damping; force at the step's start and now
+    double impulse;                  // so far [N.s]
+    double rate, acceleration;       // of the rigid approach, in the middle of the step and at its start
+    double mobility;                 // of wall and half [m/s/(N.s)]
+    double along[RELATIVE_MOTIONS];  // motion of the wall along m by those of the half, and by each mode
+    mode_array shape;
+    double direction[3];  // m along (x, r, t) of the ball
+} PocketFilm;
+
 // Films that follow in the substeps of a step.
 typedef struct {
-    int count, half[2 * Z], ball[2 * Z];
-    double middle;                          // of the step [s]
-    double D[2 * Z], F_0[2 * Z], F[2 * Z];  // damping; force at the step's start and now
-    double impulse[2 * Z];                  // so far [N.s]
-    double rate[2 * Z],
-        acceleration[2 * Z];  // of the rigid approach, in the middle of the step and at its start
-    double mobility[2 * Z];   // of wall and half [m/s/(N.s)]
-    double along[2 * Z][RELATIVE_MOTIONS];  // motion along m by those of the half
-    mode_array shape[2 * Z];
+    int count;
+    double middle;  // of the step [s]
+    PocketFilm film[2 * Z];
 } PocketFilmsStep;
 
 // Adds `more`, the film's force at the end of a step less that of an evaluation, to load and force of a pocket.

@@ -1,6 +1,5 @@
 // Constants of the pockets of a ribbon cage.  Equations in pocket_spheres.c.
 #include "cage/common/pocket_spheres.h"
-#include "numbers/elementary.h"
 #include "physics/hertz.h"
 
 #include <math.h>

@@ -2,7 +2,6 @@
 #include "cage/common/rigid_approach.h"
 
 #include "numbers/vec.h"
-#include "physics/rotor.h"
 
 void rigid_approach(const Model *model, double gamma, const double *const direction[3], const double *f,
                     const double *state, const double *y, const Work *w, int h, int j, RigidApproach *to)

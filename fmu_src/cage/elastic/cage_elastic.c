@@ -31,7 +31,6 @@
 #include "cage/common/spin_preload.h"
 #include "cage/elastic/elastic_half.h"
 #include "cage/elastic/elastic_lands.h"
-#include "physics/land_bent.h"
 #include "physics/rotor.h"
 #include "rivet/rivet_rom.h"
 
@@ -70,31 +69,30 @@ void cage_elastic_in(const ElasticHalf *half, const scalar *D, ball_array to[PAD
 void cage_elastic_kinematics(const Model *model, const scalar *y, Work *w)
 {
     const ElasticHalf *half = model->modes;
+    ElasticWork *e = &w->cage.elastic;
     const double inv_root = 1.0 / ROOT;
     const scalar *S = &y[Y_MODE_S], *D = &y[Y_MODE_D], *S_dot = &y[Y_MODE_S_DOT], *D_dot = &y[Y_MODE_D_DOT];
     for (int i = 0; i < MODES; i++) {
-        w->cage.elastic.q[0][i] = inv_root * (S[i] - D[i]),
-        w->cage.elastic.q[1][i] = inv_root * (S[i] + D[i]);
-        w->cage.elastic.q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]),
-        w->cage.elastic.q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
-        w->cage.elastic.wall_force[0][i] = w->cage.elastic.wall_force[1][i] = 0.0;
+        e->q[0][i] = inv_root * (S[i] - D[i]), e->q[1][i] = inv_root * (S[i] + D[i]);
+        e->q_dot[0][i] = inv_root * (S_dot[i] - D_dot[i]), e->q_dot[1][i] = inv_root * (S_dot[i] + D_dot[i]);
+        e->wall_force[0][i] = e->wall_force[1][i] = 0.0;
     }
-    cage_elastic_out(half, S, w->cage.elastic.pad_out);
-    cage_elastic_in(half, D, w->cage.elastic.pad_in);
-    cage_elastic_in(half, D_dot, w->cage.elastic.pad_in_dot);
+    cage_elastic_out(half, S, e->pad_out);
+    cage_elastic_in(half, D, e->pad_in);
+    cage_elastic_in(half, D_dot, e->pad_in_dot);
     for (int h = 0; h < 2; h++) {
-        const scalar *q = w->cage.elastic.q[h], *q_b = &q[half->count[0]];
+        const scalar *q = e->q[h], *q_b = &q[half->count[0]];
         mode_array moved;
         for (int i = 0; i < MODES; i++) moved[i] = fabs(scalar_value(q[i]));
         for (int m = 0; m < half->pairs; m++) {
             const double a = scalar_value(q[m]), b = scalar_value(q_b[m]);
             moved[m] = sqrt(a * a + b * b);
         }
-        w->cage.elastic.reach_others[h] = elastic_dot(half->widest_others, moved);
-        w->cage.elastic.reach[h] = w->cage.elastic.reach_others[h] + elastic_dot(half->widest, moved);
-        w->cage.elastic.more_J[h] = 2.0 * elastic_dot(half->centrifugal, w->cage.elastic.q[h]);
-        w->cage.elastic.more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, w->cage.elastic.q_dot[h]);
-        elastic_rims(half, w->cage.elastic.q[h], w->cage.elastic.q_dot[h], w->rim[h], w->rim_v[h]);
+        e->reach_others[h] = elastic_dot(half->widest_others, moved);
+        e->reach[h] = e->reach_others[h] + elastic_dot(half->widest, moved);
+        e->more_J[h] = 2.0 * elastic_dot(half->centrifugal, q);
+        e->more_J_dot[h] = 2.0 * elastic_dot(half->centrifugal, e->q_dot[h]);
+        elastic_rims(half, q, e->q_dot[h], w->rim[h], w->rim_v[h]);
     }
 }
 
@@ -270,6 +268,7 @@ void cage_elastic_pull(const Model *model, ElasticJoints *joints)
 void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, scalar *y_dot)
 {
     const ElasticHalf *half = model->modes;
+    ElasticWork *e = &w->cage.elastic;
     const double inv_root = 1.0 / ROOT, m = model->p->cage.m, inv_m = 1.0 / m;
     mode_array mirrored, opposed, rates, lost, one;
     scalar spin[2];
@@ -277,15 +276,15 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
         const scalar s = w->half[h].s + w->frame_omega, *force = w->pressure[h].rim_force;
         spin[h] = s * s;
         for (int c = 0; model->d->guided && c < RIM; c++)
-            for (int i = 0; i < MODES; i++) w->cage.elastic.wall_force[h][i] += half->rim[c][i] * force[c];
+            for (int i = 0; i < MODES; i++) e->wall_force[h][i] += half->rim[c][i] * force[c];
     }
     for (int i = 0; i < MODES; i++) {
-        const scalar f_0 = w->cage.elastic.wall_force[0][i] + spin[0] * half->centrifugal[i];
-        const scalar f_1 = w->cage.elastic.wall_force[1][i] + spin[1] * half->centrifugal[i];
+        const scalar f_0 = e->wall_force[0][i] + spin[0] * half->centrifugal[i];
+        const scalar f_1 = e->wall_force[1][i] + spin[1] * half->centrifugal[i];
         mirrored[i] = inv_root * (f_1 + f_0), opposed[i] = inv_root * (f_1 - f_0);
     }
 
-    ElasticJoints *joints = &w->cage.elastic.joints;
+    ElasticJoints *joints = &e->joints;
     cage_elastic_pull(model, joints);
 
     // rates, energy and dissipation
@@ -305,11 +304,10 @@ void cage_elastic_acceleration(const Model *model, const scalar *y, Work *w, sca
     }
     for (int i = half->n; i < MODES; i++)
         y_dot[Y_MODE_S + i] = y_dot[Y_MODE_D + i] = y_dot[Y_MODE_S_DOT + i] = y_dot[Y_MODE_D_DOT + i] = 0.0;
-    w->cage.elastic.energy = 0.5 * m * elastic_sum(rates, one);
-    w->cage.elastic.dissipated = m * elastic_sum(lost, one);
+    e->energy = 0.5 * m * elastic_sum(rates, one);
+    e->dissipated = m * elastic_sum(lost, one);
     for (int h = 0; h < 2; h++)
-        w->cage.elastic.energy +=
-            0.5 * w->cage.elastic.more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
+        e->energy += 0.5 * e->more_J[h] * (w->half[h].s * w->half[h].s - w->frame_omega * w->frame_omega);
 }
 
 void cage_elastic_rivets(const Model *model, const Work *w, JointLoads *load)

@@ -46,7 +46,6 @@
 #include "cage/elastic/elastic_half.h"
 #include "cage/elastic/wall_loads.h"
 #include "physics/rotor.h"
-#include "rivet/rivet_rom.h"
 
 static const double MOST_SUBSTEPS = 1000.0;  // an absurd step ends with a refusal, not with years of substeps
 static const double ROUNDING = 1e-9;         // part of a substep by which the last one may be longer

@@ -7,8 +7,7 @@
 #include "cage/elastic/rim_films.h"
 #include "physics/model.h"
 
-// Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.  Part
-// of the saved state: no member is aligned beyond a double, so that nothing lies between them.
+// Where the substeps of the next step begin: joints, contacts and fast accelerations at an evaluation.
 typedef struct {
     double e[3][LANES], u_y[LANES], u_z[LANES];  // motions of the joints out of the plane and offsets in it
     WallTouch touch;

@@ -1,7 +1,6 @@
 // A half's vibration modes in a scene: see elastic_half.h.
 #include "cage/elastic/elastic_half.h"
 
-#include "cage/common/centrifugal.h"
 #include "cage/common/spin_preload.h"
 #include "numbers/elementary.h"
 #include "numbers/elimination.h"
@@ -323,12 +322,6 @@ double elastic_half_rest(const Parameters *p, const Derived *d, const ElasticHal
     return x[0];
 }
 
-static ElasticBody body_of(const Parameters *p, const Derived *d)
-{
-    return (ElasticBody){p->cage.shape, p->cage.m, p->cage.land_x, p->bearing.d_m,
-                         d->J_p,        d->J_t,    d->k_plate_t};
-}
-
 // Constants that follow from the body alone.
 static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
@@ -354,15 +347,16 @@ static void derive_body(const Parameters *p, const Derived *d, ElasticHalf *half
     take_residual(&table->law, half);
     if (ribbon) take_alike(half);
     find_reach(p, d, ribbon, half);
-    half->of_body = body_of(p, d);
     half->of_k_hole = -1.0;
 }
 
 void elastic_half_derive(const Parameters *p, const Derived *d, ElasticHalf *half)
 {
     const HalfModes *table = &rivet_table.modes;
-    const ElasticBody body = body_of(p, d);
-    if (memcmp(&half->of_body, &body, sizeof body) != 0) derive_body(p, d, half);
+    const double body[] = {p->cage.shape, p->cage.m, p->cage.land_x, p->bearing.d_m,
+                           d->J_p,        d->J_t,    d->k_plate_t};
+    if (memcmp(half->of_body, body, sizeof body) != 0) derive_body(p, d, half);
+    memcpy(half->of_body, body, sizeof body);
     take_forces(p, half);
 
     // mean over r and t, of both halves

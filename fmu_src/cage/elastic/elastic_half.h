@@ -24,6 +24,8 @@
 #include "cage/elastic/half_modes.h"
 #include "physics/model.h"
 
+static const double ROOT_HALF = 0.7071067811865476;  // of 1/2
+
 enum { MODES = N_MODES };
 
 // Motions of pads against each other out of the plane and in it.
@@ -38,11 +40,6 @@ enum { FIRST = (Z + 1) / 2, OUT_OCTETS = (PAD_OUT * FIRST + 7) / 8, IN_OCTETS = 
 enum { ENTRY_OCTETS = ENTRIES / 8 };
 
 enum { WALL_NODES = 16, WALL_RADII = 3 };  // of a wall, at most
-
-// Parameters and constants from which the constants of a half are derived that no temperature changes.
-typedef struct {
-    double shape, m, land_x, d_m, J_p, J_t, friction;
-} ElasticBody;
 
 struct ElasticHalf {
     int n, count[2];                        // modes; coordinates a and b
@@ -83,9 +80,8 @@ struct ElasticHalf {
     constants k_hole;  // stiffness of the holes in series with the residual [N/m]
     double substep, longest_step;  // of the default method, at most [s]
 
-    // from which all this was derived: the body, the largest stiffness of the holes
-    ElasticBody of_body;
-    double of_k_hole;
+    // from which all this was derived: the parameters and constants of the body, the largest stiffness of the holes
+    double of_body[7], of_k_hole;
 
     // the joints' law over L_K = L + K delta, which gives L; the fourth number is U, whose slope is delta
     const JointLaw *law;

@@ -12,14 +12,13 @@
 // and the rivet's loads change by law_0(L_0', P + Delta P) - law_0(L_0, P), which is 0 without a film.  One sweep leaves
 // 10 % of the change, two leave 1.3 %.  A film whose Delta L is less than 0.5 % of the joints' loads has one sweep, from
 // 1 % on two, between them a smooth part of the second.  In the plane friction and play that the motion leaves over carry
-// Delta V, as between rigid halves (joint_slip.h).
+// Delta V, as between rigid halves (joint_slip.c).
 //
 // The second and the third wave of the load bend the rims and so the film's own gap: they act on the modes (land_bent.h), which
 // carry the bonded loads of the joints to 2 %, and leave only Delta P and dm here.  Faint films are left out.
 // Smoothness: that of the law, C1.
 #include "cage/elastic/elastic_lands.h"
 
-#include "cage/common/joint_slip.h"
 #include "cage/elastic/elastic_half.h"
 #include "physics/land_bent.h"
 #include "physics/land_film.h"
@@ -123,12 +122,12 @@ static void sweep_again(const Derived *d, const Answers *before, scalar part, co
 }
 
 // Rows of the load path.
-static void find_rows(const Model *model, const Work *w, PathRows *rows)
+static void find_rows(const Model *model, const Work *w, ball_array rows[ROWS])
 {
     LandLoad land[2];
     land_film_loads(w, land);
     const scalar *re[2] = {land[0].re, land[1].re}, *im[2] = {land[0].im, land[1].im};
-    memset(rows, 0, sizeof *rows);
+    memset(rows, 0, ROWS * sizeof *rows);
     half_path_add_lands(&model->d->land_path, re, im, rows);
 }
 
@@ -141,15 +140,14 @@ bool elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
     const ElasticJoints *by_modes = &w->cage.elastic.joints;
     const int kind[3] = {ROW_N, ROW_M_R, ROW_M_T};
     const wide zero = wide_set(0.0);
-    PathRows rows;
-    ball_array more_P, N_plate;
+    ball_array rows[ROWS], more_P, N_plate;
     Answers before, now;
-    find_rows(model, w, &rows);
+    find_rows(model, w, rows);
     find_start(model->modes, by_modes, before.load);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
-        wide_store(&more_P[k], wide_max(wide_load(&P[k]) + wide_load(&rows.row[ROW_DP][k]), zero));
+        wide_store(&more_P[k], wide_max(wide_load(&P[k]) + wide_load(&rows[ROW_DP][k]), zero));
         for (int i = 0; i < 3; i++)
-            wide_store(&now.load[i][k], wide_load(&before.load[i][k]) + wide_load(&rows.row[kind[i]][k]));
+            wide_store(&now.load[i][k], wide_load(&before.load[i][k]) + wide_load(&rows[kind[i]][k]));
     }
     const scalar part = second_part(&before, &now, P);
     answer(d, P, &before);
@@ -162,7 +160,7 @@ bool elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
             for (int n = 0; n < 3; n++)
                 load -= law->K_0[i][n] * (wide_load(&now.move[n][k]) - wide_load(&before.move[n][k]));
             wide rivet = wide_load(&now.rivet[i][k]) - wide_load(&before.rivet[i][k]);
-            if (i > 0) rivet += wide_load(&d->intact[k]) * wide_load(&rows.row[ROW_DP + i][k]);
+            if (i > 0) rivet += wide_load(&d->intact[k]) * wide_load(&rows[ROW_DP + i][k]);
             rivet += wide_load(&by_modes->rivet[i][k]);
             wide_store(&joints->load[i][k], wide_load(&by_modes->load[i][k]) + load);
             wide_store(&joints->rivet[i][k], i == 0 ? wide_max(rivet, zero) : rivet);
@@ -170,7 +168,8 @@ bool elastic_lands(const Model *model, const Work *w, const ball_array P, Landed
         const wide T = wide_load(&joints->rivet[0][k]);
         wide_store(&N_plate[k], wide_max(T - wide_load(&joints->load[0][k]), zero));
     }
-    const SlipState at = {by_modes->u_y, by_modes->u_z, joints->rivet[0], N_plate};
-    joint_slip_add(model, w, &at, rows.row[ROW_V_R], rows.row[ROW_V_T], shear);
+    const JointMotion at = {
+        .u_y = by_modes->u_y, .u_z = by_modes->u_z, .T = joints->rivet[0], .N_plate = N_plate};
+    joint_slip_add(model, w, &at, rows[ROW_V_R], rows[ROW_V_T], shear);
     return true;
 }

@@ -13,7 +13,6 @@
 #include "cage/common/films.h"
 #include "cage/elastic/cage_elastic.h"
 #include "cage/elastic/elastic_half.h"
-#include "numbers/trapezoid.h"
 #include "physics/land_bent.h"
 
 void elastic_split(const Model *model, const double *y, const Work *w, double *f, ElasticMemory *memory)
@@ -87,18 +86,19 @@ static void rim_lacks(const Model *model, const ElasticStep *step, const double 
 
 // v = (1 + gamma A)^-1 v of a half and its bent rim, by the law at the end of the step (land_bent.c).
 static void solve_bent_half(const Work *w, int h, double gamma, const HalfFilm *f, const double lack[RIM],
-                            double squeeze[SQUEEZE], BentSolution *bent, HalfVelocity *half)
+                            double squeeze[SQUEEZE], BentSolution *bent, double *v)
 {
     const double *b_y = w->half[h].b_y, *b_z = w->half[h].b_z;
-    const double u_y = half->y + half->gamma * f->x, u_z = half->z - half->beta * f->x;
+    const double u_y = v[Y_CAGE_V_Y + h] + v[Y_CAGE_GAMMA_DOT + h] * f->x,
+                 u_z = v[Y_CAGE_V_Z + h] - v[Y_CAGE_BETA_DOT + h] * f->x;
     double residual[SQUEEZE] = {b_y[1] * u_y + b_y[2] * u_z, b_z[1] * u_y + b_z[2] * u_z};
     for (int i = 0; i < RIM; i++) residual[2 + i] = gamma * lack[i];
     bent_solve(w, h, gamma, residual, squeeze, bent);
     const double *impulse = bent->impulse;
-    half_push_land(f, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
-                   half);
-    for (int i = 0; i < SQUEEZE; i++) half->s -= impulse[i] * w->pressure[h].by_spin[i] / f->J_p;
-    half->s /= 1.0 + f->spin;
+    half_push_land(f, h, b_y[1] * impulse[0] + b_z[1] * impulse[1], b_y[2] * impulse[0] + b_z[2] * impulse[1],
+                   v);
+    for (int i = 0; i < SQUEEZE; i++) v[Y_CAGE_S + h] -= impulse[i] * w->pressure[h].by_spin[i] / f->J_p;
+    v[Y_CAGE_S + h] /= 1.0 + f->spin;
 }
 
 // The velocities of both halves by their films, with those of bent rims.
@@ -106,13 +106,11 @@ static void solve_halves(const Model *model, const Work *w, double gamma, double
                          double squeeze[2][SQUEEZE], BentSolution bent[2], double *v)
 {
     for (int h = 0; h < 2; h++) {
-        HalfVelocity half = half_velocity_load(v, h);
         const HalfFilm f = half_film(model, &w->film[h], h, gamma);
         if (lands_bend(model))
-            solve_bent_half(w, h, gamma, &f, lack[h], squeeze[h], &bent[h], &half);
+            solve_bent_half(w, h, gamma, &f, lack[h], squeeze[h], &bent[h], v);
         else
-            half_film_solve(&f, &half);
-        half_velocity_store(&half, v, h);
+            half_film_solve(&f, h, v);
     }
 }
 

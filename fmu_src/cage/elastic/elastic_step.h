@@ -6,8 +6,7 @@
 #include "cage/elastic/rim_films.h"
 #include "physics/model.h"
 
-// Carried from an evaluation to the next step.  Part of the saved state: no member is aligned beyond a double, so that nothing
-// lies between them.
+// Carried from an evaluation to the next step.
 typedef struct {
     FastState fast;
     RimFilms films;

@@ -18,7 +18,6 @@ typedef struct {
     double omega;     // [rad/s]
     int harmonic;     // n = 0...Z/2
     int parity;       // 0: a and b; 1: a alone; -1: b alone
-    int modes;        // 2 of a pair, else 1
     double at[PADS];  // amplitudes at the pad
     double spin;      // modal force per (rad/s)^2
     // of the rim's radial displacement at the land: cos p theta of a, sin p theta of b, p = 2 and 3, by 1 and x

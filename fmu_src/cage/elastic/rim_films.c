@@ -21,8 +21,6 @@
 #include "cage/elastic/elastic_half.h"
 #include "physics/land_bent.h"
 
-static const double ROOT_HALF = 0.7071067811865476;  // of 1/2
-
 void rim_motions(const Model *model, const double *modes, double rim[2][RIM])
 {
     double S[RIM], D[RIM];

@@ -5,7 +5,7 @@
 #include "physics/model.h"
 
 // Forces on the shapes of both bent rims and rates of land and rim at an evaluation, both 0 of a rim that is not bent; stiffness of the gap
-// that has the larger one [N/m].  Part of the saved state: no member is aligned beyond a double.
+// that has the larger one [N/m].
 typedef struct {
     double force[2][RIM], rates[2][SQUEEZE][SQUEEZE], stiffness;
 } RimFilms;

@@ -29,7 +29,6 @@
 
 #include "cage/common/pocket.h"
 #include "cage/elastic/elastic_half.h"
-#include "numbers/vec.h"
 #include "physics/hertz.h"
 
 // Motions of the walls at the coordinates q of S and D.

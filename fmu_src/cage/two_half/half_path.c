@@ -46,7 +46,7 @@ static void add_touch(const HalfPath *path, int side, const PathForces *on, scal
     }
 }
 
-bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows)
+bool half_path_rows(const HalfPath *path, const PathForces on[2], ball_array rows[ROWS])
 {
     octet joint[Z];
     bool touched = false;
@@ -77,13 +77,14 @@ bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows
     }
     if (!touched) return false;
     for (int i = 0; i < ROWS; i++) {
-        for (int k = 0; k < Z; k++) rows->row[i][k] = joint[k].x[i];
-        for (int k = Z; k < LANES; k++) rows->row[i][k] = 0.0;  // padding
+        for (int k = 0; k < Z; k++) rows[i][k] = joint[k].x[i];
+        for (int k = Z; k < LANES; k++) rows[i][k] = 0.0;  // padding
     }
     return true;
 }
 
-void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2], PathRows *rows)
+void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2],
+                         ball_array rows[ROWS])
 {
     octet joint[Z];
     memset(joint, 0, sizeof joint);
@@ -108,5 +109,5 @@ void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar
         }
     }
     for (int i = 0; i < ROWS; i++)
-        for (int k = 0; k < Z; k++) rows->row[i][k] += joint[k].x[i];
+        for (int k = 0; k < Z; k++) rows[i][k] += joint[k].x[i];
 }

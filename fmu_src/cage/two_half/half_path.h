@@ -47,20 +47,16 @@ typedef struct {
     const double *radius;  // [m]
 } HalfPath;
 
-// Rows of all joints [N, N.m].
-typedef struct {
-    ball_array row[ROWS];
-} PathRows;
-
 // Forces on the pockets of one half and their normal parts, in the pockets' frames [N]; on a ribbon, places (x, t) from the
 // sphere's centre instead of these parts, and radii [m].
 typedef struct {
     const scalar *F_x, *F_r, *F_t, *push_x, *push_t, *radius;
 } PathForces;
 
-// Adds to the rows of all joints those by the loads on the rims of the halves 0 and 1, Re and Im G_p.
-void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2], PathRows *rows);
+// Adds to the rows of all joints [N, N.m] those by the loads on the rims of the halves 0 and 1, Re and Im G_p.
+void half_path_add_lands(const LandPath *path, const scalar *re[2], const scalar *im[2],
+                         ball_array rows[ROWS]);
 
 // Sets the rows of all joints by the forces on the halves 0 (-x) and 1 (+x).  Returns false and sets nothing if no
 // pocket is touched.
-bool half_path_rows(const HalfPath *path, const PathForces on[2], PathRows *rows);
+bool half_path_rows(const HalfPath *path, const PathForces on[2], ball_array rows[ROWS]);

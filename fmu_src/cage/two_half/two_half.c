@@ -26,7 +26,7 @@
 #include "cage/two_half/two_half.h"
 
 #include "cage/common/cage_joint.h"
-#include "cage/common/joint_slip.h"
+#include "cage/common/films.h"
 #include "cage/common/spin_preload.h"
 #include "cage/two_half/joint_open.h"
 #include "numbers/elimination.h"
@@ -34,7 +34,7 @@
 // ---- joints -------------------------------------------------------------------------------------------------
 
 // Rows of the loads of bonded joints by pocket forces, films of the lands and centrifugal load.
-static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathRows *rows)
+static void bonded_rows(const Model *model, const Work *w, scalar omega_2, ball_array rows[ROWS])
 {
     PathForces forces[2];
     for (int h = 0; h < 2; h++) {
@@ -42,7 +42,7 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
         forces[h] = (PathForces){on->F_x, on->F_r, on->F_t, on->push_x, on->push_t, on->radius};
     }
     const bool touched = half_path_rows(&rivet_table.half.path, forces, rows);
-    if (!touched) memset(rows, 0, sizeof *rows);
+    if (!touched) memset(rows, 0, ROWS * sizeof *rows);
     if (model->d->guided) {
         const scalar *re[2] = {w->land[0].re, w->land[1].re}, *im[2] = {w->land[0].im, w->land[1].im};
         half_path_add_lands(&model->d->land_path, re, im, rows);
@@ -50,17 +50,17 @@ static void bonded_rows(const Model *model, const Work *w, scalar omega_2, PathR
     for (int i = 0; i < ROWS; i++) {
         const wide spin = wide_set(omega_2 * model->d->centrifugal[i]);
         for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH)
-            wide_store(&rows->row[i][k], wide_load(&rows->row[i][k]) + spin);
+            wide_store(&rows[i][k], wide_load(&rows[i][k]) + spin);
     }
 }
 
 // Adds the bending of a ribbon's lands to the rows of the preload; returns its addition to the mean preload.
-static scalar bend_lands(const Derived *d, scalar omega_2, PathRows *rows)
+static scalar bend_lands(const Derived *d, scalar omega_2, ball_array rows[ROWS])
 {
     const CageHalfData *half = &rivet_table.half;
     if (half->spin_steps == 0) return 0.0;
     const scalar w = omega_2 * d->centrifugal[ROW_DP];
-    for (int k = 0; k < Z; k++) rows->row[ROW_DP][k] += spin_bending(half, d->P[k], w);
+    for (int k = 0; k < Z; k++) rows[ROW_DP][k] += spin_bending(half, d->P[k], w);
     return spin_bending(half, d->P_mean, w);
 }
 
@@ -69,21 +69,20 @@ static void open_joints(const Model *model, Work *w)
 {
     const Derived *d = model->d;
     TwoHalfWork *t = &w->cage.two_half;
-    PathRows rows;
-    ball_array bonded[3], P;
+    ball_array rows[ROWS], bonded[3], P;
     const scalar s_0 = w->half[0].s + w->frame_omega, s_1 = w->half[1].s + w->frame_omega;
     const scalar omega_2 = 0.5 * (s_0 * s_0 + s_1 * s_1);
-    bonded_rows(model, w, omega_2, &rows);
-    const scalar bending = bend_lands(d, omega_2, &rows);
+    bonded_rows(model, w, omega_2, rows);
+    const scalar bending = bend_lands(d, omega_2, rows);
     for (int k = 0; k < PACKETS * LANE_WIDTH; k += LANE_WIDTH) {
         const wide rigid = wide_load(&t->pull[k]) - wide_load(&t->push[k]);
-        wide_store(&bonded[0][k], rigid + wide_load(&rows.row[ROW_N][k]));
-        wide_store(&bonded[1][k], wide_load(&rows.row[ROW_M_R][k]));
-        wide_store(&bonded[2][k], wide_load(&rows.row[ROW_M_T][k]));
+        wide_store(&bonded[0][k], rigid + wide_load(&rows[ROW_N][k]));
+        wide_store(&bonded[1][k], wide_load(&rows[ROW_M_R][k]));
+        wide_store(&bonded[2][k], wide_load(&rows[ROW_M_T][k]));
         wide_store(&P[k], wide_load(&d->intact[k]) *
-                              wide_max(wide_load(&d->P[k]) + wide_load(&rows.row[ROW_DP][k]), wide_set(0.0)));
-        wide_store(&t->bonded_V[0][k], wide_load(&rows.row[ROW_V_R][k]));
-        wide_store(&t->bonded_V[1][k], wide_load(&rows.row[ROW_V_T][k]));
+                              wide_max(wide_load(&d->P[k]) + wide_load(&rows[ROW_DP][k]), wide_set(0.0)));
+        wide_store(&t->bonded_V[0][k], wide_load(&rows[ROW_V_R][k]));
+        wide_store(&t->bonded_V[1][k], wide_load(&rows[ROW_V_T][k]));
     }
     const scalar spin_M = omega_2 * d->centrifugal[ROW_M_T],
                  spin_P = scalar_max(d->P_mean + omega_2 * d->centrifugal[ROW_DP] + bending, 0.0);
@@ -97,7 +96,7 @@ static void open_joints(const Model *model, Work *w)
         wide_store(&t->rivet[0][k], T);
         wide_store(&t->N_plate[k], wide_select(wide_above(intact, 0.0), closed, wide_load(&t->push[k])));
         for (int i = 1; i < 3; i++) {
-            const wide more = wide_load(&rows.row[ROW_DM_R + i - 1][k]);
+            const wide more = wide_load(&rows[ROW_DM_R + i - 1][k]);
             wide_store(&t->rivet[i][k], intact * (wide_load(&t->rivet[i][k]) + more));
         }
     }
@@ -130,7 +129,7 @@ void two_half_joints(const Model *model, const scalar *y, Work *w)
 ONCE void add_slip(const Model *model, const Work *w, JointShear *shear)
 {
     const TwoHalfWork *t = &w->cage.two_half;
-    const SlipState at = {w->u_y, w->u_z, t->rivet[0], t->N_plate};
+    const JointMotion at = {.u_y = w->u_y, .u_z = w->u_z, .T = t->rivet[0], .N_plate = t->N_plate};
     joint_slip_add(model, w, &at, t->bonded_V[0], t->bonded_V[1], shear);
 }
 
@@ -149,11 +148,6 @@ void two_half_loads(const Model *model, const Work *w, JointLoads *load)
 //                    S (1 + gamma A + gamma^2 K) delta = residual     S = 1 + gamma^2 K_shear, across the axis, a factor of
 //                    its own (two_half_shear); A, K of films and joints along the axis (two_half_solve)
 //                    v_{n+1} = v^ + delta; positions and friction states follow with weights; history and errors
-//
-// Terms of the joints in the block Jacobian (implicit.c), all of half 1 against half 0:
-//
-//   rivets and plates       v_x + z beta_dot - y gamma_dot               c; k of tense rivets, pressed plates
-//   sticking, hole contact  v_y - s z, v_z + s y                         stiffness k/(1 + gamma D), k_hole
 #ifndef DUAL
 // Weights of a vibration between the halves that turns by x = omega h a step, given x^2: `matrix` multiplies K in the
 // matrix, the return value c the position correction.  Both are 1/3 for small x, which makes the frequency exact to
@@ -204,8 +198,7 @@ static void joint_matrix(const Model *model, const Work *w, double gamma, double
 // films, the impulses of the joints are x = C (dv - G x): three equations (1 + C G) x = C dv, the form of
 // Woodbury again.  C is multiplied by the weight of the fastest of the three vibrations; returns the position
 // correction's weight.
-static double solve_joints(const Model *model, const Work *w, double gamma, const HalfFilm f[2],
-                           HalfVelocity half[2])
+static double solve_joints(const Model *model, const Work *w, double gamma, const HalfFilm f[2], double *v)
 {
     double C[3][3], B[3][3], x[3], weight, G_xx = 0.0, G_bb = 0.0, G_bg = 0.0, G_gg = 0.0;
     joint_matrix(model, w, gamma, C);
@@ -223,7 +216,8 @@ static double solve_joints(const Model *model, const Work *w, double gamma, cons
     }
 
     // The impulses.
-    const double dv[3] = {half[1].x - half[0].x, half[1].beta - half[0].beta, half[1].gamma - half[0].gamma};
+    const double dv[3] = {v[Y_CAGE_V_X + 1] - v[Y_CAGE_V_X], v[Y_CAGE_BETA_DOT + 1] - v[Y_CAGE_BETA_DOT],
+                          v[Y_CAGE_GAMMA_DOT + 1] - v[Y_CAGE_GAMMA_DOT]};
     for (int i = 0; i < 3; i++) {
         B[i][0] = (i == 0) + C[i][0] * G_xx;
         B[i][1] = (i == 1) + C[i][1] * G_bb + C[i][2] * G_bg;
@@ -233,30 +227,27 @@ static double solve_joints(const Model *model, const Work *w, double gamma, cons
     solve_3(B[0], x);
 
     // The impulses change the velocities of each half, which its own film holds back again.
+    double change[N_STATES];
+    memset(&change[Y_CAGE_V_X], 0, CAGE_MOTIONS * sizeof *change);
     for (int h = 0; h < 2; h++) {
         const double sign = h == 0 ? 1.0 : -1.0;
-        const double dx = sign * x[0] / f[h].m;
-        const double dbeta = sign * x[1] / f[h].J_t, dgamma = sign * x[2] / f[h].J_t;
-        HalfVelocity change = {.x = dx, .beta = dbeta, .gamma = dgamma};
-        half_film_solve(&f[h], &change);
-        half[h].x += change.x, half[h].y += change.y, half[h].z += change.z;
-        half[h].beta += change.beta, half[h].gamma += change.gamma;
+        change[Y_CAGE_V_X + h] = sign * x[0] / f[h].m;
+        change[Y_CAGE_BETA_DOT + h] = sign * x[1] / f[h].J_t;
+        change[Y_CAGE_GAMMA_DOT + h] = sign * x[2] / f[h].J_t;
+        half_film_solve(&f[h], h, change);
     }
+    for (int i = Y_CAGE_V_X; i < Y_CAGE_V_X + CAGE_MOTIONS; i++) v[i] += change[i];
     return correction;
 }
 
 double two_half_solve(const Model *model, const Work *w, double gamma, double *v)
 {
     HalfFilm f[2];
-    HalfVelocity half[2];
     for (int h = 0; h < 2; h++) {
-        half[h] = half_velocity_load(v, h);
         f[h] = half_film(model, &w->film[h], h, gamma);
-        half_film_solve(&f[h], &half[h]);
+        half_film_solve(&f[h], h, v);
     }
-    const double axial = solve_joints(model, w, gamma, f, half);
-    for (int h = 0; h < 2; h++) half_velocity_store(&half[h], v, h);
-    return axial;
+    return solve_joints(model, w, gamma, f, v);
 }
 
 // Stiffness [N/m] across the axis of a packet's joints from k on: between that of plates which stick and that of heads by

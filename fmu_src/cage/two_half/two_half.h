@@ -3,7 +3,6 @@
 #pragma once
 
 #include "cage/common/cage_joint.h"
-#include "cage/common/films.h"
 #include "cage/common/halves_step.h"
 #include "physics/model.h"
 #include "rivet/rivet_rom.h"
