@@ -151,7 +151,7 @@ class Model:
         return v
 
     def rates(self):
-        """Rates [1/s] by which velocities (implicit.c) and friction states (two_half_advance) hold themselves back at
+        """Rates [1/s] by which velocities (implicit.c) and friction states (two_half.c) hold themselves back at
         the state of the last evaluation.
         """
         gamma, D = 1e-12, np.zeros(variables.N_STATES)  # small: A_ii beside its coupling to others; rounding 1e-4 1/s

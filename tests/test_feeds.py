@@ -2,6 +2,7 @@
 none is dropped in silence.
 """
 
+import re
 import sys
 from pathlib import Path
 
@@ -193,3 +194,12 @@ def test_what_the_rivet_table_is_made_from(tmp_path, name):
     assert changed.values[name] != start and changed.origin[name] == "yours"
     same = Geometry(**changed.joint).digest == Geometry(**plain.joint).digest
     assert same != (v.table or v.built)
+
+
+def test_sizes_that_the_core_tells_are_those_of_the_table():
+    """The core warns of each size that leaves the rivet table behind, but for the pitch diameter, which the load path refuses, and the pockets'
+    clearance.
+    """
+    text = (Path(__file__).resolve().parents[1] / "fmu_src" / "instance" / "check.c").read_text(encoding="utf-8")
+    said = re.findall(r'"(\w+\.\w+)"', text.partition("SIZES_OF_TABLE[] = {")[2].partition("NULL")[0])
+    assert set(said) == {name for name, v in PARAMETERS.items() if v.table} - {"bearing.d_m", "cage.pocket_clearance"}

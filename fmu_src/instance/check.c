@@ -297,8 +297,11 @@ static const char *const OF_FREE[] = {"shaft.F_x",      "shaft.F_y",
 static const char *const MOMENTS[] = {"shaft.M_y", "shaft.M_z", NULL};
 static const char *const TILTS[] = {"shaft.tilt_y", "shaft.tilt_z", NULL};
 
-// Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.
-static const char *const SIZES_OF_TABLE[] = {"bearing.D", "cage.D_o", "cage.D_i", "cage.width", NULL};
+// Sizes of which the rivet table holds those of the build: it keeps them when the parameters change.  Not among them is the pockets'
+// clearance, which runs vary: a table for twice as much moves the 6207's head stress by 2 %, no more than four seeds scatter.
+static const char *const SIZES_OF_TABLE[] = {"bearing.D",          "cage.D_o",   "cage.D_i",
+                                             "cage.width",         "cage.sheet", "cage.pocket_depth",
+                                             "cage.pocket_fillet", NULL};
 
 // Adds the variables whose value is off that of the start by more than a part of it to a list of names.
 static void add_changed(const Bearing *b, const char *const names[], double part, char *list, size_t size)
