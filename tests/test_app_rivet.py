@@ -119,7 +119,7 @@ def test_pictures_draw_contact_as_contact(joint):
     """Displacements and gaps magnified alike: where pressure acts, both bodies are in the same place (to the unevenness
     along a hat: 5 % of the gap).
     """
-    load, fit, magnified = pictures.REFERENCE, -6e-6, 60.0
+    load, fit = pictures.REFERENCE, -6e-6
     forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
     radius = joint.geometry.shank_diameter / 2
 
@@ -129,8 +129,8 @@ def test_pictures_draw_contact_as_contact(joint):
 
     gaps = []
     for theta in (0.0, np.pi):
-        (shank, at, *_), (flange, place, *_), _ = pictures.section(joint, forces, q, theta, load.P, fit, magnified)
-        gaps.append(np.cos(theta) * (bore(flange, place) - bore(shank, at)) / magnified)
+        (shank, at, *_), (flange, place, *_), _ = pictures.section(joint, forces, q, theta, load.P, fit)
+        gaps.append(np.cos(theta) * (bore(flange, place) - bore(shank, at)) / pictures.MAGNIFIED)
     assert min(gaps) == pytest.approx(0.0, abs=0.05 * 6e-6)
     assert max(gaps) == pytest.approx(6e-6, rel=0.1)
     figure = pictures.plot_section(joint)

@@ -86,16 +86,12 @@ def guarded(function):
         try:
             return function(*arguments, **options)
         except UserError as problem:
-            messages.print(f"[bold red]error:[/] {escape(str(problem))}")
-            raise typer.Exit(BAD_INPUT) from None
+            fault = str(problem)
         except ModuleNotFoundError as problem:
             library = (problem.name or "").partition(".")[0]
             if library not in FULL:
                 raise
-            messages.print(
-                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}"
-            )
-            raise typer.Exit(BAD_INPUT) from None
+            fault = f"this command needs {library}, which an installation to simulate does not have: {extra('full')}"
         except KeyboardInterrupt:
             messages.print("interrupted: no file has changed")
             raise typer.Exit(INTERRUPTED) from None
@@ -104,9 +100,9 @@ def guarded(function):
         except OSError as problem:  # disk full, no permission, no more files or memory
             if problem.strerror is None:
                 raise
-            place = f"{problem.filename}: " if problem.filename else ""
-            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}")
-            raise typer.Exit(BAD_INPUT) from None
+            fault = (f"{problem.filename}: " if problem.filename else "") + problem.strerror
+        messages.print(f"[bold red]error:[/] {escape(fault)}")
+        raise typer.Exit(BAD_INPUT)
 
     return called
 

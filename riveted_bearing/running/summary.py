@@ -46,13 +46,14 @@ def summary_rows(result: Result) -> Any:
 
 def channels(result):
     """Channel, unit shown, factor, outputs and how they combine, of what communication points alone tell."""
+    over = " / pocket clearance" if is_guided_by_balls(result.parameters) else ""
     return [
         ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
         ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
         ("largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), largest_of),
         ("cage speed", "rev/min", RPM, ["cage.omega"], None),
         ("cage slip ratio", "%", 100.0, ["cage.slip_ratio"], None),
-        (eccentricity_title(result.parameters), "1", 1.0, ["cage.eccentricity"], None),
+        (f"cage eccentricity{over}", "1", 1.0, ["cage.eccentricity"], None),
         ("cage dislocation", "um", 1e6, ["cage.dislocation"], None),
         ("ring displacement, radial", "um", 1e6, ["ring.y", "ring.z"], length_of),
         ("ring displacement, axial", "um", 1e6, ["ring.x"], None),
@@ -158,12 +159,6 @@ def flag_note(result: Result) -> str:
 def clearance_of_cage(parameters: dict[str, Any]) -> str:
     """The clearance that lets the cage move, and over which its eccentricity stands: "guide" or "pocket"."""
     return "pocket" if is_guided_by_balls(parameters) else "guide"
-
-
-def eccentricity_title(parameters):
-    """Title of cage.eccentricity; of a cage that balls guide it names the clearance."""
-    title = "cage eccentricity"
-    return f"{title} / pocket clearance" if is_guided_by_balls(parameters) else title
 
 
 def life_is_known(result: Result) -> bool:

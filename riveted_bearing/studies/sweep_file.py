@@ -102,14 +102,13 @@ def plan_sweep(name, document, model, path):
     factors = tuple(name for axis in axes for name in axis[0])
     if twice := {name for name in factors if factors.count(name) > 1}:
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
-    common = {"parameters": file.parameters, "inputs": file.inputs}
+    common = settings_of(file)
     common["simulation"] = {"outputs": list(SAMPLED)} | file.simulation
     scenes = {}
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
         source = settings.pop("scene", file.scene)
-        changes = (str(path), common), (str(path), sections_of(settings, model))
-        scene = load_scene(beside(path, source), model, *changes)
+        scene = scene_of(path, source, model, common, sections_of(settings, model))
         key = key_of(scene, model.digest)
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
@@ -235,6 +234,16 @@ def beside(path: str | Path, source: Any) -> Any:
             raise unknown(f"{path}: scene", "name", source, shipped_scenes())
         raise UserError(f"{path}: scene: {file}: no such scene file")
     return file
+
+
+def scene_of(path: str | Path, source: Any, model: Model, *documents: Any) -> Scene:
+    """The Scene of a study's file, by shipped name or beside it, with changes by documents like a scene file's."""
+    return load_scene(beside(path, source), model, *((str(path), document) for document in documents))
+
+
+def settings_of(block: Any) -> dict[str, Any]:
+    """The settings of a file or of one of its blocks as a document like a scene file's."""
+    return {"simulation": block.simulation, "parameters": block.parameters, "inputs": block.inputs}
 
 
 def sections_of(settings: Any, model: Model) -> Any:
