@@ -173,8 +173,11 @@ def known_effect(name, screening):
 
 
 def ends(name, value, each, parameters):
-    """Usual range of a value, SI."""
-    return sorted((max(each.low, least_share(name, parameters)) * value, each.high * value))
+    """Usual range of a value, SI, as far as the others leave room for it: a ribbon's pocket is no deeper than its sphere."""
+    low = each.low
+    if name == "cage.pocket_clearance" and is_ribbon(parameters):
+        low = max(low, DEEPEST * (2.0 * parameters["cage.pocket_depth"] - parameters["bearing.D"]) / parameters[name])
+    return sorted((low * value, each.high * value))
 
 
 def measured_in(rows: Any) -> Any:
@@ -220,14 +223,6 @@ def is_known(name, given, parameters):
         "cage.guide_clearance": is_guided_by_balls(parameters),
     }
     return name in given or follows.get(name, False)
-
-
-def least_share(name, values):
-    """Least part of a value that the other ones leave room for: a ribbon's pocket is no deeper than its sphere."""
-    if name != "cage.pocket_clearance" or not is_ribbon(values):
-        return 0.0
-    least = 2.0 * values["cage.pocket_depth"] - values["bearing.D"]
-    return DEEPEST * least / values[name]
 
 
 def given_names(model: Any, scene: Any = None) -> Any:

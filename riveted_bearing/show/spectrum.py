@@ -111,8 +111,8 @@ def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any
             f"band = {band[0]:g} to {band[1]:g} {axis}: at least {NARROWEST * frequency[1]:.3g} {axis} wide is allowed, {NARROWEST} "
             "times the resolution of this run"
         )
-    envelope = envelope_of(x, rate, band)
-    envelope_frequency, of_envelope = amplitude_spectrum(envelope, rate)
+    envelope = np.abs(hilbert(sosfiltfilt(butter(4, band, btype="bandpass", fs=rate, output="sos"), x))) ** 2
+    envelope_frequency, of_envelope = amplitude_spectrum(envelope - envelope.mean(), rate)
     kinematic = kinematic_frequencies(result, speeds, orders)
     within = envelope_frequency <= width  # an envelope has no higher frequencies than its band is wide
     lines = tuple(line_at(envelope_frequency[within], of_envelope[within], *line) for line in expected_lines(kinematic))
@@ -213,13 +213,6 @@ def kurtosis_band(x, rate):
         if kurtosis[k] > best:
             best, found = kurtosis[k], (low[k], high[k])
     return tuple(float(f) for f in found)
-
-
-def envelope_of(x, rate, band):
-    """Squared envelope of the band without its mean."""
-    sections = butter(4, band, btype="bandpass", fs=rate, output="sos")
-    squared = np.abs(hilbert(sosfiltfilt(sections, x))) ** 2
-    return squared - squared.mean()
 
 
 def kinematic_frequencies(result: Result, speeds: Any, orders: Any) -> Any:

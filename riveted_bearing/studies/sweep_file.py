@@ -94,7 +94,9 @@ def plan_sweep(name, document, model, path):
     """The Sweep of a document; path: of its file, for messages and to find scenes beside it."""
     check_keys(path, document, SweepFile.model_fields, "sweep")
     file = checked(SweepFile, document, path)
-    axes = [*vary_axes(path, file.vary, model), *sample_axes(path, file.sample, model)]
+    if not all(file.vary):
+        raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
+    axes = [*(vary_axis(path, block, model) for block in file.vary), *sample_axes(path, file.sample, model)]
     if file.repeats is not None:
         limit_runs(path, f"repeats = {file.repeats}", file.repeats)
         axes.insert(0, [{"start.seed": seed} for seed in range(1, file.repeats + 1)])
@@ -116,15 +118,8 @@ def plan_sweep(name, document, model, path):
     return Sweep(name, file.description, model, document, factors, scenes)
 
 
-def vary_axes(path, blocks, model):
-    """The axes of [[vary]]: for each block a list of points, {name: value as in a scene file}."""
-    if not all(blocks):
-        raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
-    return [vary_axis(path, block, model) for block in blocks]
-
-
 def vary_axis(path, block, model):
-    """One axis: the entries of its names go together."""
+    """One axis: a list of points, {name: value as in a scene file}; the entries of its names go together."""
     values = {name: values_of(path, name, value, model) for name, value in leaves(block, known_names(model))}
     lengths = {name: len(value) for name, value in values.items()}
     if len(set(lengths.values())) != 1:
