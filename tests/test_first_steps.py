@@ -29,16 +29,10 @@ ROOT = Path(__file__).resolve().parents[1]
 def test_without_a_scene_the_fmu_has_its_own_working_point(own):
     model = Model(own)
     scene = load_scene(None, model, ("the command line", {"simulation": {"t_end": "1 ms"}}))
-    assert (
-        scene.name == "mine"
-        and scene.inputs == {}
-        and scene.parameters == {"scene.statistics": "on"}
-        and scene.t_end == 1e-3
-    )
-    assert (
-        scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min"
-        and scene.replaced == ()
-    )
+    assert scene.name == "mine" and scene.inputs == {} and scene.parameters == {"scene.statistics": "on"}
+    assert scene.t_end == 1e-3
+    assert scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min"
+    assert scene.replaced == ()
 
 
 def test_a_run_without_a_scene(fmu):
@@ -81,9 +75,8 @@ def test_the_essential_variables(fmu):
     assert done.exit_code == 0 and all(name in done.stdout for name in listed)
     with zipfile.ZipFile(fmu) as archive:
         page = archive.read("documentation/index.html").decode()
-    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">') and all(
-        f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed
-    )
+    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">')
+    assert all(f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed)
 
 
 @pytest.mark.parametrize(

@@ -160,9 +160,8 @@ def test_while_the_cluster_starts_it_waits(monkeypatch):
     with pytest.raises(KeyboardInterrupt), cluster(workers=1):
         raise AssertionError
     assert seen == ["True", "True", "closed", "closed"]
-    assert signal.getsignal(
-        signal.SIGINT
-    ) is signal.default_int_handler and signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_sweep_says_what_is_kept(tmp_path):

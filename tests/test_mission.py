@@ -253,23 +253,20 @@ def test_a_mission_of_one_point_lives_as_this_point(model):
         "seeds": n,
     }
     assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
-    assert (
-        set(found)
-        == {
-            "fmu",
-            "fmu_sha256",
-            "basis",
-            "life_h",
-            "low_h",
-            "high_h",
-            "confidence",
-            "raceways",
-            "points",
-            "rivets",
-            "error_budget",
-        }
-        and found["confidence"] == 0.9
-    )
+    assert set(found) == {
+        "fmu",
+        "fmu_sha256",
+        "basis",
+        "life_h",
+        "low_h",
+        "high_h",
+        "confidence",
+        "raceways",
+        "points",
+        "rivets",
+        "error_budget",
+    }
+    assert found["confidence"] == 0.9
     assert found["low_h"] < found["life_h"] < found["high_h"]
 
 
@@ -360,9 +357,8 @@ def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
     path.write_text("# measured\ntime,load\n" + "".join(f"{a:.1f},{b:.6f}\n" for a, b in zip(t, level, strict=True)))
     assert len(t) > BLOCK
     spent, cells, means, spreads = binned(path, Wanted("time", SECONDS), [Wanted("load", {"N": (1.0, 0.0)})], [4])
-    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5] and means[:, 0] == pytest.approx(
-        [1.0, 3.0, 9.0], rel=1e-12
-    )
+    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5]
+    assert means[:, 0] == pytest.approx([1.0, 3.0, 9.0], rel=1e-12)
     assert cells[:, 0].tolist() == [0, 1, 3] and np.all(spreads < 1e-6)
 
 
@@ -514,12 +510,8 @@ def test_page_and_picture_show_every_part(tmp_path, model):
     rates = np.array([1e-6, 1e-5, 1e-6])[:, None, None] * np.ones((3, Z, 2))
     life = assess(mission, surrogate(rates, 0.3, np.random.default_rng(1)))
     page = write_page(life, tmp_path / "life.html", ["note <1>"]).read_text()
-    assert (
-        all(name in page for name in names)
-        and page.count("<svg") == 4
-        and "note &lt;1&gt;" in page
-        and "nan" not in page.lower().replace("nano", "")
-    )
+    assert all(name in page for name in names) and page.count("<svg") == 4 and "note &lt;1&gt;" in page
+    assert "nan" not in page.lower().replace("nano", "")
     assert write_picture(life, tmp_path / "life.png").stat().st_size > 20000
 
 
