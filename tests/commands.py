@@ -4,6 +4,10 @@ import shlex
 import subprocess
 import sys
 
+from typer.testing import CliRunner
+
+from riveted_bearing.cli import program
+
 
 def command(*arguments, folder):
     """The program as a user starts it, its output in pipes."""
@@ -17,10 +21,15 @@ def command(*arguments, folder):
     )
 
 
+def typed(line, *words, **options):
+    """The Result of a command as typed, run in this process; words: further ones, such as paths."""
+    return CliRunner().invoke(program, [*shlex.split(line), *map(str, words)], **options)
+
+
 def run_in_shell(line):
     """A command as typed, with this Python's program of the checkout."""
-    program, *arguments = shlex.split(line)
-    module = ["-m", "riveted_bearing"] if program == "riveted-bearing" else []
+    name, *arguments = shlex.split(line)
+    module = ["-m", "riveted_bearing"] if name == "riveted-bearing" else []
     done = subprocess.run(
         [sys.executable, *module, *arguments], capture_output=True, text=True, timeout=1800, check=False
     )

@@ -253,31 +253,13 @@ def test_what_the_fmu_refuses_is_said(tmp_path):
 
 
 def test_run_in_a_pipe(tmp_path):
-    done = command(
-        "run",
-        "demo",
-        "--t-end",
-        "2 ms",
-        "--set",
-        "start.settle=0.5 ms",
-        "--format",
-        "csv",
-        "--out",
-        tmp_path / "out",
-        folder=tmp_path,
-    )
+    line = 'run demo --t-end "2 ms" --set "start.settle=0.5 ms" --format csv --out out'
+    done = command(*shlex.split(line), folder=tmp_path)
     assert done.returncode == 0, done.stderr
     # neither colours nor a progress bar
     assert "\x1b" not in done.stdout + done.stderr and "real time" not in done.stderr
-    for text in (
-        "pocket force",
-        "head stress",
-        "cage speed",
-        "friction torque",
-        "real-time factor",
-        "demo.csv",
-        "demo.png",
-    ):
+    figures = ("pocket force", "head stress", "cage speed", "friction torque", "real-time factor")
+    for text in (*figures, "demo.csv", "demo.png"):
         assert text in done.stdout
     assert (tmp_path / "out" / "demo.png").read_bytes()[:4] == b"\x89PNG"
     assert read_result(tmp_path / "out" / "demo.csv").data["time"][-1] == 2e-3
@@ -505,18 +487,8 @@ def test_a_run_shorter_than_settling_says_that_there_are_no_statistics(tmp_path)
     number.
     """
     for t_end in ("2 ms", "50 ms"):
-        done = command(
-            "run",
-            "demo",
-            "--t-end",
-            t_end,
-            "--no-plot",
-            "--set",
-            "joint.preload='30 N'",
-            "--out",
-            tmp_path,
-            folder=tmp_path,
-        )
+        words = "--no-plot", "--set", "joint.preload='30 N'", "--out", tmp_path
+        done = command("run", "demo", "--t-end", t_end, *words, folder=tmp_path)
         assert done.returncode == 0 and "no statistics yet: they begin at start.settle = 0.05 s" in done.stderr
         assert "after the first" not in done.stdout
         assert "p99.9" not in done.stdout and "largest since the start" in done.stdout

@@ -11,14 +11,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from bearing_model.generated.variables import MeanStress
 from riveted_bearing import build, read_result, run
 from riveted_bearing.base.units import hours_text
 from riveted_bearing.bearing.assumed import assumed_ranges, assumed_rows
 from riveted_bearing.bearing.strength import Strength, assumed, in_words
-from riveted_bearing.cli import program
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
@@ -140,9 +139,7 @@ def test_a_prescribed_motion_takes_no_loads(model):
 
 
 def test_a_run_keeps_and_prints_what_it_rests_on(own, tmp_path):
-    done = CliRunner().invoke(
-        program, ["run", "demo", "--fmu", str(own), "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
-    )
+    done = typed('run demo --t-end "1 ms" --no-plot', "--fmu", own, "--out", tmp_path)
     assert done.exit_code == 0, done.output
     assert "the scene has shaft.F_y 2994 N for 4100 N" in done.stdout
     assert hashlib.sha256(own.read_bytes()).hexdigest()[:12] in done.stdout
@@ -269,9 +266,9 @@ def test_the_curve_in_words():
 
 def test_info_is_of_the_fmu_that_is_named(own):
     assert case_of().designation == "6207" and case_of(None, own).load.F_y == 4100.0
-    shown = CliRunner().invoke(program, ["info", "--fmu", str(own)]).stdout
+    shown = typed("info --fmu", own).stdout
     assert "F_y 4100 N" in shown and "as an example" not in shown and "SHA-256" in shown
-    assert "no bearing is named: this is the 6207, as an example" in CliRunner().invoke(program, ["info"]).stdout
+    assert "no bearing is named: this is the 6207, as an example" in typed("info").stdout
 
 
 # Words of results -----------------------------------------------------------------------------------------------------
@@ -420,11 +417,9 @@ def test_assumed_is_what_nobody_gave(model, warm):
 def test_a_named_oil_is_not_assumed(model, tmp_path):
     path = tmp_path / "pao.toml"
     path.write_text('oil = "PAO 68"\n')
-    done = CliRunner().invoke(
-        program, ["run", "--set", "oil=PAO 68", "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
-    )
+    done = typed('run --set "oil=PAO 68" --t-end "1 ms" --no-plot --out', tmp_path)
     assert done.exit_code == 0 and "PAO ISO VG 68, " in done.output
-    refused = CliRunner().invoke(program, ["run", "--set", "oil=PAOO 68", "--t-end", "1 ms"])
+    refused = typed('run --set "oil=PAOO 68" --t-end "1 ms"')
     assert refused.exit_code and 'did you mean "PAO"' in refused.output
     found = run(path, t_end=2e-4)
     assert names_of(found) == CLEARANCES | {"oil.rho_mix", "oil.sigma_race", "oil.T", "cage.T"}
@@ -526,8 +521,8 @@ def test_matrices_and_info_of_another_bearing(other, tmp_path):
     )
     own, out, demo = (quasi_static_matrices(scene_case(source, other), [500.0])[0] for source in (None, path, "demo"))
     assert np.array_equal(own.K_static, out.K_static) and not np.array_equal(own.K_static, demo.K_static)
-    command = ["matrices", "--static", "--speed", "500 rad/s", "--fmu", str(other.path), "--out", str(tmp_path)]
-    assert CliRunner().invoke(program, command).exit_code == 0
+    done = typed('matrices --static --speed "500 rad/s"', "--fmu", other.path, "--out", tmp_path)
+    assert done.exit_code == 0
     text = (tmp_path / "my6309_matrices.csv").read_text()
     assert "# loads: F_x 883 N, F_y 5300 N\n" in text and f"{own.K_static[0, 0]:.9g}" in text
     case = case_of(None, other.path)

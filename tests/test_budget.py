@@ -427,18 +427,8 @@ def test_life_has_the_digits_of_its_budget():
 def test_a_checked_run_says_how_wrong_it_is(tmp_path, few):
     """Terminal and file have the same budget: 90 % and its parts, the largest first."""
     screen.screened(few)
-    done = command(
-        "run",
-        "--fmu",
-        few.path,
-        "--check",
-        "--t-end",
-        "80 ms",
-        "--no-plot",
-        "--out",
-        tmp_path / "run.parquet",
-        folder=tmp_path,
-    )
+    words = "--check", "--t-end", "80 ms", "--no-plot", "--out", tmp_path / "run.parquet"
+    done = command("run", "--fmu", few.path, *words, folder=tmp_path)
     assert done.returncode == 0, done.stderr
     record = rb.read_result(tmp_path / "run.parquet").about["budget"]["stress"]
     sizes = [abs(part["shift"]) + max(part["below"], part["above"]) for part in record["parts"]]

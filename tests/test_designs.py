@@ -158,20 +158,8 @@ def test_two_designs_of_one_fmu(fmu, tmp_path, browser):
     (tmp_path / "trial.toml").write_text(MISSION)
     for name in ("a.fmu", "b.fmu"):
         (tmp_path / name).write_bytes(fmu.read_bytes())
-    done = command(
-        *(
-            "compare-designs",
-            "a.fmu",
-            "b.fmu",
-            "a.fmu",
-            "fatigue.sigma_D=2 GPa",
-            "--mission",
-            "trial.toml",
-            "--workers",
-            1,
-        ),
-        folder=tmp_path,
-    )
+    words = "a.fmu", "b.fmu", "a.fmu", "fatigue.sigma_D=2 GPa", "--mission", "trial.toml", "--workers", 1
+    done = command("compare-designs", *words, folder=tmp_path)
     assert done.returncode == 0, done.stderr
     folder = tmp_path / "results" / "trial_designs"
     found = json.loads((folder / "designs.json").read_text())

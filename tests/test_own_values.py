@@ -10,8 +10,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from commands import typed
 from lxml import etree
-from typer.testing import CliRunner
 
 from bearing_model.generated import variables
 from bearing_model.physics.viscosity import Oil
@@ -28,7 +28,7 @@ from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.designations import known_bearings
 from riveted_bearing.bearing.oil import viscosity
 from riveted_bearing.bearing.plausible import doubts
-from riveted_bearing.cli import info_tables, program
+from riveted_bearing.cli import info_tables
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
@@ -55,7 +55,7 @@ def read(tmp_path, text):
 
 def shown(*arguments):
     """What the program prints."""
-    done = CliRunner().invoke(program, [str(argument) for argument in arguments])
+    done = typed("", *arguments)
     assert done.exit_code == 0, done.output
     return done.stdout
 
@@ -322,11 +322,7 @@ def test_what_stays_as_of_bronze_is_said():
 
 
 def test_a_flange_that_yields_is_said_on_the_terminal(model, tmp_path):
-    done = CliRunner().invoke(
-        program,
-        ["run", "--fmu", str(model.path), "--set", "joint.fit=20 um", "--t-end", "1 ms", "--no-plot"]
-        + ["--out", str(tmp_path)],
-    )
+    done = typed('run --set "joint.fit=20 um" --t-end "1 ms" --no-plot', "--fmu", model.path, "--out", tmp_path)
     assert done.exit_code == 0 and "flags of the rivets (rivet[k].flag): flange yields" in done.stderr
 
 
