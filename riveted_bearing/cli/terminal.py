@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from ..base.errors import UserError, extra, refusal, unknown
+from ..base.errors import UserError, extra, naming, refusal, unknown
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
 # Libraries of the extra "full": a run needs none of them.
@@ -53,10 +53,8 @@ def chosen_cleanliness(value):
 
 def option_value(option, text, read):
     """What an option's text means by read(its number or text); UserError naming both."""
-    try:
+    with naming(f"{option} {text}", (UserError,)):
         return read(number_or_text(text))
-    except UserError as problem:
-        raise UserError(f"{option} {text}: {problem}") from None
 
 
 def print_version(wanted: bool):
