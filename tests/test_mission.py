@@ -2,11 +2,7 @@
 
 import json
 import math
-import os
 import signal
-import subprocess
-import sys
-import time
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from commands import rows_kept
+from commands import begun, finished, stopped_after_a_row
 from scipy.stats import t as student
 
 from riveted_bearing import UserError
@@ -540,21 +536,7 @@ half_width = 0.001
 
 def start(folder, *arguments):
     """The command as a process."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "riveted_bearing", "life", "trial.toml", *arguments],
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-
-
-def finished(process):
-    """Output, messages and exit code."""
-    out, err = process.communicate(timeout=600)
-    return out, err, process.returncode
+    return begun("life", "trial.toml", "--workers", "1", *arguments, folder=folder)
 
 
 def test_a_killed_mission_goes_on(tmp_path):
@@ -563,14 +545,9 @@ def test_a_killed_mission_goes_on(tmp_path):
     folder.mkdir()
     (folder / "trial.toml").write_text(MISSION)
     results = folder / "results" / "trial"
-    process = start(folder, "--workers", "1")
-    patience = time.monotonic() + 300
-    while not rows_kept(results) and time.monotonic() < patience:
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGKILL)
-    finished(process)
+    stopped_after_a_row(start(folder), results, signal.SIGKILL)
     assert not (results / "life.json").exists()
-    _, err, code = finished(start(folder, "--workers", "1"))
+    _, err, code = finished(start(folder))
     assert code == 0, err
     assert {path.name for path in results.iterdir()} >= {"life.json", "life.html", "life.png", "runs.parquet"}
 
@@ -580,18 +557,13 @@ def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
     without a stop.  Then an S-N curve is given: the same runs, another life.
     """
     (tmp_path / "trial.toml").write_text(MISSION)
-    process = start(tmp_path, "--workers", "1")
-    patience = time.monotonic() + 300
-    while not rows_kept(tmp_path / "results" / "trial") and time.monotonic() < patience:
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGINT)
-    _, err, code = finished(process)
+    _, err, code = stopped_after_a_row(start(tmp_path), tmp_path / "results" / "trial", signal.SIGINT)
     assert code == 130 and "kept in results/trial" in err and "Traceback" not in err
-    out, err, code = finished(start(tmp_path, "--workers", "1"))
+    out, err, code = finished(start(tmp_path))
     assert code == 0 and "max_seeds = 5 was reached" in out, err
     assert "none: the FMU's own parameters and inputs" in out and "F_y 1000 to 2994 N" in out and "S-N curve" in out
     found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())
-    _, err, code = finished(start(tmp_path, "--workers", "1", "--out", "calm"))
+    _, err, code = finished(start(tmp_path, "--out", "calm"))
     assert code == 0 and json.loads((tmp_path / "calm" / "life.json").read_text()) == found, err
     for name in ("life.html", "life.png", "runs.parquet"):
         assert (tmp_path / "calm" / name).is_file()

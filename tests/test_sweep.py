@@ -11,7 +11,7 @@ from pathlib import Path
 import cloudpickle
 import numpy as np
 import pytest
-from commands import command, rows_kept
+from commands import begun, command, finished, rows_kept
 
 from riveted_bearing import run
 from riveted_bearing.studies import sweep as engine
@@ -227,18 +227,9 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
 def test_the_command_shows_failures_and_says_where_the_rows_are(tmp_path):
     study = tmp_path / "mine.toml"
     study.write_text(SHORT + "[[vary]]\nbearing.D = [0.0111125, 0.019]")
-    done = subprocess.run(
-        [sys.executable, "-m", "riveted_bearing", "sweep", study, "--workers", "1"],
-        cwd=tmp_path,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert done.returncode == 3 and "2 runs, 1 of them failed" in done.stdout and "refuses to start" in done.stderr
-    assert "Traceback" not in done.stderr
-    assert (tmp_path / "results" / "mine" / "runs.parquet").is_file() and "results/mine" in done.stdout
+    out, err, code = finished(begun("sweep", study, "--workers", "1", folder=tmp_path))
+    assert code == 3 and "2 runs, 1 of them failed" in out and "refuses to start" in err and "Traceback" not in err
+    assert (tmp_path / "results" / "mine" / "runs.parquet").is_file() and "results/mine" in out
 
 
 def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client):
