@@ -6,6 +6,7 @@ import textwrap
 from dataclasses import dataclass, replace
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from bearing_model.cage.common.joint_law import single_joint
 from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
@@ -137,8 +138,6 @@ def micrometres(length):
 
 def plot_curves(data, title=""):
     """Figure of the curves."""
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(13, 4.2), layout="constrained")
     axes = figure.subplots(1, 3)
     panel = {"preload": axes[0], "fit": axes[1], "transverse load": axes[2]}
@@ -165,8 +164,6 @@ def plot_curves(data, title=""):
 
 def plot_geometry(geometry, title="Rivet joint to scale; dimensions in mm"):
     """Figure: the rivet in its two flanges, to scale, with the dimensions by their names in mm."""
-    from matplotlib.figure import Figure
-
     g = {name: 1e3 * getattr(geometry, name) for name in LENGTHS}
     a, top, out = 0.5 * g["shank_diameter"], g["flange_thickness"] + g["head_height"], g["patch_radius"]
     figure = Figure(figsize=(10.5, 8), layout="constrained")
@@ -273,8 +270,6 @@ def plot_section(joint):
 
     Gaps and displacements are magnified alike, so that bodies touch in the picture where they touch in the solution.
     """
-    from matplotlib.figure import Figure
-
     figure = Figure(figsize=(13, 6.4), layout="constrained")
     left, middle, right = figure.subplots(1, 3, width_ratios=[0.75, 1.2, 1.0])
     for mesh in (joint.rivet.mesh, joint.flange.mesh):
@@ -361,7 +356,6 @@ def plot_modes(g):
     """Figure: the first SHAPES in which a free cage half vibrates, one of each pair, by coarse elements without the rivets'
     mass (2 % off in frequency).
     """
-    from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     solid = CyclicSolid(half.pitch_mesh(g, half.COARSE), g.Z, g.E_flange, g.nu_flange)
