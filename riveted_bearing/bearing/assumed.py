@@ -240,8 +240,3 @@ def given_names(model: Any, scene: Any = None) -> Any:
 def is_example(model: Any) -> Any:
     """Whether an FMU is that of the 6207 as it is shipped."""
     return model.bearing.startswith(EXAMPLE) and "yours" not in model.origin.values()
-
-
-def ruled_names(model: Any) -> Any:
-    """Names of the values that follow from the bearing's file by rule and that nothing else sets."""
-    return {name for name, origin in model.origin.items() if origin == "rule"}
