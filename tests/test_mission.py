@@ -489,6 +489,7 @@ def test_tables_and_records_become_points(tmp_path, model, written):
         },
     }
     mission = plan_mission("trial", document, model, tmp_path / "trial.toml")
+    assert [part.name for part in mission.parts[:2]] == ["duty.csv line 2", "duty.csv line 3"]  # as in an editor
     assert [part.weight for part in mission.parts] == pytest.approx([10, 20, 15, 15])
     assert mission.parts[1].values["shaft.omega"] == pytest.approx(12000 * math.pi / 30)
     assert [part.values["shaft.F_y"] for part in mission.parts[2:]] == pytest.approx(
