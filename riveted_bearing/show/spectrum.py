@@ -26,7 +26,7 @@ from ..base.errors import UserError, unknown
 from ..base.files import write_atomically
 from ..running.effects import without_effect
 from ..running.fmu import Model
-from ..running.inputs import History
+from ..running.inputs import histories_of
 from ..running.results import Result
 from ..running.scene import ALWAYS, Scene
 from ..running.summary import settled
@@ -127,8 +127,7 @@ def idle_settings(result: Result, found: Any) -> Any:
     if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):
         return [], math.inf
     model = Model(path)
-    inputs = {n: History(np.asarray(of["t"]), np.asarray(of["value"]), of["hold"]) for n, of in about["inputs"].items()}
-    own = {n: model.default(v) for n, v in model.parameters.items()}
+    inputs, own = histories_of(about), {n: model.default(v) for n, v in model.parameters.items()}
     parameters = {n: value for n, value in result.parameters.items() if n in own and (value != own[n] or n in names)}
     if set(names) - {*inputs, *parameters}:
         return [], math.inf
