@@ -266,63 +266,54 @@ def test_run_in_a_pipe(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("arguments", "fragments"),
+    ("line", "fragments"),
     [
-        (["run", "dmeo"], ['"dmeo"', 'did you mean "demo"']),
-        (["run", "none.toml"], ["none.toml", "no such scene file"]),
-        (["run", "demo", "--fmu", "none.fmu"], ["none.fmu", "no such FMU"]),
-        (["run", "demo", "--fmu", "broken.fmu"], ["broken.fmu", "not a readable FMU"]),
-        (["run", "demo", "--set", "joint.preload"], ["--set joint.preload", "NAME=VALUE"]),
-        (["run", "demo", "--set", "joint.preloat=3"], ['"joint.preloat"', '"joint.preload"']),
+        ("run dmeo", ['"dmeo"', 'did you mean "demo"']),
+        ("run none.toml", ["none.toml", "no such scene file"]),
+        ("run demo --fmu none.fmu", ["none.fmu", "no such FMU"]),
+        ("run demo --fmu broken.fmu", ["broken.fmu", "not a readable FMU"]),
+        ("run demo --set joint.preload", ["--set joint.preload", "NAME=VALUE"]),
+        ("run demo --set joint.preloat=3", ['"joint.preloat"', '"joint.preload"']),
+        ("run demo --set 'rivet.shank_diameter=2 mm'", ["rivet.shank_diameter = '2 mm'", "[rivet] of a bearing file"]),
+        ("run demo --set 'joint.preload=3 mm'", ["joint.preload = '3 mm'", "allowed: N"]),
+        ("run demo --set shaft.F_y=1e9", ["shaft.F_y", "-100000 ... 100000 N"]),
+        ("run demo --seed -1", ["start.seed = -1", "0 ..."]),
+        ("run demo --format xls", ['"xls"', "parquet, csv, mat"]),
+        ("run demo --format csv --out a.mat", ["a.mat", "csv"]),
+        ("run demo --t-end '1 m'", ["t_end = '1 m'", "s, ms, us"]),
+        ("run demo --set bearing.f_i=0.4", ["bearing.f_i = 0.4: 0.4 is out of range, allowed: 0.5005 ... 0.6\n"]),
+        ("run demo --out bad.json", ['--out bad.json: unknown format "json"', "parquet, csv, mat, or a folder"]),
         (
-            ["run", "demo", "--set", "rivet.shank_diameter=2 mm"],
-            ["rivet.shank_diameter = '2 mm'", "[rivet] of a bearing file"],
-        ),
-        (["run", "demo", "--set", "joint.preload=3 mm"], ["joint.preload = '3 mm'", "allowed: N"]),
-        (["run", "demo", "--set", "shaft.F_y=1e9"], ["shaft.F_y", "-100000 ... 100000 N"]),
-        (["run", "demo", "--seed", "-1"], ["start.seed = -1", "0 ..."]),
-        (["run", "demo", "--format", "xls"], ['"xls"', "parquet, csv, mat"]),
-        (["run", "demo", "--format", "csv", "--out", "a.mat"], ["a.mat", "csv"]),
-        (["run", "demo", "--t-end", "1 m"], ["t_end = '1 m'", "s, ms, us"]),
-        (
-            ["run", "demo", "--set", "bearing.f_i=0.4"],
-            ["bearing.f_i = 0.4: 0.4 is out of range, allowed: 0.5005 ... 0.6\n"],
-        ),
-        (
-            ["run", "demo", "--out", "bad.json"],
-            ['--out bad.json: unknown format "json"', "parquet, csv, mat, or a folder"],
-        ),
-        (
-            ["run", "demo", "--t-end", "1 ms", "--step", "2 ms"],
+            "run demo --t-end '1 ms' --step '2 ms'",
             ["demo.toml with the command line", "step = 0.002", "t_end = 0.001 s"],
         ),
-        (["info", "6299"], ['"6299"', "the catalogue has 85 bearings"]),
-        (["info", "6210-2RS"], ['did you mean "6210"', "clearance"]),
-        (["build", "--bearing", "none.toml"], ["none.toml: no such file"]),
-        (["info", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
-        (["build", "--bearing", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
-        (["build", "--bearing", "6399"], ['"6399"', "a bearing file describes others"]),
-        (["build", "--table", "medium"], ["--table", '"medium"', "coarse, full, closed-form"]),
-        (["build", "--table", "full", "--rivet", "nine.json"], ["--table full", "nine.json is a table already"]),
-        (["build", "--rivet", "none.json"], ["none.json", "No such file"]),
-        (["build", "--rivet", "bad.json"], ["bad.json", "not a rivet table"]),
-        (["build", "--rivet", "half.json"], ["half.json", "not a rivet table"]),
-        (["build", "--rivet", "nine.json", "--bearing", "6310"], ["nine.json", "made for Z = 9", "Z = 8 is needed"]),
-        (["build", "--rivet", "bad.toml"], ["bad.toml", "Z = 3", "5 to 32"]),
-        (["build", "--rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
+        ("info 6299", ['"6299"', "the catalogue has 85 bearings"]),
+        ("info 6210-2RS", ['did you mean "6210"', "clearance"]),
+        ("build --bearing none.toml", ["none.toml: no such file"]),
+        ("info bad.toml", ["bad.toml", "Z = 3", "5 to 32"]),
+        ("build --bearing bad.toml", ["bad.toml", "Z = 3", "5 to 32"]),
+        ("build --bearing 6399", ['"6399"', "a bearing file describes others"]),
+        ("build --table medium", ["--table", '"medium"', "coarse, full, closed-form"]),
+        ("build --table full --rivet nine.json", ["--table full", "nine.json is a table already"]),
+        ("build --rivet none.json", ["none.json", "No such file"]),
+        ("build --rivet bad.json", ["bad.json", "not a rivet table"]),
+        ("build --rivet half.json", ["half.json", "not a rivet table"]),
+        ("build --rivet nine.json --bearing 6310", ["nine.json", "made for Z = 9", "Z = 8 is needed"]),
+        ("build --rivet bad.toml", ["bad.toml", "Z = 3", "5 to 32"]),
+        ("build --rivet negative.toml", ["negative.toml", "shank_diameter = -0.0015"]),
         (
-            ["build", "--rivet", "wide.toml"],
+            "build --rivet wide.toml",
             ["wide.toml", "fillet_radius = 0.0003: at most 0.00025 m is allowed", "relief_radius = 0.25 mm"],
         ),
-        (["build", "--rivet", "none.toml"], ["none.toml", "No such file"]),
-        (["rivet", "bad.json"], ["bad.json", "not a rivet table"]),
-        (["rivet", "negative.toml"], ["negative.toml", "shank_diameter = -0.0015"]),
-        (["build", "--bearing", "typo.toml"], ["typo.toml", '"bearing.Dm"', 'did you mean "bearing.D']),
-        (["info", "far.toml"], ["far.toml", "bearing.f_i = 0.4", "0.5005 ... 0.6, or a text"]),
+        ("build --rivet none.toml", ["none.toml", "No such file"]),
+        ("rivet bad.json", ["bad.json", "not a rivet table"]),
+        ("rivet negative.toml", ["negative.toml", "shank_diameter = -0.0015"]),
+        ("build --bearing typo.toml", ["typo.toml", '"bearing.Dm"', 'did you mean "bearing.D']),
+        ("info far.toml", ["far.toml", "bearing.f_i = 0.4", "0.5005 ... 0.6, or a text"]),
     ],
-    ids=" ".join,
+    ids=str,
 )
-def test_errors_are_one_message(tmp_path, arguments, fragments):
+def test_errors_are_one_message(tmp_path, line, fragments):
     (tmp_path / "broken.fmu").write_bytes(b"PK no zip")
     (tmp_path / "bad.json").write_text("Z = 3")
     (tmp_path / "half.json").write_bytes(DEFAULT_TABLE.read_bytes()[:100_000])
@@ -332,7 +323,7 @@ def test_errors_are_one_message(tmp_path, arguments, fragments):
     (tmp_path / "bad.toml").write_text("Z = 3")
     (tmp_path / "typo.toml").write_text("Z = 8\n[parameters]\nbearing.Dm = 0.05")
     (tmp_path / "far.toml").write_text("Z = 8\n[parameters]\nbearing.f_i = 0.4")
-    done = command(*arguments, folder=tmp_path)
+    done = command(*shlex.split(line), folder=tmp_path)
     assert done.returncode == 2 and done.stdout == "" and done.stderr.count("\n") == 1
     assert done.stderr.startswith("error: ")
     for fragment in fragments:
