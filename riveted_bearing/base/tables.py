@@ -106,12 +106,8 @@ class Table:
         scales = [scale(u, one.scales) if u else (1.0, 0.0) for u, one in zip(units, wanted, strict=True)]
         try:
             for rows, columns in self.source.blocks(places, timed):
-                yield (
-                    rows,
-                    np.column_stack(
-                        [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
-                    ),
-                )
+                si = [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
+                yield rows, np.column_stack(si)
         except OSError as problem:
             raise UserError(f"{self.path}: {problem.strerror}") from None
 

@@ -28,11 +28,8 @@ def rules(Z, given, rivet, inputs, data, entry):
     shape = {name: given.get(name, scaling.start(name)) for name in SHAPE}
     if entry:
         rule_Z, rule_D = catalogue.balls(entry)
-        Z, shape["bearing.D"], shape["bearing.d_m"] = (
-            Z or rule_Z,
-            given.get("bearing.D", rule_D),
-            given.get("bearing.d_m", entry.d_m),
-        )
+        Z = Z or rule_Z
+        shape |= {"bearing.D": given.get("bearing.D", rule_D), "bearing.d_m": given.get("bearing.d_m", entry.d_m)}
     Z = Z or variables.Z
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
     own_shape = bool(entry) or ribbon.is_ribbon(given) or any(shape[name] != scaling.start(name) for name in SHAPE)
