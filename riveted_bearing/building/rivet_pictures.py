@@ -6,7 +6,6 @@ import textwrap
 from dataclasses import dataclass, replace
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from bearing_model.cage.common.joint_law import single_joint
 from bearing_model.rivet.rivet_rom import HEAD_P1, MID_VM, RivetLoad, rivet_rom_fit_eff, rivet_rom_stress
@@ -136,9 +135,16 @@ def micrometres(length):
     return f"{1e6 * length:.0f} µm".replace("-", "−")
 
 
+def blank(width, height):
+    """An empty figure [inch]; Matplotlib, which writes a list of fonts, is loaded for a picture only."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
 def plot_curves(data, title=""):
     """Figure of the curves."""
-    figure = Figure(figsize=(13, 4.2), layout="constrained")
+    figure = blank(13, 4.2)
     axes = figure.subplots(1, 3)
     panel = {"preload": axes[0], "fit": axes[1], "transverse load": axes[2]}
     for c in data.values():
@@ -166,7 +172,7 @@ def plot_geometry(geometry, title="Rivet joint to scale; dimensions in mm"):
     """Figure: the rivet in its two flanges, to scale, with the dimensions by their names in mm."""
     g = {name: 1e3 * getattr(geometry, name) for name in LENGTHS}
     a, top, out = 0.5 * g["shank_diameter"], g["flange_thickness"] + g["head_height"], g["patch_radius"]
-    figure = Figure(figsize=(10.5, 8), layout="constrained")
+    figure = blank(10.5, 8)
     ax = figure.subplots()
     for side in (-1.0, 1.0):
         for up in (-1.0, 1.0):
@@ -270,7 +276,7 @@ def plot_section(joint):
 
     Gaps and displacements are magnified alike, so that bodies touch in the picture where they touch in the solution.
     """
-    figure = Figure(figsize=(13, 6.4), layout="constrained")
+    figure = blank(13, 6.4)
     left, middle, right = figure.subplots(1, 3, width_ratios=[0.75, 1.2, 1.0])
     for mesh in (joint.rivet.mesh, joint.flange.mesh):
         for ax in (left, right):
@@ -365,7 +371,7 @@ def plot_modes(g):
         square, shapes = half_modes.wave_modes(solid, M, n, 4)
         found += [(np.sqrt(w) / (2.0 * np.pi), n, shape) for w, shape in zip(square, shapes.T, strict=True)]
     found.sort(key=lambda mode: mode[0])
-    figure = Figure(figsize=(13, 7), layout="constrained")
+    figure = blank(13, 7)
     for i, (frequency, n, shape) in enumerate(found[:SHAPES]):
         ax = figure.add_subplot(2, SHAPES // 2, i + 1, projection="3d")
         quads, moved = half_surface(solid, n, shape)
