@@ -163,6 +163,21 @@ def everywhere(tmp_path_factory):
     return {"RivetedBearing": bearing, "Shaft": shaft}
 
 
+@pytest.fixture
+def laid(fmu, tmp_path, monkeypatch):
+    """A function that makes the working folder that of a page's reader: the FMU, and the files of the page by name."""
+
+    def lay(files):
+        (tmp_path / fmu.name).symlink_to(fmu)
+        for name, text in files.items():
+            (tmp_path / name).write_text(text, encoding="utf-8")
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setenv("PYTHONPATH", str(ROOT))
+        return tmp_path
+
+    return lay
+
+
 @pytest.fixture(scope="module")
 def client():
     """Two worker processes of this machine."""

@@ -46,11 +46,8 @@ def test_curves_of_the_paper():
     elastic, yielded = curves["fit, elastic"], curves["fit, with yield"]
     leads = elastic.x[np.argmax(elastic.mid > elastic.head)]
     assert -20e-6 <= leads <= 0.0 and elastic.head[0] > 2 * elastic.mid[0]
-    assert (
-        np.all(yielded.head <= elastic.head)
-        and np.all(yielded.mid <= elastic.mid)
-        and yielded.mid[-1] > 1.5 * yielded.head[-1]
-    )
+    assert np.all(yielded.head <= elastic.head) and np.all(yielded.mid <= elastic.mid)
+    assert yielded.mid[-1] > 1.5 * yielded.head[-1]
     assert np.all(np.diff(curves["transverse load"].head) > 0.0)
 
 
@@ -119,7 +116,7 @@ def test_pictures_draw_contact_as_contact(joint):
     """Displacements and gaps magnified alike: where pressure acts, both bodies are in the same place (to the unevenness
     along a hat: 5 % of the gap).
     """
-    load, fit, magnified = pictures.REFERENCE, -6e-6, 60.0
+    load, fit = pictures.REFERENCE, -6e-6
     forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
     radius = joint.geometry.shank_diameter / 2
 
@@ -129,8 +126,8 @@ def test_pictures_draw_contact_as_contact(joint):
 
     gaps = []
     for theta in (0.0, np.pi):
-        (shank, at, *_), (flange, place, *_), _ = pictures.section(joint, forces, q, theta, load.P, fit, magnified)
-        gaps.append(np.cos(theta) * (bore(flange, place) - bore(shank, at)) / magnified)
+        (shank, at, *_), (flange, place, *_), _ = pictures.section(joint, forces, q, theta, load.P, fit)
+        gaps.append(np.cos(theta) * (bore(flange, place) - bore(shank, at)) / pictures.MAGNIFIED)
     assert min(gaps) == pytest.approx(0.0, abs=0.05 * 6e-6)
     assert max(gaps) == pytest.approx(6e-6, rel=0.1)
     figure = pictures.plot_section(joint)
@@ -153,12 +150,8 @@ def test_a_table_for_another_rivet(tmp_path, monkeypatch):
     path = given_table(source, case, None, say)
     assert path.is_relative_to(tmp_path / "cache")
     t = rivet_table.read(path, Z=8)
-    assert (
-        t.kind == "fe_coarse"
-        and t.errors["all"]["loads"] == 24
-        and t.geometry["shank_diameter"] == 1.3e-3
-        and t.geometry["d_m"] == case.values["bearing.d_m"]
-    )
+    assert t.kind == "fe_coarse" and t.errors["all"]["loads"] == 24 and t.geometry["shank_diameter"] == 1.3e-3
+    assert t.geometry["d_m"] == case.values["bearing.d_m"]
     assert list(stages) == [
         f"rivet: {name}" for name in ("elements", "contacts", "interference", "cage half", "modes", "hold-out")
     ]

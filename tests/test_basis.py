@@ -11,14 +11,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from bearing_model.generated.variables import MeanStress
 from riveted_bearing import build, read_result, run
 from riveted_bearing.base.units import hours_text
 from riveted_bearing.bearing.assumed import assumed_ranges, assumed_rows
 from riveted_bearing.bearing.strength import Strength, assumed, in_words
-from riveted_bearing.cli import program
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.assess import Runs, assess
 from riveted_bearing.duty.mission import plan_mission
@@ -55,16 +54,11 @@ def test_the_lines_of_the_default_fmu(model, fmu):
     them.
     """
     rows = dict(basis(model, [load_scene(None, model)]))
-    assert (
-        rows["bearing"].startswith("6207: ")
-        and rows["FMU"] == f"{fmu}, SHA-256 {hashlib.sha256(fmu.read_bytes()).hexdigest()[:12]}"
-    )
+    assert rows["bearing"].startswith("6207: ")
+    assert rows["FMU"] == f"{fmu}, SHA-256 {hashlib.sha256(fmu.read_bytes()).hexdigest()[:12]}"
     assert (rows["scene"], rows["loads"], rows["speed"]) == (NO_SCENE, "F_x 515 N, F_y 2994 N", "18238 rev/min")
-    assert (
-        rows["oil"] == "6 mPa.s at 85.851 degC"
-        and rows["temperatures"] == "inner ring, outer ring, balls, cage 20 degC"
-        and "replaced" not in rows
-    )
+    assert rows["oil"] == "6 mPa.s at 85.851 degC"
+    assert rows["temperatures"] == "inner ring, outer ring, balls, cage 20 degC" and "replaced" not in rows
 
 
 def test_viscosity_is_that_at_the_oils_temperature(model, warm):
@@ -145,18 +139,13 @@ def test_a_prescribed_motion_takes_no_loads(model):
 
 
 def test_a_run_keeps_and_prints_what_it_rests_on(own, tmp_path):
-    done = CliRunner().invoke(
-        program, ["run", "demo", "--fmu", str(own), "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
-    )
+    done = typed('run demo --t-end "1 ms" --no-plot', "--fmu", own, "--out", tmp_path)
     assert done.exit_code == 0, done.output
-    assert (
-        "the scene has shaft.F_y 2994 N for 4100 N" in done.stdout
-        and hashlib.sha256(own.read_bytes()).hexdigest()[:12] in done.stdout
-    )
+    assert "the scene has shaft.F_y 2994 N for 4100 N" in done.stdout
+    assert hashlib.sha256(own.read_bytes()).hexdigest()[:12] in done.stdout
     result = read_result(tmp_path / "demo.parquet")
-    assert result.about["basis"]["loads"] == "F_x 515 N, F_y 2994 N" and result.about["replaced"] == [
-        "shaft.F_y 2994 N for 4100 N"
-    ]
+    assert result.about["basis"]["loads"] == "F_x 515 N, F_y 2994 N"
+    assert result.about["replaced"] == ["shaft.F_y 2994 N for 4100 N"]
     page = render(result)
     assert all(
         text in page
@@ -182,22 +171,13 @@ def mission_of(path, model, **document):
 def test_a_mission_without_a_scene_has_the_fmus_own_loads(own):
     """Each point shows its load and speed, those that it does not set too."""
     mission = mission_of(Path("trial.toml"), Model(own))
-    assert [part.load for part in mission.parts] == ["F_x 515 N, F_y 4100 N"] * 2 and [
-        part.speed for part in mission.parts
-    ] == [
-        "18238 rev/min",
-        "9000 rev/min",
-    ]
-    assert (
-        all(part.values["shaft.F_y"] == 4100.0 for part in mission.parts)
-        and "shaft.F_y" not in mission.cases[0].scene.inputs
-    )
+    assert [part.load for part in mission.parts] == ["F_x 515 N, F_y 4100 N"] * 2
+    assert [part.speed for part in mission.parts] == ["18238 rev/min", "9000 rev/min"]
+    assert all(part.values["shaft.F_y"] == 4100.0 for part in mission.parts)
+    assert "shaft.F_y" not in mission.cases[0].scene.inputs
     rows = dict(mission.basis)
-    assert (rows["scene"], rows["loads"], rows["speed"]) == (
-        NO_SCENE,
-        "F_x 515 N, F_y 4100 N",
-        "9000 to 18238 rev/min",
-    ) and "replaced" not in rows
+    assert (rows["scene"], rows["loads"], rows["speed"]) == (NO_SCENE, "F_x 515 N, F_y 4100 N", "9000 to 18238 rev/min")
+    assert "replaced" not in rows
 
 
 def test_a_mission_that_names_a_scene_says_what_it_replaces(own, tmp_path):
@@ -277,9 +257,8 @@ def test_the_curve_in_words():
         == "amplitude 230 MPa (R = -1) at 2e+06 cycles, slope 7 above it, 15 below; mean stress: goodman, sigma_m 785 MPa"
     )
     assert "slope 7 above it, 13 below" in in_words(Strength(law, "haibach"))  # 2 k - 1
-    assert "T_S 1.25, survival 97.5 %" in in_words(
-        Strength(law, T_S=1.25, survival=0.975)
-    ) and "no damage below" in in_words(Strength(law, "original"))
+    assert "T_S 1.25, survival 97.5 %" in in_words(Strength(law, T_S=1.25, survival=0.975))
+    assert "no damage below" in in_words(Strength(law, "original"))
     assert "table of 2 amplitudes from 100 to 300 MPa" in in_words(
         Strength(law, table=(np.array([1e8, 3e8]), np.array([1e7, 1e4])))
     )
@@ -287,9 +266,9 @@ def test_the_curve_in_words():
 
 def test_info_is_of_the_fmu_that_is_named(own):
     assert case_of().designation == "6207" and case_of(None, own).load.F_y == 4100.0
-    shown = CliRunner().invoke(program, ["info", "--fmu", str(own)]).stdout
+    shown = typed("info --fmu", own).stdout
     assert "F_y 4100 N" in shown and "as an example" not in shown and "SHA-256" in shown
-    assert "no bearing is named: this is the 6207, as an example" in CliRunner().invoke(program, ["info"]).stdout
+    assert "no bearing is named: this is the 6207, as an example" in typed("info").stdout
 
 
 # Words of results -----------------------------------------------------------------------------------------------------
@@ -358,10 +337,8 @@ def test_the_cards_of_a_wild_life(model):
         title: (value, remark)
         for title, value, remark in cards(assess(mission, lambda counts: [wild[:n] for n in counts]))
     }
-    assert (
-        shown["Mission"][1].startswith("fails within the first pass, after ")
-        and "max_seeds" in shown["90 % interval"][1]
-    )
+    assert shown["Mission"][1].startswith("fails within the first pass, after ")
+    assert "max_seeds" in shown["90 % interval"][1]
 
 
 def test_no_page_names_an_index_in_which_the_package_is_not():
@@ -440,11 +417,9 @@ def test_assumed_is_what_nobody_gave(model, warm):
 def test_a_named_oil_is_not_assumed(model, tmp_path):
     path = tmp_path / "pao.toml"
     path.write_text('oil = "PAO 68"\n')
-    done = CliRunner().invoke(
-        program, ["run", "--set", "oil=PAO 68", "--t-end", "1 ms", "--no-plot", "--out", str(tmp_path)]
-    )
+    done = typed('run --set "oil=PAO 68" --t-end "1 ms" --no-plot --out', tmp_path)
     assert done.exit_code == 0 and "PAO ISO VG 68, " in done.output
-    refused = CliRunner().invoke(program, ["run", "--set", "oil=PAOO 68", "--t-end", "1 ms"])
+    refused = typed('run --set "oil=PAOO 68" --t-end "1 ms"')
     assert refused.exit_code and 'did you mean "PAO"' in refused.output
     found = run(path, t_end=2e-4)
     assert names_of(found) == CLEARANCES | {"oil.rho_mix", "oil.sigma_race", "oil.T", "cage.T"}
@@ -502,9 +477,8 @@ def test_a_run_of_another_bearing(other):
     own = run(fmu=other.path, t_end=2e-3)
     out = run(fmu=other.path, t_end=2e-3, **written_out(other))
     demo = run("demo", fmu=other.path, t_end=2e-3)
-    assert (
-        all(np.array_equal(own.data[name], out.data[name]) for name in own.data) and own.data["shaft.F_y"][0] == 5300.0
-    )
+    assert all(np.array_equal(own.data[name], out.data[name]) for name in own.data)
+    assert own.data["shaft.F_y"][0] == 5300.0
     assert demo.data["shaft.F_y"][0] == 2994.0 and not np.array_equal(own.data["ring.y"], demo.data["ring.y"])
 
 
@@ -547,11 +521,10 @@ def test_matrices_and_info_of_another_bearing(other, tmp_path):
     )
     own, out, demo = (quasi_static_matrices(scene_case(source, other), [500.0])[0] for source in (None, path, "demo"))
     assert np.array_equal(own.K_static, out.K_static) and not np.array_equal(own.K_static, demo.K_static)
-    command = ["matrices", "--static", "--speed", "500 rad/s", "--fmu", str(other.path), "--out", str(tmp_path)]
-    assert CliRunner().invoke(program, command).exit_code == 0
+    done = typed('matrices --static --speed "500 rad/s"', "--fmu", other.path, "--out", tmp_path)
+    assert done.exit_code == 0
     text = (tmp_path / "my6309_matrices.csv").read_text()
     assert "# loads: F_x 883 N, F_y 5300 N\n" in text and f"{own.K_static[0, 0]:.9g}" in text
     case = case_of(None, other.path)
-    assert (case.designation, case.catalogue["C"], case.rivet) == ("6309", 53e3, None) and replace(
-        case, rivet={}
-    ).bearing.Z == 8
+    assert (case.designation, case.catalogue["C"], case.rivet) == ("6309", 53e3, None)
+    assert replace(case, rivet={}).bearing.Z == 8

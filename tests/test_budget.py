@@ -224,10 +224,8 @@ def test_a_bias_is_refined_away(model, monkeypatch):
     """9 % by the plain run, 0.5 % with shorter steps: the runs are those with shorter steps, their value is right to 0.5 %."""
     stand_in(monkeypatch, bias=(0.09, 0.005, 0.001), noise=1e-4)
     found = reach(model, 0.01)
-    assert (
-        found.settings["solver.step"] == pytest.approx(load_scene(None, model).t_end / 1e4 / math.sqrt(3.0))
-        and not found.missed
-    )
+    assert found.settings["solver.step"] == pytest.approx(load_scene(None, model).t_end / 1e4 / math.sqrt(3.0))
+    assert not found.missed
     assert all(each.value == pytest.approx(100.0, rel=0.005) for each in found.found.values())
 
 
@@ -312,10 +310,8 @@ def test_an_effect_is_the_difference_of_runs(few):
     (low, _), _ = record["entries"]["oil.B"]["effect"]["stress"]
 
     base = mean_of(few, record["t_end"])
-    assert (
-        low == pytest.approx(mean_of(few, record["t_end"], parameters={"oil.B": 1.1}) / base - 1.0, rel=1e-9)
-        and low != 0.0
-    )
+    assert low == pytest.approx(mean_of(few, record["t_end"], parameters={"oil.B": 1.1}) / base - 1.0, rel=1e-9)
+    assert low != 0.0
     assert record["entries"]["ring.J_t"]["effect"]["stress"] == [[0.0, 0.0], [0.0, 0.0]]
 
 
@@ -356,10 +352,8 @@ def test_a_drawings_range_takes_the_place_of_the_assumed_one(few, monkeypatch, t
     result = rb.run(None, fmu=few.path, t_end=record["t_end"], outputs=["ring.y"])
     about = result.about | {"rivet": {"rivet.shank_diameter": 2.45e-3}}
     rows = {row.name: row for row in all_assumed(about, result.parameters) if row.name in ranges}
-    assert rows["oil.T"].words[1] == "76.9 … 86.9 degC" and rows["rivet.shank_diameter"].words == (
-        "2.45 mm",
-        "2.4 … 2.5 mm",
-    )
+    assert rows["oil.T"].words[1] == "76.9 … 86.9 degC"
+    assert rows["rivet.shank_diameter"].words == ("2.45 mm", "2.4 … 2.5 mm")
     assert budget.assumed_part(rows["oil.T"], "stress", 1.0).source == "your own range, 76.9 … 86.9 degC"
     assert budget.assumed_part(rows["rivet.shank_diameter"], "stress", 1.0) is None
     assert rows["rivet.shank_diameter"].unknown == screen.OF_BUILD
@@ -401,10 +395,8 @@ def test_lists_come_from_the_bearings_own_screening():
     assert by_damage[0].name == "cage.pocket_clearance" and by_damage[0].change("damage") == "0 … +0.5 decades"
     assert by_stress[0].change("stress") == "0 … +289 %"
     own = {row.name: row for row in by_stress}
-    assert (
-        own["oil.eta"].change("stress") == "within the seeds' ±1 %"
-        and own["rivet.fillet_radius"].unknown == "needs a build"
-    )
+    assert own["oil.eta"].change("stress") == "within the seeds' ±1 %"
+    assert own["rivet.fillet_radius"].unknown == "needs a build"
 
 
 def test_without_a_screening_no_size_is_printed():
@@ -435,27 +427,15 @@ def test_life_has_the_digits_of_its_budget():
 def test_a_checked_run_says_how_wrong_it_is(tmp_path, few):
     """Terminal and file have the same budget: 90 % and its parts, the largest first."""
     screen.screened(few)
-    done = command(
-        "run",
-        "--fmu",
-        few.path,
-        "--check",
-        "--t-end",
-        "80 ms",
-        "--no-plot",
-        "--out",
-        tmp_path / "run.parquet",
-        folder=tmp_path,
-    )
+    words = "--check", "--t-end", "80 ms", "--no-plot", "--out", tmp_path / "run.parquet"
+    done = command("run", "--fmu", few.path, *words, folder=tmp_path)
     assert done.returncode == 0, done.stderr
     record = rb.read_result(tmp_path / "run.parquet").about["budget"]["stress"]
     sizes = [abs(part["shift"]) + max(part["below"], part["above"]) for part in record["parts"]]
-    assert sizes == sorted(sizes, reverse=True) and {"numerical", "seeds", "rivet table"} <= {
-        part["name"] for part in record["parts"]
-    }
-    assert budget.told(budget.of_record(record)) in done.stdout and "independent parts" in done.stdout.replace(
-        "\n", " "
-    )
+    assert sizes == sorted(sizes, reverse=True)
+    assert {"numerical", "seeds", "rivet table"} <= {part["name"] for part in record["parts"]}
+    assert budget.told(budget.of_record(record)) in done.stdout
+    assert "independent parts" in done.stdout.replace("\n", " ")
 
 
 def test_the_life_of_a_sheet_is_judged_with_its_error():

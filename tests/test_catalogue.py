@@ -110,11 +110,8 @@ def test_every_bearing_of_the_catalogue_can_be_built():
 
 def test_clearance_is_the_middle_of_class_cn():
     """ISO 5753-1: 6...20 um for 30 < bore <= 40 mm; the table's bounds rise with the bore."""
-    assert (
-        clearance(0.035) == pytest.approx(13e-6)
-        and clearance(0.040) == pytest.approx(13e-6)
-        and clearance(0.041) == pytest.approx(14.5e-6)
-    )
+    assert clearance(0.035) == pytest.approx(13e-6) and clearance(0.040) == pytest.approx(13e-6)
+    assert clearance(0.041) == pytest.approx(14.5e-6)
     assert clearance(0.2) is None
     bounds = np.array([bounds for name, bounds in CLEARANCE.items() if name != "CM"])
     motors, normal = np.array(CLEARANCE["CM"]), np.array(CLEARANCE["CN"])
@@ -200,12 +197,8 @@ def test_what_is_given_stands_and_leads(tmp_path):
     assert mine.joint["rho_flange"] == mine.values["cage.rho"] and mine.origin["cage.rho"] == "rule"
     # rivets sit elsewhere than the bronze
     assert mine.values["cage.J_p"] / plain.values["cage.J_p"] == pytest.approx(0.07 / plain.values["cage.m"], rel=2e-3)
-    assert (
-        mine.origin["cage.m"] == "yours"
-        and mine.origin["cage.J_p"] == "rule"
-        and mine.origin["C"] == "catalogue"
-        and "oil.eta" not in mine.origin
-    )
+    assert mine.origin["cage.m"] == "yours" and mine.origin["cage.J_p"] == "rule" and mine.origin["C"] == "catalogue"
+    assert "oil.eta" not in mine.origin
     assert mine.catalogue == plain.catalogue and not mine.bare
     path.write_text('Z = 8\n[parameters]\nbearing.D = "15.081 mm"\nbearing.d_m = "65 mm"\ncage.D_o = "74 mm"\n')
     wide = bearing_case(path)
@@ -251,9 +244,8 @@ def test_ratings_of_another_number_of_balls(tmp_path):
         found[Z] = bearing_case(path)
     assert found[8].catalogue["C"] == 53e3 and found[8].origin["C"] == "catalogue"
     assert found[6].catalogue["C_0"] == pytest.approx(0.75 * 31.9e3, rel=0.01) and found[6].origin["C_0"] == "rule"
-    assert found[6].catalogue["C"] == pytest.approx(0.75 ** (2 / 3) * 53e3, rel=0.01) and found[6].values[
-        "shaft.F_y"
-    ] == pytest.approx(4360.0)
+    assert found[6].catalogue["C"] == pytest.approx(0.75 ** (2 / 3) * 53e3, rel=0.01)
+    assert found[6].values["shaft.F_y"] == pytest.approx(4360.0)
     path.write_text('designation = "6309"\nZ = 6\n[catalogue]\nC = "40 kN"\n')
     assert bearing_case(path).catalogue["C"] == 40e3 and bearing_case(path).origin["C"] == "yours"
 

@@ -7,13 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from bearing_model.generated.variables import OUTPUTS
 from riveted_bearing.base.errors import UserError
 from riveted_bearing.base.variable_list import variable_of
 from riveted_bearing.building.compare import Statistic, compare, is_motion, through_reference
-from riveted_bearing.cli import program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.show.plot import plot_comparison
@@ -137,19 +136,17 @@ def test_an_fmu_of_another_bearing_needs_its_own_reference(model, tmp_path):
     other = Model(path)
     with pytest.raises(UserError, match="takes this FMU's own one"):
         compare(other, load_scene("demo", other))
-    refused = CliRunner().invoke(program, ["compare", "--fmu", str(path)])
+    refused = typed("compare --fmu", path)
     assert refused.exit_code == 2 and f"riveted-bearing build --bearing FILE --out {path}" in refused.stderr
 
 
 def test_command(tmp_path):
     """As a user starts it."""
-    for scene, name in ((["demo"], "demo"), ([], "RivetedBearing")):
-        done = CliRunner().invoke(
-            program, ["compare", *scene, "--short", "20 us", "--long", "0", "--out", str(tmp_path)]
-        )
+    for scene, name in (("demo", "demo"), ("", "RivetedBearing")):
+        done = typed(f'compare {scene} --short "20 us" --long 0 --out', tmp_path)
         assert done.exit_code == 0, done.output
         assert "ball[j].Q_i" in done.stdout and "F_x 515 N, F_y 2994 N" in done.stdout
         assert (tmp_path / f"{name}_compare.png").is_file()
-    refused = CliRunner().invoke(program, ["compare", "demo", "--short", "fast"])
+    refused = typed("compare demo --short fast")
     assert refused.exit_code == 2
     assert "--short = 'fast'" in refused.stderr

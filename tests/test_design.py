@@ -64,9 +64,8 @@ def test_sobol_indices_of_ishigamis_function(model):
     expected = dict(zip(NAMES, (V1 / V, V2 / V, 0.0), strict=True))
     total = dict(zip(NAMES, ((V1 + V13) / V, V2 / V, V13 / V), strict=True))
     for name in NAMES:  # observed within 0.005 at 4096 points
-        assert S1[name] == pytest.approx(expected[name], abs=0.015) and ST[name] == pytest.approx(
-            total[name], abs=0.015
-        )
+        assert S1[name] == pytest.approx(expected[name], abs=0.015)
+        assert ST[name] == pytest.approx(total[name], abs=0.015)
 
 
 def test_elementary_effects_of_a_plane_are_its_slopes(model):
@@ -103,11 +102,8 @@ def test_indices_are_written_and_drawn(tmp_path, model):
     )
     assert json.loads(write_indices(found, tmp_path / "sensitivity.json").read_text())["chosen"] == list(found.chosen)
     again = read_indices(tmp_path)
-    assert (again.morris, again.sobol, again.ranked) == (found.morris, found.sobol, found.ranked) and again.ranked == [
-        0,
-        1,
-        2,
-    ]
+    assert (again.morris, again.sobol, again.ranked) == (found.morris, found.sobol, found.ranked)
+    assert again.ranked == [0, 1, 2]
     assert write_picture(found, tmp_path / "s.png").stat().st_size > 20000
 
 
@@ -178,10 +174,8 @@ def test_two_objectives_give_a_front(tmp_path, model):
     a = (found.points[found.candidates[found.best], 0] - 0.1) / 0.2
     assert 0.25 < a < 0.75
     answer = json.loads(write_optimum(found, tmp_path / "o.json").read_text())
-    assert (
-        answer["recommended"]["at"]["joint.mu"] == found.points[found.candidates[found.best], 0]
-        and len(answer["candidates"]) == 4
-    )
+    assert answer["recommended"]["at"]["joint.mu"] == found.points[found.candidates[found.best], 0]
+    assert len(answer["candidates"]) == 4
     assert write_optimum_picture(found, tmp_path / "o.png").stat().st_size > 15000
     assert answer["criterion"].startswith("the point simulated again nearest to the least damage and least friction")
     assert answer["present"]["mean"] == pytest.approx({"damage": 0.35, "friction": 0.35})  # the middle of the box
@@ -197,9 +191,8 @@ def test_the_program_says_why_a_point_is_recommended(model, capsys):
     text = capsys.readouterr().out
     assert "recommended: the point simulated again with the largest damage, of those that keep stress <= 1 MPa" in text
     row = next(line for line in text.splitlines() if line.startswith("present design"))
-    assert (
-        row.split()[2] == f"{displayed(names[0], model.default(model.parameters[names[0]])):.4g}" and "0.5 ± 0" in row
-    )
+    assert row.split()[2] == f"{displayed(names[0], model.default(model.parameters[names[0]])):.4g}"
+    assert "0.5 ± 0" in row
 
 
 def test_a_search_repeats_itself(model):
@@ -227,10 +220,8 @@ def test_a_response_that_does_not_exist_is_refused_before_a_run(tmp_path, kind):
     key = {"sensitivity": "responses", "optimize": "objectives"}[kind]
     (tmp_path / "study.toml").write_text(f'{key} = ["stres"]\n[between]\njoint.mu = [0.1, 0.3]\n')
     refused = command(kind, "study.toml", folder=tmp_path)
-    assert (
-        refused.returncode == 2
-        and refused.stderr == 'error: study.toml: unknown response "stres"; did you mean "stress"?\n'
-    )
+    assert refused.returncode == 2
+    assert refused.stderr == 'error: study.toml: unknown response "stres"; did you mean "stress"?\n'
     assert [path.name for path in tmp_path.iterdir()] == ["study.toml"]
 
 
@@ -281,9 +272,6 @@ def test_a_missing_library_is_named_and_leaves_nothing(tmp_path, kind, key, libr
     (tmp_path / "study.toml").write_text(f'{key} = ["stress"]\n[between]\njoint.mu = [0.1, 0.3]\n')
     without = f"import sys; sys.modules[{library!r}] = None; sys.argv = ['', {kind!r}, 'study.toml']; from riveted_bearing.__main__ import main; main()"
     refused = subprocess.run([sys.executable, "-c", without], cwd=tmp_path, capture_output=True, text=True)
-    assert (
-        refused.returncode == 2
-        and refused.stderr.startswith(f"error: {kind}: needs the library")
-        and refused.stderr.count("\n") == 1
-    )
+    assert refused.returncode == 2 and refused.stderr.startswith(f"error: {kind}: needs the library")
+    assert refused.stderr.count("\n") == 1
     assert [path.name for path in tmp_path.iterdir()] == ["study.toml"]

@@ -147,10 +147,8 @@ def test_an_open_interval_is_told_as_life_tells_it(capsys):
     print_comparison(SimpleNamespace(confidence=0.9, outcomes=outcomes, differences=()))
     out = capsys.readouterr().out
     assert "open at both ends" in out and "715" not in out and "80 h – 125 h" in out and "1e-06 (open)" in out
-    assert designs_page.shown_ends(outcomes[0]) == (1e8 / 11.0, 1.1e9) and designs_page.shown_ends(outcomes[1]) == (
-        80.0,
-        125.0,
-    )
+    assert designs_page.shown_ends(outcomes[0]) == (1e8 / 11.0, 1.1e9)
+    assert designs_page.shown_ends(outcomes[1]) == (80.0, 125.0)
 
 
 def test_two_designs_of_one_fmu(fmu, tmp_path, browser):
@@ -160,20 +158,8 @@ def test_two_designs_of_one_fmu(fmu, tmp_path, browser):
     (tmp_path / "trial.toml").write_text(MISSION)
     for name in ("a.fmu", "b.fmu"):
         (tmp_path / name).write_bytes(fmu.read_bytes())
-    done = command(
-        *(
-            "compare-designs",
-            "a.fmu",
-            "b.fmu",
-            "a.fmu",
-            "fatigue.sigma_D=2 GPa",
-            "--mission",
-            "trial.toml",
-            "--workers",
-            1,
-        ),
-        folder=tmp_path,
-    )
+    words = "a.fmu", "b.fmu", "a.fmu", "fatigue.sigma_D=2 GPa", "--mission", "trial.toml", "--workers", 1
+    done = command("compare-designs", *words, folder=tmp_path)
     assert done.returncode == 0, done.stderr
     folder = tmp_path / "results" / "trial_designs"
     found = json.loads((folder / "designs.json").read_text())

@@ -134,15 +134,8 @@ SLOW = ("my6308", "rivet rivet.toml")
 
 
 @pytest.fixture
-def kitchen(fmu, tmp_path, monkeypatch):
-    """An empty folder with the FMU and the page's files."""
-    (tmp_path / fmu.name).symlink_to(fmu)
-    for language, text in BLOCKS:
-        if language in ("toml", "csv"):
-            (tmp_path / re.match(r"# (\S+)", text)[1]).write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    return tmp_path
+def kitchen(laid):
+    return laid({re.match(r"# (\S+)", text)[1]: text for language, text in BLOCKS if language in ("toml", "csv")})
 
 
 def cook(kinds, skip=()):

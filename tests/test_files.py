@@ -398,7 +398,8 @@ def test_rows_of_parquet_files_alone_are_taken_over(plan, tmp_path):
     before, _ = exported(plan, tmp_path, list(plan.scenes))
     (tmp_path / "_rows.sqlite").unlink()
     after, done = exported(plan, tmp_path, list(plan.scenes))
-    assert done == set(plan.scenes) and {name: list(map(str, column)) for name, column in after.items()} == {
+    assert done == set(plan.scenes)
+    assert {name: list(map(str, column)) for name, column in after.items()} == {
         name: list(map(str, column)) for name, column in before.items()
     }
 

@@ -11,13 +11,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from bearing_model.generated.variables import ESSENTIALS
 from rivet_model.half_modes import default_count
 from riveted_bearing import __version__, run
 from riveted_bearing.base.variable_list import essentials, matching
-from riveted_bearing.cli.terminal import FULL, program
+from riveted_bearing.cli.terminal import FULL
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.results import Result
 from riveted_bearing.running.scene import load_scene
@@ -29,16 +29,10 @@ ROOT = Path(__file__).resolve().parents[1]
 def test_without_a_scene_the_fmu_has_its_own_working_point(own):
     model = Model(own)
     scene = load_scene(None, model, ("the command line", {"simulation": {"t_end": "1 ms"}}))
-    assert (
-        scene.name == "mine"
-        and scene.inputs == {}
-        and scene.parameters == {"scene.statistics": "on"}
-        and scene.t_end == 1e-3
-    )
-    assert (
-        scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min"
-        and scene.replaced == ()
-    )
+    assert scene.name == "mine" and scene.inputs == {} and scene.parameters == {"scene.statistics": "on"}
+    assert scene.t_end == 1e-3
+    assert scene.description == "own working point of mine.fmu, F_y 4100 N, F_x 515 N, omega 18238 rev/min"
+    assert scene.replaced == ()
 
 
 def test_a_run_without_a_scene(fmu):
@@ -77,13 +71,12 @@ shaft.omega = { t = [0, 1], value = [3000, 12000], unit = "rev/min" }
 def test_the_essential_variables(fmu):
     listed = [variable.name for group in essentials().values() for variable in group]
     assert listed == [name for names in ESSENTIALS.values() for name in names] and 35 <= len(listed) <= 45
-    done = CliRunner().invoke(program, ["variables"])
+    done = typed("variables")
     assert done.exit_code == 0 and all(name in done.stdout for name in listed)
     with zipfile.ZipFile(fmu) as archive:
         page = archive.read("documentation/index.html").decode()
-    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">') and all(
-        f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed
-    )
+    assert page.index('<h2 id="essentials">') < page.index('<h2 id="use">')
+    assert all(f"<code>{name}</code>" in page.split('<h2 id="use">')[0] for name in listed)
 
 
 @pytest.mark.parametrize(
@@ -102,15 +95,13 @@ def test_variables_by_pattern(pattern, some):
 
 def test_variables_have_unit_and_limits(own):
     line = next(
-        line
-        for line in CliRunner().invoke(program, ["variables", "shaft.F_y", "--fmu", str(own)]).stdout.splitlines()
-        if line.startswith("shaft.F_y")
+        line for line in typed("variables shaft.F_y --fmu", own).stdout.splitlines() if line.startswith("shaft.F_y")
     )
     assert re.split(r"\s{1,}", line)[:7] == ["shaft.F_y", "input", "N", "4100", "-100000", "...", "100000"]
 
 
 def test_the_version():
-    done = CliRunner().invoke(program, ["--version"])
+    done = typed("--version")
     assert done.exit_code == 0 and done.stdout.startswith(f"riveted-bearing {__version__}, Python 3")
 
 
@@ -156,11 +147,10 @@ def test_the_libraries_of_a_run_are_the_few(fmu):
 
 def test_the_cookbook_comes_with_the_program():
     """The pages of docs/, as files for a pipe; the wheel has them in _source/docs (cmake/fmu.cmake)."""
-    run_it = lambda *words: CliRunner().invoke(program, ["cookbook", *words])
-    assert run_it().stdout == (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
-    listed = run_it("list").stdout.splitlines()
+    assert typed("cookbook").stdout == (ROOT / "docs" / "cookbook.md").read_text(encoding="utf-8")
+    listed = typed("cookbook list").stdout.splitlines()
     assert {line.split()[0] for line in listed} == {path.stem for path in (ROOT / "docs").glob("*.md")}
-    refused = run_it("coupler")
+    refused = typed("cookbook coupler")
     assert refused.exit_code == 2 and 'did you mean "coupling"' in refused.output
     assert "fmu_src fmus docs DESTINATION" in (ROOT / "cmake" / "fmu.cmake").read_text()
 
@@ -234,6 +224,6 @@ def test_ten_revolutions_are_ten(turns, told):
 
 def test_help_says_what_the_program_does():
     """Five modes a ball; two numbers behind --band."""
-    modes = CliRunner().invoke(program, ["build", "--help"], env={"COLUMNS": "200"}, terminal_width=200).output
+    modes = typed("build --help", env={"COLUMNS": "200"}, terminal_width=200).output
     assert default_count(8) == default_count(9) == 40 and "about 5 a ball, 40 for 8 or 9" in " ".join(modes.split())
-    assert "LOW HIGH" in CliRunner().invoke(program, ["spectrum", "--help"], terminal_width=200).output
+    assert "LOW HIGH" in typed("spectrum --help", terminal_width=200).output

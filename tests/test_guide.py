@@ -15,7 +15,6 @@ from riveted_bearing.running.scene import load_scene
 
 ROOT = Path(__file__).parents[1]
 GUIDE = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
-FMU = ROOT / "fmus" / "RivetedBearing.fmu"
 OWN = (ROOT / "docs" / "own_bearing.md").read_text(encoding="utf-8")
 BLOCKS = [
     block for page in (GUIDE, OWN) for block in re.findall(r"^```(\w+)\n(.*?)^```", page, re.S | re.M)
@@ -26,16 +25,8 @@ KNOWN = variables.INPUTS | variables.PARAMETERS | variables.OUTPUTS
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """A folder as the reader has it: the FMU and the guide's files."""
-    if not FMU.exists():
-        pytest.skip("the FMU is not built: make build")
-    (tmp_path / FMU.name).symlink_to(FMU)
-    for name, text in FILES.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    return tmp_path
+def folder(laid):
+    return laid(FILES)
 
 
 def test_files_can_be_read(folder):

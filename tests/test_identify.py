@@ -306,13 +306,10 @@ def test_a_series_becomes_statistics_and_bands(model, tmp_path):
     t, values = noisy()
     values = values - 100.0 * np.sin(2 * np.pi * 1100.0 * t)
     mean, std = plan_identify(*series(tmp_path, csv_text(t, values)), model).targets
-    assert mean.value == pytest.approx(-3000.0, abs=4 * 50 / math.sqrt(4000)) and std.value == pytest.approx(
-        50.0, rel=0.04
-    )
-    assert (
-        0.3 < mean.uncertainty / (50.0 / math.sqrt(4000)) < 2.0
-        and 0.3 < std.uncertainty / (50.0 / math.sqrt(8000)) < 2.0
-    )
+    assert mean.value == pytest.approx(-3000.0, abs=4 * 50 / math.sqrt(4000))
+    assert std.value == pytest.approx(50.0, rel=0.04)
+    assert 0.3 < mean.uncertainty / (50.0 / math.sqrt(4000)) < 2.0
+    assert 0.3 < std.uncertainty / (50.0 / math.sqrt(8000)) < 2.0
     assert mean.column == "mean(housing.F_y)" and mean.origin == "rig.csv: Fy [kN]"
     t, values = noisy()
     path, document = series(tmp_path, csv_text(t, values), statistics=[], bands=4, uncertainty="2 %")

@@ -4,11 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from bearing_model.generated import variables
 from riveted_bearing.bearing.bearing_file import bearing_case
-from riveted_bearing.cli import program
 from riveted_bearing.cli.info_tables import cells, without_effect
 from riveted_bearing.show.spectrum import expected_lines
 
@@ -46,7 +45,7 @@ def test_all_other_inputs_are_named(case):
 def test_command_names_what_does_not_act(tmp_path):
     file = tmp_path / "own.toml"
     file.write_text('designation = "6205"\n[inputs]\nshaft.v_y = 0.1\nhousing.omega = "3000 rev/min"\n')
-    output = CliRunner().invoke(program, ["info", str(file)]).output
+    output = typed("info", file).output
     assert "without effect here: shaft.v_y\n" in output
 
 
@@ -78,7 +77,7 @@ def test_file_of_catalogue_values_takes_the_rule(tmp_path):
     file.write_text("\n".join([*lines, 'C_0 = "3.65 kN"']))
     assert bearing_case(file).values["bearing.d_m"] == pytest.approx(28.5e-3)
     file.write_text("\n".join(lines))
-    refused = CliRunner().invoke(program, ["info", str(file)]).output
+    refused = typed("info", file).output
     assert "catalogue.C_0" in refused
     assert "53.5" not in refused
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import distributed
 import pytest
-from commands import rows_kept
+from commands import begun, finished, stopped_after_a_row
 
 from riveted_bearing import UserError, read_result, run
 from riveted_bearing.base.interrupts import held_interrupts
@@ -96,24 +96,16 @@ def test_files_under_way_are_finished(tmp_path, module, name):
 
 def test_in_the_middle_of_a_run(tmp_path):
     """Ctrl-C as a terminal sends it, to all processes of the group."""
-    env = os.environ | {"PYTHONPATH": str(ROOT)}
-    process = subprocess.Popen(
-        [sys.executable, "-m", "riveted_bearing", *LONG, "--no-plot", "--out", tmp_path],
-        env=env,
-        cwd=tmp_path,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
+    process = begun(*LONG, "--no-plot", "--out", tmp_path, folder=tmp_path)
     time.sleep(6.0)
     os.killpg(process.pid, signal.SIGINT)
-    _, errors = process.communicate(timeout=60)
+    _, errors, code = finished(process)
     assert "Traceback" not in errors
-    if process.returncode in (130, -signal.SIGINT):  # on a busy machine still starting; shells show both as 130
+    if code in (130, -signal.SIGINT):  # on a busy machine still starting; shells show both as 130
         assert errors == "interrupted: no file has changed\n" and list(tmp_path.iterdir()) == []
         return
     said = re.search(r"stopped: interrupted after t = (\S+) s", errors)
-    assert process.returncode == 3 and said, errors
+    assert code == 3 and said, errors
     reached = float(said[1])
     assert read_result(tmp_path / "demo.parquet").data["time"][-1] == pytest.approx(reached, rel=1e-9)
 
@@ -160,30 +152,15 @@ def test_while_the_cluster_starts_it_waits(monkeypatch):
     with pytest.raises(KeyboardInterrupt), cluster(workers=1):
         raise AssertionError
     assert seen == ["True", "True", "closed", "closed"]
-    assert signal.getsignal(
-        signal.SIGINT
-    ) is signal.default_int_handler and signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, [])
 
 
 def test_a_sweep_says_what_is_kept(tmp_path):
     (tmp_path / "many.toml").write_text(SWEEP)
-    env = os.environ | {"PYTHONPATH": str(ROOT)}
-    command = [sys.executable, "-m", "riveted_bearing", "sweep", "many.toml", "--out", "rows", "--workers", "1"]
-    process = subprocess.Popen(
-        command,
-        env=env,
-        cwd=tmp_path,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-    until = time.monotonic() + 120.0
-    while not rows_kept(tmp_path / "rows") and time.monotonic() < until:
-        time.sleep(0.2)
-    os.killpg(process.pid, signal.SIGINT)
-    output, errors = process.communicate(timeout=60)
-    assert (process.returncode, output) == (130, "")
+    process = begun("sweep", "many.toml", "--out", "rows", "--workers", "1", folder=tmp_path)
+    output, errors, code = stopped_after_a_row(process, tmp_path / "rows", signal.SIGINT)
+    assert (code, output) == (130, "")
     assert errors == "interrupted: finished runs are kept in rows; the same command does the others\n"
     assert {path.name for path in (tmp_path / "rows").iterdir()} == {"_rows.sqlite", "runs.parquet"}
 

@@ -3,11 +3,10 @@
 import json
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from commands import run_in_shell
 
 from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.design.optimize import plan_optimize
@@ -27,13 +26,8 @@ COMMANDS = [
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    """A folder with the page's files."""
-    for name, text in FILES.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PYTHONPATH", str(ROOT))
-    return tmp_path
+def folder(laid):
+    return laid(FILES)
 
 
 def test_files_can_be_read(folder):
@@ -64,10 +58,7 @@ def test_the_strike_of_the_page_counts_with_any_fmu(folder, monkeypatch):
 def test_commands_do_what_the_page_says(folder, line):
     """Each command in its own folder: the files that the page names are there.  A quarter of a minute each."""
     _, name, path = shlex.split(line)
-    done = subprocess.run(
-        [sys.executable, "-m", "riveted_bearing", name, path], capture_output=True, text=True, timeout=1800, check=False
-    )
-    assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"
+    run_in_shell(line)
     made = folder / "results" / Path(path).stem
     expected = {
         "life": ("life.json", "life.html", "life.png", "runs.parquet"),

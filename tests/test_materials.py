@@ -48,10 +48,8 @@ def test_a_cage_material_reaches_run_and_table(tmp_path, name):
         assert getattr(g, member) == entry[key][0], key
     for key, parameter in PARTS["cage"].parameters.items():
         assert case.values[parameter] == entry[key][0] and case.origin[parameter] == "yours"
-    assert (
-        case.values["cage.m"] == pytest.approx(half_shape.half_inertia(g).m, rel=1e-5)
-        and case.origin["cage.m"] == "rule"
-    )
+    assert case.values["cage.m"] == pytest.approx(half_shape.half_inertia(g).m, rel=1e-5)
+    assert case.origin["cage.m"] == "rule"
     assert case.values["cage.material"] == name.lower().replace("-", "_")
 
 
@@ -98,11 +96,8 @@ OWN = '[cage.material]\nE = "100 GPa"\nnu = 0.35\ndensity = "8.5 g/cm3"\nexpansi
 
 def test_a_table_of_ones_own(tmp_path):
     case = case_of(tmp_path, OWN)
-    assert (
-        case.values["cage.material"] == "own"
-        and case.joint["rho_flange"] == pytest.approx(8500.0)
-        and case.joint["yield_flange"] == 200e6
-    )
+    assert case.values["cage.material"] == "own" and case.joint["rho_flange"] == pytest.approx(8500.0)
+    assert case.joint["yield_flange"] == 200e6
     assert set(case.materials["cage"].sources.values()) == {"our laboratory"}
 
 
@@ -210,9 +205,8 @@ def test_the_shank_of_the_6207_too(tmp_path):
     rivet = tmp_path / "rivet.toml"
     rivet.write_text('shank_diameter = "1.8 mm"\n', encoding="utf-8")
     for case in (bearing_case(path), case_with(None, rivet)):
-        assert case.values["joint.preload"] == pytest.approx(20.0 * 1.44) and case.joint[
-            "head_diameter"
-        ] == pytest.approx(1.2 * 2.6e-3)
+        assert case.values["joint.preload"] == pytest.approx(20.0 * 1.44)
+        assert case.joint["head_diameter"] == pytest.approx(1.2 * 2.6e-3)
         assert case.origin["joint.preload"] == "rule" and case.values["shaft.F_y"] == 2994.0
     assert not_given(bearing_case(path).origin)["of the 6207"] == "Z, bearing (D, d_m), shaft (F_x, F_y, omega)"
 
@@ -224,19 +218,16 @@ def test_heads_by_standard(tmp_path, standard):
         assert 1.4 < 1e3 * diameter / shank < 2.3 and 0.3 < 1e3 * height / shank < 0.8
         if 1.5 <= shank <= 2.5:
             case = case_of(tmp_path, f'[rivet]\nhead = "{standard}"\nshank_diameter = "{shank:g} mm"\n')
-            assert (case.joint["head_diameter"], case.joint["head_height"]) == (diameter, height) and case.joint[
-                "seat_diameter"
-            ] > diameter
+            assert (case.joint["head_diameter"], case.joint["head_height"]) == (diameter, height)
+            assert case.joint["seat_diameter"] > diameter
 
 
 def test_strength_follows_the_rivet_steel(tmp_path):
     """The S-N curve is that of the rivet's material; a strength alone keeps the 6207's ratios; one's own curve stands."""
     for name in names_for("rivet"):
         case = case_of(tmp_path, f'[rivet]\nmaterial = "{name}"\n')
-        assert (
-            case.values["fatigue.sigma_m"] == library()[name]["strength"][0]
-            and case.values["fatigue.sigma_D"] == library()[name]["endurance"][0]
-        )
+        assert case.values["fatigue.sigma_m"] == library()[name]["strength"][0]
+        assert case.values["fatigue.sigma_D"] == library()[name]["endurance"][0]
         assert case.values["fatigue.sigma_f"] == pytest.approx(
             1180.0 / 785.0 * library()[name]["strength"][0], rel=1e-5
         )
@@ -279,9 +270,8 @@ def warnings_of(scene):
 def test_oil_alone_is_said_once():
     """A host that heats the oil and leaves the parts is told, one that heats both or neither is not."""
     alone = warnings_of(Scene(inputs={"oil.T": History([0.0], [363.15])}))
-    assert len(alone) == 1 and all(
-        word in alone[0] for word in ("oil.T = 90 degC", "cage.T = 20 degC", "clearances, preload and fit")
-    )
+    assert len(alone) == 1
+    assert all(word in alone[0] for word in ("oil.T = 90 degC", "cage.T = 20 degC", "clearances, preload and fit"))
     hot = dict.fromkeys(("oil.T", "cage.T"), History([0.0], [363.15]))
     assert not warnings_of(Scene(inputs=hot)) and not warnings_of(Scene())
     assert not warnings_of(Scene(inputs={"oil.T": History([0.0], [293.15])}))  # that of the parts

@@ -7,11 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from riveted_bearing import UserError
-from riveted_bearing.cli import program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
 from riveted_bearing.running.scene_case import scene_case
@@ -115,22 +114,8 @@ def test_ross_table_over_speed_and_whirl(tmp_path):
 
 def test_the_command(fmu, tmp_path):
     """Speeds with units, load factors, a picture and a file for ROSS; a wrong unit is refused by name."""
-    command = [
-        "matrices",
-        "demo",
-        "--static",
-        "--fmu",
-        str(fmu),
-        "--out",
-        str(tmp_path),
-        "--speed",
-        "6000 rev/min",
-        "--load",
-        "0.5",
-        "--load",
-        "1",
-    ]
-    result = CliRunner().invoke(program, command)
+    line = 'matrices demo --static --speed "6000 rev/min" --load 0.5 --load 1'
+    result = typed(line, "--fmu", fmu, "--out", tmp_path)
     assert result.exit_code == 0, result.output
     assert {path.name for path in tmp_path.iterdir()} == {
         "demo_matrices.csv",
@@ -149,5 +134,5 @@ def test_the_command(fmu, tmp_path):
     # at one azimuth of the balls; over a pitch it moves by 2 %
     K = quasi_static(Bearing(), Load(F_x=515.0, F_y=2994.0, omega=6000.0 * np.pi / 30.0)).K
     assert element["kxx"][0] == pytest.approx(K[1, 1], rel=0.03)
-    refused = CliRunner().invoke(program, [*command, "--speed", "3 m"])
+    refused = typed(f'{line} --speed "3 m"', "--fmu", fmu, "--out", tmp_path)
     assert refused.exit_code == 2

@@ -2,11 +2,7 @@
 
 import json
 import math
-import os
 import signal
-import subprocess
-import sys
-import time
 import tomllib
 from dataclasses import replace
 from pathlib import Path
@@ -14,7 +10,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from commands import rows_kept
+from commands import begun, finished, stopped_after_a_row
 from scipy.stats import t as student
 
 from riveted_bearing import UserError
@@ -253,23 +249,20 @@ def test_a_mission_of_one_point_lives_as_this_point(model):
         "seeds": n,
     }
     assert [row["head_per_h"] for row in found["rivets"]] == pytest.approx(mean[:, 0].tolist(), rel=1e-12)
-    assert (
-        set(found)
-        == {
-            "fmu",
-            "fmu_sha256",
-            "basis",
-            "life_h",
-            "low_h",
-            "high_h",
-            "confidence",
-            "raceways",
-            "points",
-            "rivets",
-            "error_budget",
-        }
-        and found["confidence"] == 0.9
-    )
+    assert set(found) == {
+        "fmu",
+        "fmu_sha256",
+        "basis",
+        "life_h",
+        "low_h",
+        "high_h",
+        "confidence",
+        "raceways",
+        "points",
+        "rivets",
+        "error_budget",
+    }
+    assert found["confidence"] == 0.9
     assert found["low_h"] < found["life_h"] < found["high_h"]
 
 
@@ -360,9 +353,8 @@ def test_a_measured_record_is_binned_by_the_time_it_spends(tmp_path):
     path.write_text("# measured\ntime,load\n" + "".join(f"{a:.1f},{b:.6f}\n" for a, b in zip(t, level, strict=True)))
     assert len(t) > BLOCK
     spent, cells, means, spreads = binned(path, Wanted("time", SECONDS), [Wanted("load", {"N": (1.0, 0.0)})], [4])
-    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5] and means[:, 0] == pytest.approx(
-        [1.0, 3.0, 9.0], rel=1e-12
-    )
+    assert spent.tolist() == [12000.0, 30000.0, 60000.0 - 42000.0 - 0.5]
+    assert means[:, 0] == pytest.approx([1.0, 3.0, 9.0], rel=1e-12)
     assert cells[:, 0].tolist() == [0, 1, 3] and np.all(spreads < 1e-6)
 
 
@@ -497,6 +489,7 @@ def test_tables_and_records_become_points(tmp_path, model, written):
         },
     }
     mission = plan_mission("trial", document, model, tmp_path / "trial.toml")
+    assert [part.name for part in mission.parts[:2]] == ["duty.csv line 2", "duty.csv line 3"]  # as in an editor
     assert [part.weight for part in mission.parts] == pytest.approx([10, 20, 15, 15])
     assert mission.parts[1].values["shaft.omega"] == pytest.approx(12000 * math.pi / 30)
     assert [part.values["shaft.F_y"] for part in mission.parts[2:]] == pytest.approx(
@@ -514,12 +507,8 @@ def test_page_and_picture_show_every_part(tmp_path, model):
     rates = np.array([1e-6, 1e-5, 1e-6])[:, None, None] * np.ones((3, Z, 2))
     life = assess(mission, surrogate(rates, 0.3, np.random.default_rng(1)))
     page = write_page(life, tmp_path / "life.html", ["note <1>"]).read_text()
-    assert (
-        all(name in page for name in names)
-        and page.count("<svg") == 4
-        and "note &lt;1&gt;" in page
-        and "nan" not in page.lower().replace("nano", "")
-    )
+    assert all(name in page for name in names) and page.count("<svg") == 4 and "note &lt;1&gt;" in page
+    assert "nan" not in page.lower().replace("nano", "")
     assert write_picture(life, tmp_path / "life.png").stat().st_size > 20000
 
 
@@ -548,21 +537,7 @@ half_width = 0.001
 
 def start(folder, *arguments):
     """The command as a process."""
-    return subprocess.Popen(
-        [sys.executable, "-m", "riveted_bearing", "life", "trial.toml", *arguments],
-        cwd=folder,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        start_new_session=True,
-    )
-
-
-def finished(process):
-    """Output, messages and exit code."""
-    out, err = process.communicate(timeout=600)
-    return out, err, process.returncode
+    return begun("life", "trial.toml", "--workers", "1", *arguments, folder=folder)
 
 
 def test_a_killed_mission_goes_on(tmp_path):
@@ -571,14 +546,9 @@ def test_a_killed_mission_goes_on(tmp_path):
     folder.mkdir()
     (folder / "trial.toml").write_text(MISSION)
     results = folder / "results" / "trial"
-    process = start(folder, "--workers", "1")
-    patience = time.monotonic() + 300
-    while not rows_kept(results) and time.monotonic() < patience:
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGKILL)
-    finished(process)
+    stopped_after_a_row(start(folder), results, signal.SIGKILL)
     assert not (results / "life.json").exists()
-    _, err, code = finished(start(folder, "--workers", "1"))
+    _, err, code = finished(start(folder))
     assert code == 0, err
     assert {path.name for path in results.iterdir()} >= {"life.json", "life.html", "life.png", "runs.parquet"}
 
@@ -588,18 +558,13 @@ def test_a_mission_stopped_by_the_keyboard_goes_on_to_the_same_life(tmp_path):
     without a stop.  Then an S-N curve is given: the same runs, another life.
     """
     (tmp_path / "trial.toml").write_text(MISSION)
-    process = start(tmp_path, "--workers", "1")
-    patience = time.monotonic() + 300
-    while not rows_kept(tmp_path / "results" / "trial") and time.monotonic() < patience:
-        time.sleep(0.02)
-    os.killpg(process.pid, signal.SIGINT)
-    _, err, code = finished(process)
+    _, err, code = stopped_after_a_row(start(tmp_path), tmp_path / "results" / "trial", signal.SIGINT)
     assert code == 130 and "kept in results/trial" in err and "Traceback" not in err
-    out, err, code = finished(start(tmp_path, "--workers", "1"))
+    out, err, code = finished(start(tmp_path))
     assert code == 0 and "max_seeds = 5 was reached" in out, err
     assert "none: the FMU's own parameters and inputs" in out and "F_y 1000 to 2994 N" in out and "S-N curve" in out
     found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())
-    _, err, code = finished(start(tmp_path, "--workers", "1", "--out", "calm"))
+    _, err, code = finished(start(tmp_path, "--out", "calm"))
     assert code == 0 and json.loads((tmp_path / "calm" / "life.json").read_text()) == found, err
     for name in ("life.html", "life.png", "runs.parquet"):
         assert (tmp_path / "calm" / name).is_file()

@@ -10,8 +10,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from commands import typed
 from lxml import etree
-from typer.testing import CliRunner
 
 from bearing_model.generated import variables
 from bearing_model.physics.viscosity import Oil
@@ -28,7 +28,7 @@ from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.designations import known_bearings
 from riveted_bearing.bearing.oil import viscosity
 from riveted_bearing.bearing.plausible import doubts
-from riveted_bearing.cli import info_tables, program
+from riveted_bearing.cli import info_tables
 from riveted_bearing.design.bench import Bench
 from riveted_bearing.duty.mission import plan_mission
 from riveted_bearing.duty.page import mission_text, time_text
@@ -55,7 +55,7 @@ def read(tmp_path, text):
 
 def shown(*arguments):
     """What the program prints."""
-    done = CliRunner().invoke(program, [str(argument) for argument in arguments])
+    done = typed("", *arguments)
     assert done.exit_code == 0, done.output
     return done.stdout
 
@@ -322,11 +322,7 @@ def test_what_stays_as_of_bronze_is_said():
 
 
 def test_a_flange_that_yields_is_said_on_the_terminal(model, tmp_path):
-    done = CliRunner().invoke(
-        program,
-        ["run", "--fmu", str(model.path), "--set", "joint.fit=20 um", "--t-end", "1 ms", "--no-plot"]
-        + ["--out", str(tmp_path)],
-    )
+    done = typed('run --set "joint.fit=20 um" --t-end "1 ms" --no-plot', "--fmu", model.path, "--out", tmp_path)
     assert done.exit_code == 0 and "flags of the rivets (rivet[k].flag): flange yields" in done.stderr
 
 
@@ -435,9 +431,8 @@ def test_what_a_drawing_allows_goes_into_the_fmu(tmp_path):
     root = etree.fromstring(write_description(load_table(resolved)).encode())
     values = {v.get("name"): v.attrib for v in root.iterfind("VendorAnnotations/Tool/Origin/Value")}
     assert {name for name, one in values.items() if "low" in one} == set(expected)
-    assert float(values["oil.T"]["low"]) == pytest.approx(343.15) and float(values["oil.T"]["high"]) == pytest.approx(
-        383.15
-    )
+    assert float(values["oil.T"]["low"]) == pytest.approx(343.15)
+    assert float(values["oil.T"]["high"]) == pytest.approx(383.15)
 
 
 @pytest.mark.parametrize(
@@ -601,9 +596,8 @@ def test_default_ranges_of_a_study_are_those_of_values_by_rule():
     origin = dict.fromkeys(names, "rule")
     model = SimpleNamespace(parameters=names, default=lambda value: value, origin=origin, bearing="6309")
     ranges = assumed.assumed_ranges(model)
-    assert ranges["joint.preload"] == pytest.approx((24.7, 148.2)) and ranges["joint.fit"] == pytest.approx(
-        (-31.4e-6, 0)
-    )
+    assert ranges["joint.preload"] == pytest.approx((24.7, 148.2))
+    assert ranges["joint.fit"] == pytest.approx((-31.4e-6, 0))
 
 
 def test_an_fmu_keeps_the_rivets_sizes(tmp_path):
@@ -643,9 +637,8 @@ def test_no_bearing_of_the_catalogue_is_doubted():
 def test_ratings_that_nobody_gave_are_those_of_the_standards(tmp_path):
     """A file without designation and catalogue: info shows lives and static safety, C and C_0 by rule."""
     case = read(tmp_path, 'Z = 8\n[parameters]\nbearing.D = "17.4625 mm"\nbearing.d_m = "72.5 mm"\n')
-    assert case.catalogue["C"] == pytest.approx(53e3, rel=0.02) and case.catalogue["C_0"] == pytest.approx(
-        31.9e3, rel=0.02
-    )
+    assert case.catalogue["C"] == pytest.approx(53e3, rel=0.02)
+    assert case.catalogue["C_0"] == pytest.approx(31.9e3, rel=0.02)
     assert case.origin["C"] == case.origin["C_0"] == "rule"
 
 

@@ -104,9 +104,8 @@ def test_a_thin_seat_is_said():
     """Seat of a ring from 1.25 to 1.3 mm radius against a shank of 1 mm: (1.3^2 - 1.25^2)/1^2."""
     thin = replace(Geometry(), shank_diameter=2e-3)
     assert thin.seat_width == pytest.approx(0.05e-3) and thin.seat_share == pytest.approx(0.1275)
-    assert "0.05 mm wide, 13 % of the shank's section" in seat_note(
-        thin
-    ) and "head_diameter = 2.6 mm is small" in seat_note(thin)
+    assert "0.05 mm wide, 13 % of the shank's section" in seat_note(thin)
+    assert "head_diameter = 2.6 mm is small" in seat_note(thin)
     assert seat_note(Geometry()) == ""
 
 

@@ -7,8 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from commands import command
-from typer.testing import CliRunner
+from commands import command, typed
 
 from riveted_bearing import UserError
 from riveted_bearing.bearing.bearing_file import bearing_case
@@ -20,7 +19,6 @@ from riveted_bearing.bearing.load_ratings import (
     life_factor,
     rating_factor_0,
 )
-from riveted_bearing.cli import program
 from riveted_bearing.cli.optimize import go_apart
 from riveted_bearing.duty import designs, designs_page, page, raceways, sheet, verdict
 from riveted_bearing.duty.evidence import Evidence
@@ -149,9 +147,9 @@ def test_makers_values(tmp_path):
     own, plain = raceways.rated(bearing_case(file)), raceways.rated(bearing_case("6212"))
     assert own.slips and own.least == 6e3 and not plain.slips and plain.least == pytest.approx(0.01 * 47.7e3, rel=0.01)
     assert own.lives["L_10mr"] > 1.5 * plain.lives["L_10mr"] and own.lives["L_10r"] == plain.lives["L_10r"]
-    output = CliRunner().invoke(program, ["info", str(file)]).output
+    output = typed("info", file).output
     assert "less than the minimum load 6e+03 N" in output and "L_10mr with a_ISO, normal cleanliness," in output
-    assert "e_C = 0.5" in CliRunner().invoke(program, ["info", "6212", "--cleanliness", "0.5"]).output
+    assert "e_C = 0.5" in typed("info 6212 --cleanliness 0.5").output
 
 
 # Missions -------------------------------------------------------------------------------------------------------------
@@ -269,11 +267,8 @@ def test_life_and_summary_name_both(tmp_path):
     )
     done = command("life", "trial.toml", "--workers", 1, folder=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert (
-        "Life of the rivets" in done.stdout
-        and "Life of the raceways" in done.stdout
-        and "(ISO/TS 16281)" in done.stdout
-    )
+    assert "Life of the rivets" in done.stdout and "Life of the raceways" in done.stdout
+    assert "(ISO/TS 16281)" in done.stdout
     found = json.loads((tmp_path / "results" / "trial" / "life.json").read_text())["raceways"]
     assert found["cleanliness"] == "high" and 0.0 < found["L_10r_h"] < found["L_10mr_h"]
     done = command("summary", "trial.toml", "--target", "1e-9 h", folder=tmp_path)

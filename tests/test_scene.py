@@ -91,10 +91,8 @@ def test_scenes_mean_what_the_design_says(model):
     assert differ == {"cage.centrifugal": ("off", "on"), "scene.cage": ("two_half", "elastic")}
     assert (free["cage.pocket_clearance"], free["cage.guide_clearance"]) == pytest.approx((1e-4, 2e-4), rel=1e-15)
     for name in ("R", "F", "jam"):
-        assert (
-            scenes[name].parameters["ring.tilt_mode"] == "supported"
-            and scenes[name].parameters["scene.lubrication"] == "mixed"
-        )
+        assert scenes[name].parameters["ring.tilt_mode"] == "supported"
+        assert scenes[name].parameters["scene.lubrication"] == "mixed"
         assert scenes[name].parameters["cage.pocket_clearance"] == pytest.approx(1e-4, rel=1e-15)
 
 
@@ -106,9 +104,8 @@ def test_dotted_nested_and_quoted_names_are_the_same(model, scene_file):
     )
     scenes = [load_scene(scene_file(text), model) for text in texts]
     for scene in scenes:
-        assert scene.parameters["joint.preload"] == 30.0 and scene.parameters["joint.fit"] == pytest.approx(
-            -2e-5, rel=1e-15
-        )
+        assert scene.parameters["joint.preload"] == 30.0
+        assert scene.parameters["joint.fit"] == pytest.approx(-2e-5, rel=1e-15)
 
 
 def test_outputs_by_pattern_in_the_order_of_the_fmu(model, scene_file):

@@ -3,12 +3,11 @@
 from bisect import bisect_left
 
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from riveted_bearing import UserError
 from riveted_bearing.bearing.bearing_file import bearing_case
 from riveted_bearing.bearing.seats import UP_TO, deviations, interference
-from riveted_bearing.cli import program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
 
@@ -87,5 +86,5 @@ def test_classes_in_files(tmp_path):
     assert scene.parameters["shaft.interference"] == pytest.approx(13.5e-6)
     assert scene.parameters["housing.interference"] == pytest.approx(-9.5e-6)
     file.write_text('designation = "6207"\n[parameters]\nshaft.interference = "K5"\n')
-    said = CliRunner().invoke(program, ["info", str(file)]).output
+    said = typed("info", file).output
     assert "parameters.shaft.interference = 'K5': letters of a shaft's are small" in " ".join(said.split())

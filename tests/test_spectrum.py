@@ -4,12 +4,11 @@ import math
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from riveted_bearing import run
 from riveted_bearing.base.errors import UserError
 from riveted_bearing.bearing.surfaces import waves_of
-from riveted_bearing.cli import program
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.results import Result, write_result
 from riveted_bearing.running.scene import load_scene
@@ -95,9 +94,8 @@ def test_refusals(tmp_path):
     with pytest.raises(UserError, match=r"band = 2 to 5 Hz: at least .* Hz wide"):  # meant as kHz
         spectra(fine, band=(2.0, 5.0))
     narrow = {line.name: line for line in spectra(fine, band=(1000.0, 1100.0)).lines}  # no beat above 100 Hz is in it
-    assert all(line.expected > 100.0 for line in narrow.values() if math.isnan(line.found)) and not any(
-        line.stands_out for line in narrow.values() if line.expected > 100.0 + spectra(fine).resolution
-    )
+    assert all(line.expected > 100.0 for line in narrow.values() if math.isnan(line.found))
+    assert not any(line.stands_out for line in narrow.values() if line.expected > 100.0 + spectra(fine).resolution)
     with pytest.raises(UserError, match="housing.a_q"):
         spectra(fine, channel="housing.a_q")
     path = write_spectra(spectra(fine, band=(300.0, 5000.0)), tmp_path / "s.csv")
@@ -119,7 +117,7 @@ def test_spall_in_the_housing(tmp_path):
     others = [lines[name].amplitude for name in ("FTF", "BSF", "BPFI")]
     assert lines["BPFO"].amplitude > 10.0 * max(others)
     write_result(result, tmp_path / "spall.parquet")
-    done = CliRunner().invoke(program, ["spectrum", str(tmp_path / "spall.parquet")])
+    done = typed("spectrum", tmp_path / "spall.parquet")
     assert done.exit_code == 0 and "BPFO" in done.stdout
     assert "resolution 4 Hz; amplitudes are those of the squared envelope" in " ".join(done.stdout.split())
     assert "[Hz]" in done.stdout and f"[{squared(found.unit)}]" in done.stdout
@@ -193,17 +191,8 @@ def test_dataset(tmp_path, fmu):
     from pyarrow import parquet
 
     (tmp_path / "study.toml").write_text(STUDY)
-    arguments = [
-        "dataset",
-        str(tmp_path / "study.toml"),
-        "--fmu",
-        str(fmu),
-        "--out",
-        str(tmp_path / "out"),
-        "--workers",
-        "1",
-    ]
-    done = CliRunner().invoke(program, arguments)
+    words = tmp_path / "study.toml", "--fmu", fmu, "--out", tmp_path / "out"
+    done = typed("dataset --workers 1", *words)
     assert done.exit_code == 0, done.stderr
     assert "2 signals (none 1, outer 1), 0 of them failed" in done.stdout
     table = parquet.read_table(tmp_path / "out" / "runs.parquet").to_pylist()
@@ -214,7 +203,7 @@ def test_dataset(tmp_path, fmu):
     rms = [np.sqrt(np.mean(np.square(row["signal.housing.a_y"]))) for row in table]
     assert rms[1] > 5.0 * rms[0]
     before = {row["key"]: row["date"] for row in table}
-    assert CliRunner().invoke(program, arguments).exit_code == 0
+    assert typed("dataset --workers 1", *words).exit_code == 0
     again = parquet.read_table(tmp_path / "out" / "runs.parquet").to_pylist()
     assert {row["key"]: row["date"] for row in again} == before
 

@@ -92,9 +92,8 @@ def test_clearances_hold_what_they_say(model):
         (scene.parameters["cage.pocket_clearance"], scene.parameters["cage.guide_clearance"])
         for scene in study_sweep("clearance", model).scenes.values()
     }
-    assert len(pairs) == 13 and all(
-        p + g == pytest.approx(3e-4, rel=1e-5) or g == pytest.approx(2e-4, rel=1e-12) for p, g in pairs
-    )
+    assert len(pairs) == 13
+    assert all(p + g == pytest.approx(3e-4, rel=1e-5) or g == pytest.approx(2e-4, rel=1e-12) for p, g in pairs)
 
 
 def test_confidence_is_students():
@@ -404,9 +403,8 @@ def test_columns_come_from_the_rows(clearance):
         clearance[f"stat.rivet_head_p999[{k}]"][i] - clearance[f"p001(rivet[{k}].sigma_head)"][i] for k in range(1, 10)
     ]
     assert runs["head_range"][i] == pytest.approx(1e-6 * max(spans), rel=1e-12) and runs["head_rest"][i] > 40.0
-    assert (
-        runs["force"][i] == clearance["stat.Q_c_mean"][i] and runs["ratio"].min() == 0.3 and runs["ratio"].max() == 3.0
-    )
+    assert runs["force"][i] == clearance["stat.Q_c_mean"][i] and runs["ratio"].min() == 0.3
+    assert runs["ratio"].max() == 3.0
     series = [study.clearance_series(runs, label) for label in study.CLEARANCES]
     assert [len(np.unique(part["ratio"])) for part in series] == [7, 7]
 
@@ -434,13 +432,10 @@ def test_the_page_has_pictures_claims_and_cost(clearance, tmp_path, monkeypatch)
     )
     text = paper.write_paper(both, tmp_path).read_text(encoding="utf-8")
     assert drawn == [tmp_path / "paper" / "clearance.png"] and drawn[0].read_bytes()[:4] == b"\x89PNG"
-    assert (
-        "![Fig. 16: clearance ratio](paper/clearance.png)" in text
-        and "Of 3 of the paper's 34 claims its own" in text
-        and "**Part of the study: 3 of the paper's 34 claims, 2 seeds.**" in text
-        and "Machines 2023, 11, 700: Fig. 16 with" in text
-        and "reproduce 3, partly 0, not 0" in text
-    )
+    assert "![Fig. 16: clearance ratio](paper/clearance.png)" in text
+    assert "Of 3 of the paper's 34 claims its own" in text
+    assert "**Part of the study: 3 of the paper's 34 claims, 2 seeds.**" in text
+    assert "Machines 2023, 11, 700: Fig. 16 with" in text and "reproduce 3, partly 0, not 0" in text
     assert "(`physical`) the counts are 0, 0 and 3." in text
     assert text.count("| 4.1 (5)") == 3 and "| paper | clearance | Fig. 16 | 2 | 26 |" in text
     assert '  - Paper: "The rivet stress reaches the minimum when the ratio is close to 1."' in text

@@ -11,7 +11,7 @@ from pathlib import Path
 import cloudpickle
 import numpy as np
 import pytest
-from commands import command, rows_kept
+from commands import begun, command, finished, rows_kept
 
 from riveted_bearing import run
 from riveted_bearing.studies import sweep as engine
@@ -94,11 +94,8 @@ def test_a_row_is_what_a_single_run_gives(tmp_path, model, client):
     sweep = plan(tmp_path, model, SHORT + "[[vary]]\njoint.preload = [10, 30]")
     rows = run_sweep(sweep, tmp_path / "out", client)
     single = run(t_end=2e-3, parameters={"start.settle": 5e-4, "joint.preload": 30.0})
-    assert (
-        rows["run"].tolist() == [0, 1]
-        and rows["joint.preload"].tolist() == [10.0, 30.0]
-        and set(rows["status"]) == {"done"}
-    )
+    assert rows["run"].tolist() == [0, 1] and rows["joint.preload"].tolist() == [10.0, 30.0]
+    assert set(rows["status"]) == {"done"}
     for name, value in single.summary.items():  # the same steps: the same bits, but for the clocks
         if "time" not in name:
             assert rows[name][1] == value, name
@@ -119,15 +116,10 @@ def test_other_programs_can_read_the_dataset(tmp_path, model, client):
     table = dataset.dataset(tmp_path / "out").to_table()
     assert table.num_rows == 2 and table.schema.field("joint.fit").metadata[b"unit"] == b"m"
     about = json.loads(table.schema.metadata[b"riveted_bearing"])
-    assert (
-        about["basis"]["loads"] == "F_x 515 N, F_y 2994 N"
-        and about["basis"]["scene"] == "none: the FMU's own parameters and inputs"
-    )
-    assert (
-        about["description"] == "two"
-        and about["factors"] == ["joint.preload"]
-        and about["document"]["vary"] == [{"joint": {"preload": [10, 30]}}]
-    )
+    assert about["basis"]["loads"] == "F_x 515 N, F_y 2994 N"
+    assert about["basis"]["scene"] == "none: the FMU's own parameters and inputs"
+    assert about["description"] == "two" and about["factors"] == ["joint.preload"]
+    assert about["document"]["vary"] == [{"joint": {"preload": [10, 30]}}]
 
 
 def test_failures_are_rows_and_are_tried_again(tmp_path, model, client):
@@ -139,9 +131,8 @@ def test_failures_are_rows_and_are_tried_again(tmp_path, model, client):
     assert "refuses to start" in first["message"][1] and "10 steps" in first["message"][2] and first["message"][0] == ""
     assert np.isnan(first["stat.Q_c_mean"][1]) and first["bearing.D"][1] == 0.019
     second = run_sweep(plan(tmp_path, model, text), tmp_path / "out", client)
-    assert (second["date"] == first["date"]).tolist() == [True, False, False] and second["status"].tolist() == first[
-        "status"
-    ].tolist()
+    assert (second["date"] == first["date"]).tolist() == [True, False, False]
+    assert second["status"].tolist() == first["status"].tolist()
 
 
 def test_a_lost_run_has_a_reason(client):
@@ -176,11 +167,8 @@ def test_killed_workers_cost_only_time(tmp_path, model, client):
 
     rows = run_sweep(sweep, tmp_path / "out", client, kill_once)
     assert len(killed) == 2 and not set(killed) & set(client.run(os.getpid).values())
-    assert (
-        rows["start.seed"].tolist() == [1, 2, 3, 4, 5, 6, 7, 8]
-        and len(set(rows["key"])) == 8
-        and set(rows["status"]) == {"done"}
-    )
+    assert rows["start.seed"].tolist() == [1, 2, 3, 4, 5, 6, 7, 8] and len(set(rows["key"])) == 8
+    assert set(rows["status"]) == {"done"}
     assert {path.name for path in (tmp_path / "out").iterdir()} == {"_rows.sqlite", "runs.parquet"}
     with cluster(address=client.scheduler.address) as other:  # the same scheduler, as `--scheduler` finds it
         calm = run_sweep(sweep, tmp_path / "calm", other)
@@ -231,33 +219,17 @@ def test_a_killed_driver_leaves_what_is_done(tmp_path, model, client):
     assert 1 <= len(before) < 24
     counts = []
     rows = run_sweep(load_sweep(study, model), out, client, lambda done, failed, total: counts.append(done))
-    assert (
-        counts == list(range(len(before), 25))
-        and rows["start.seed"].tolist() == list(range(1, 25))
-        and len(set(rows["key"])) == 24
-    )
+    assert counts == list(range(len(before), 25)) and rows["start.seed"].tolist() == list(range(1, 25))
+    assert len(set(rows["key"])) == 24
     assert columns_of(out)["key"].tolist() == rows["key"].tolist() and before < set(rows["key"])
 
 
 def test_the_command_shows_failures_and_says_where_the_rows_are(tmp_path):
     study = tmp_path / "mine.toml"
     study.write_text(SHORT + "[[vary]]\nbearing.D = [0.0111125, 0.019]")
-    done = subprocess.run(
-        [sys.executable, "-m", "riveted_bearing", "sweep", study, "--workers", "1"],
-        cwd=tmp_path,
-        env=os.environ | {"PYTHONPATH": str(ROOT)},
-        capture_output=True,
-        text=True,
-        timeout=300,
-        check=False,
-    )
-    assert (
-        done.returncode == 3
-        and "2 runs, 1 of them failed" in done.stdout
-        and "refuses to start" in done.stderr
-        and "Traceback" not in done.stderr
-    )
-    assert (tmp_path / "results" / "mine" / "runs.parquet").is_file() and "results/mine" in done.stdout
+    out, err, code = finished(begun("sweep", study, "--workers", "1", folder=tmp_path))
+    assert code == 3 and "2 runs, 1 of them failed" in out and "refuses to start" in err and "Traceback" not in err
+    assert (tmp_path / "results" / "mine" / "runs.parquet").is_file() and "results/mine" in out
 
 
 def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client):
@@ -269,21 +241,15 @@ def test_a_sweep_ends_with_a_table_a_picture_and_a_page(tmp_path, model, client)
     )
     rows = run_sweep(sweep, tmp_path / "out", client)
     table = sweep_table(sweep, rows)
-    assert (
-        table.factors == ("joint.preload [N]", "scene.stress")
-        and table.points == [(10.0, "fatigue"), (30.0, "fatigue")]
-        and table.seeds.tolist() == [3, 3]
-    )
+    assert table.factors == ("joint.preload [N]", "scene.stress")
+    assert table.points == [(10.0, "fatigue"), (30.0, "fatigue")] and table.seeds.tolist() == [3, 3]
     stress = rows["stat.sigma_head_p999"][rows["joint.preload"] == 30.0] / 1e6
     first = table.responses[0]
     assert first.mean[1] == pytest.approx(stress.mean(), rel=1e-12)
     assert first.half[1] == pytest.approx(4.302653 * stress.std(ddof=1) / np.sqrt(3), rel=1e-6, abs=1e-12)
     heads, cells = lines(table)
-    assert (
-        heads[:3] == ["joint.preload [N]", "scene.stress", "seeds"]
-        and len(cells) == 2
-        and "log10 damage per hour" in heads
-    )
+    assert heads[:3] == ["joint.preload [N]", "scene.stress", "seeds"] and len(cells) == 2
+    assert "log10 damage per hour" in heads
     assert write_picture(table, tmp_path / "sweep.png").stat().st_size > 20000
     page = write_page(table, "<mine>", tmp_path / "sweep.html").read_text()
     assert "&lt;mine&gt;" in page and page.count("<svg") == len(table.responses) and cells[1][3] in page

@@ -48,9 +48,8 @@ def test_planet_bearing(fmu, tmp_path, record_property):
     assert rows[True]["eccentricity"] > 0.9 > rows[False]["eccentricity"]
     assert rows[True]["sigma_head_p999"] > 3.0 * rows[False]["sigma_head_p999"]
     heads, values = planet.table([1500.0], {field: [row] for field, row in rows.items()})
-    assert all(unit in heads for unit in ("[r/min]", "[MPa]", "[W]")) and values.count("(") == len(rows[True]) == len(
-        planet.COLUMNS
-    )
+    assert all(unit in heads for unit in ("[r/min]", "[MPa]", "[W]"))
+    assert values.count("(") == len(rows[True]) == len(planet.COLUMNS)
     planet.plot([1500.0], {field: [row] for field, row in rows.items()}, tmp_path / "planet.png")
 
 

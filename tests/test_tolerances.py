@@ -43,11 +43,8 @@ def test_field_lives_of_bearing_cages(tmp_path):
     """Meeker and Escobar (1998), chapter 8, for these data: shape 2.035, scale 11,792 h, B10 3,903 h."""
     law = fit_weibull(CAGES, list(RUNNING), [1] * len(CAGES) + list(RUNNING.values()))
     assert len(CAGES) + sum(RUNNING.values()) == 1703
-    assert (
-        law.beta == pytest.approx(2.035, rel=1e-3)
-        and law.eta == pytest.approx(11792, rel=1e-3)
-        and law.b10 == pytest.approx(3903, rel=1e-3)
-    )
+    assert law.beta == pytest.approx(2.035, rel=1e-3) and law.eta == pytest.approx(11792, rel=1e-3)
+    assert law.b10 == pytest.approx(3903, rel=1e-3)
     assert law.b10_interval[0] < law.b10 < law.b10_interval[1] and len(law.lives) == 6
     assert write_weibull_plot(law, "cages", tmp_path / "w.png").stat().st_size > 10000
 

@@ -9,14 +9,14 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
+from commands import typed
 
 from riveted_bearing import UserError
 from riveted_bearing.base.files import write_atomically
 from riveted_bearing.base.toml_files import read_toml
 from riveted_bearing.base.variable_list import is_like
 from riveted_bearing.bearing.bearing_file import bearing_case
-from riveted_bearing.cli import COMMANDS, program
+from riveted_bearing.cli import COMMANDS
 from riveted_bearing.duty.mission import load_mission
 from riveted_bearing.running.fmu import Model
 from riveted_bearing.running.scene import load_scene
@@ -141,7 +141,7 @@ def test_there_are_sixty():
 def test_wrong_input_is_one_line(folder, monkeypatch, arguments):
     monkeypatch.chdir(folder)
     before = sorted(folder.rglob("*"))
-    done = CliRunner().invoke(program, arguments.split())
+    done = typed(arguments)
     assert done.exit_code == 2, (done.output, done.exception)
     assert done.stdout == "" and done.stderr.startswith("error: ") and done.stderr.count("\n") == 1, done.stderr
     for words in WRONG[arguments]:

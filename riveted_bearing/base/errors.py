@@ -52,6 +52,17 @@ def refusing(where: Any, key: Any, value: Any) -> Iterator[None]:
         raise refusal(where, key, value, problem) from None
 
 
+@contextmanager
+def naming(where: Any, kinds: tuple[type[Exception], ...] = (ValueError, ArithmeticError)) -> Iterator[None]:
+    """An error of these kinds inside as a UserError that says where; a UserError stays as it is unless it is among them."""
+    try:
+        yield
+    except kinds as problem:
+        if isinstance(problem, UserError) and UserError not in kinds:
+            raise
+        raise UserError(f"{where}: {problem}") from None
+
+
 def extra(name: str) -> str:
     """How to install what one of the package's extras brings: the package is in no index."""
     return f'pip install -e ".[{name}]" in a checkout, or pip install "riveted_bearing-….whl[{name}]" with the wheel\'s own name'

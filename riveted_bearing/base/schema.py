@@ -171,8 +171,10 @@ def fault_text(kind: type[Section], document: Any, path: Any, where: str, fault:
         return UserError(f"{place}: {full} is needed{f': {about}' if about else ''}")
     if isinstance(key, int) and fault["type"] in ("model_type", "dict_type"):  # not a list of tables
         return UserError(f"{place}: {above[-1]}: write [[{above[-1]}]] with its keys below it")
-    if fault["type"] == "list_type" and is_of_tables(fields_at(kind, above)[key].annotation):
-        return UserError(f"{place}: {full}: write [[{full}]] with its keys below it")
+    if fault["type"] == "list_type":
+        annotation = fields_at(kind, above)[key].annotation
+        if model_of(annotation) or Named in get_args(annotation):  # of tables
+            return UserError(f"{place}: {full}: write [[{full}]] with its keys below it")
     error = fault.get("ctx", {}).get("error")
     return refusal(place, full, fault["input"], error or WORDS.get(fault["type"], fault["msg"]))
 
@@ -182,11 +184,6 @@ def model_of(annotation: Any) -> type[Section] | None:
     if isinstance(annotation, type) and not isinstance(annotation, types.GenericAlias):
         return annotation if issubclass(annotation, Section) else None
     return next(filter(None, map(model_of, get_args(annotation))), None)
-
-
-def is_of_tables(annotation: Any) -> bool:
-    """Whether a list's annotation is one of tables."""
-    return model_of(annotation) is not None or Named in get_args(annotation)
 
 
 def fields_at(kind: type[Section], place: list[Any]) -> Any:

@@ -29,12 +29,6 @@ STAMP = re.compile(
 )
 
 
-def may_turn(text):
-    """Whether day and month of a stamp may stand in either order."""
-    match = STAMP.fullmatch(text.strip())
-    return bool(match and match["a"] and match["s2"] != ".")
-
-
 def is_stamp(text):
     """Whether an entry is a date or a time of day, and no number."""
     return bool(re.search(r"\d[-/:]\d|\d[T ]\d|\d\.\d+\.\d|[A-Za-z]{3}", text)) and parse(text.strip()) is not None
@@ -123,7 +117,8 @@ class Stamps:
 def stamps_of(texts, where):
     """The Stamps of a column of texts; UserError if its days and months may be exchanged."""
     texts = iter(texts)
-    if not may_turn(first := next(texts, "")):
+    match = STAMP.fullmatch((first := next(texts, "")).strip())
+    if not (match and match["a"] and match["s2"] != "."):  # day and month in one order only
         return Stamps()
     parts = [own for text in (first, *texts) if (own := parse((text or "").strip())) is not None]
     return Stamps(month_is_first(parts, where))

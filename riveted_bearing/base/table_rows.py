@@ -3,6 +3,7 @@
 import csv
 import re
 from datetime import date, datetime, time, timedelta
+from functools import partial
 from itertools import islice, pairwise
 
 import numpy as np
@@ -125,26 +126,19 @@ class TextRows:
                     raise UserError(
                         f"{self.path}: row {number} has {len(row)} entries, the line of names has {count}{self.hint(row)}"
                     )
-            yield (
-                np.array([number for number, _ in piece]),
-                [
-                    self.seconds(stamps[place], place, piece) if place in stamps else self.numbers(place, piece)
-                    for place in places
-                ],
-            )
+            columns = [self.numbers(place, piece, stamps.get(place)) for place in places]
+            yield np.array([number for number, _ in piece]), columns
 
     def hint(self, row):
         """Why a row may have more entries than there are names."""
         doubled = self.separator == "," and len(row) > len(self.heads)
         return ": a comma as decimal sign needs semicolons between the entries" if doubled else ""
 
-    def seconds(self, stamps, place, piece):
-        """One column of dates in a piece as seconds."""
-        entries = [(number, row[place].strip()) for number, row in piece]
-        return seconds_of(stamps, entries, self.path, self.heads[place])
-
-    def numbers(self, place, piece):
-        """One column of a piece as floats."""
+    def numbers(self, place, piece, stamps=None):
+        """One column of a piece as floats; stamps: of one of dates, as seconds."""
+        if stamps is not None:
+            entries = [(number, row[place].strip()) for number, row in piece]
+            return seconds_of(stamps, entries, self.path, self.heads[place])
         texts = [row[place] for _, row in piece]
         odd = "_." if self.decimal == "," else "_"
         try:
@@ -302,16 +296,13 @@ class ParquetRows:
             for batch in self.file.iter_batches(BLOCK, columns=names):
                 rows = np.arange(first, first + len(batch))
                 first += len(batch)
-                columns = (batch.column(batch.schema.get_field_index(name)) for name in names)
-                yield (
-                    rows,
-                    [
-                        self.seconds(stamps[i], one, rows, self.heads[i])
-                        if i in stamps
-                        else self.numbers(one, rows, self.heads[i])
-                        for one, i in zip(columns, places, strict=True)
-                    ],
-                )
+                columns = []
+                for name, i in zip(names, places, strict=True):
+                    column, read = batch.column(batch.schema.get_field_index(name)), self.numbers
+                    if i in stamps:
+                        read = partial(self.seconds, stamps[i])
+                    columns.append(read(column, rows, self.heads[i]))
+                yield rows, columns
         except UserError:
             raise
         except Exception as problem:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from .errors import UserError, is_file, unknown
+from .errors import UserError, is_file, naming, unknown
 from .heads import UNSURE, same, split_head, unit_of
 from .table_rows import KINDS, TextRows
 from .units import SECONDS, scale
@@ -93,11 +93,9 @@ class Table:
         if not asked and not certain and unit and (len(unit) < 2 or unit in UNSURE or unit[0] == "?"):
             unit = unit.lstrip("?")
             raise UserError(f'{where}: is "{unit}" its unit? Write "[{unit}]" into its name, or the unit beside it')
-        try:
-            if unit:
+        if unit:
+            with naming(where, (UserError,)):
                 scale(unit, wanted.scales)
-        except UserError as problem:
-            raise UserError(f"{where}: {problem}") from None
         return unit
 
     def blocks(self, *wanted):
@@ -108,12 +106,8 @@ class Table:
         scales = [scale(u, one.scales) if u else (1.0, 0.0) for u, one in zip(units, wanted, strict=True)]
         try:
             for rows, columns in self.source.blocks(places, timed):
-                yield (
-                    rows,
-                    np.column_stack(
-                        [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
-                    ),
-                )
+                si = [(values - offset) / factor for values, (factor, offset) in zip(columns, scales, strict=True)]
+                yield rows, np.column_stack(si)
         except OSError as problem:
             raise UserError(f"{self.path}: {problem.strerror}") from None
 

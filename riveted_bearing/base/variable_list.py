@@ -54,19 +54,15 @@ def row(variable: Any, model: Any = None) -> Any:
     symbol = variable.display or variable.unit
     start = allowed = ""
     if variable.name in INPUTS | PARAMETERS:
+        first, value = re.sub(r"\[[jkn]\]", "[1]", variable.name), variable.start
+        if model is not None:
+            value = model.default((model.parameters | model.inputs)[first])
         if variable.type in ("Real", "Integer"):
-            value = (
-                variable.start
-                if model is None
-                else model.default((model.parameters | model.inputs)[re.sub(r"\[[jkn]\]", "[1]", variable.name)])
-            )
             start = shown(value, variable)
             allowed = f"{shown(variable.min, variable, -math.inf)} ... {shown(variable.max, variable, math.inf)}"
         else:
             items = getattr(variables, variable.type)
-            start = (
-                items(variable.start).name.lower() if model is None else model.default(model.parameters[variable.name])
-            )
+            start = items(value).name.lower() if model is None else value
             allowed = ", ".join(item.name.lower() for item in items)
     return variable.name, kind, suffix(symbol).strip(), start, allowed, variable.description
 

@@ -173,8 +173,11 @@ def known_effect(name, screening):
 
 
 def ends(name, value, each, parameters):
-    """Usual range of a value, SI."""
-    return sorted((max(each.low, least_share(name, parameters)) * value, each.high * value))
+    """Usual range of a value, SI, as far as the others leave room for it: a ribbon's pocket is no deeper than its sphere."""
+    low = each.low
+    if name == "cage.pocket_clearance" and is_ribbon(parameters):
+        low = max(low, DEEPEST * (2.0 * parameters["cage.pocket_depth"] - parameters["bearing.D"]) / parameters[name])
+    return sorted((low * value, each.high * value))
 
 
 def measured_in(rows: Any) -> Any:
@@ -222,14 +225,6 @@ def is_known(name, given, parameters):
     return name in given or follows.get(name, False)
 
 
-def least_share(name, values):
-    """Least part of a value that the other ones leave room for: a ribbon's pocket is no deeper than its sphere."""
-    if name != "cage.pocket_clearance" or not is_ribbon(values):
-        return 0.0
-    least = 2.0 * values["cage.pocket_depth"] - values["bearing.D"]
-    return DEEPEST * least / values[name]
-
-
 def given_names(model: Any, scene: Any = None) -> Any:
     """Names of the values that a scene or the bearing's own file gives, those of an oil that they name among them."""
     of_file = {name for name, origin in model.origin.items() if origin == "yours" or name_of({name: origin})}
@@ -245,8 +240,3 @@ def given_names(model: Any, scene: Any = None) -> Any:
 def is_example(model: Any) -> Any:
     """Whether an FMU is that of the 6207 as it is shipped."""
     return model.bearing.startswith(EXAMPLE) and "yours" not in model.origin.values()
-
-
-def ruled_names(model: Any) -> Any:
-    """Names of the values that follow from the bearing's file by rule and that nothing else sets."""
-    return {name for name, origin in model.origin.items() if origin == "rule"}

@@ -182,11 +182,10 @@ def read_case(path, document, own, bare=False, prefix="rivet.", usual=()):
     called = lambda name: prefix + name.removeprefix("rivet.") if name.startswith("rivet.") else name
     check_limits(path, document, parts, called, inside)
     check_guidance(path, values)
-    found["cage"] = found["cage"].with_density(values["cage.rho"])
-    rivet, given_values = (
-        rivet_by_rule | sizes | steel,
-        values | {f"rivet.{name}": size for name, size in sizes.items()},
-    )
+    cage = found["cage"]  # of another density, if that is what a given mass means
+    found["cage"] = replace(cage, values=cage.values | {"density": values["cage.rho"]})
+    rivet = rivet_by_rule | sizes | steel
+    given_values = values | {f"rivet.{name}": size for name, size in sizes.items()}
     allowed = drawing_ranges(path, file.between, given_values, origin, own)
     return Case(designation, file.description, all_Z, values, data, rivet, origin, found, allowed, bare, oil=oil_name)
 

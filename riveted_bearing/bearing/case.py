@@ -13,7 +13,7 @@ from bearing_model.physics.temperature import temperature_apply
 from bearing_model.quasi_static import Bearing, Load, quasi_static
 from riveted_bearing.bearing.load_ratings import reference_viscosity
 
-from ..base.errors import UserError
+from ..base.errors import naming
 from . import materials, oil, ribbon
 
 
@@ -148,7 +148,5 @@ class Case:
 
     def solved(self, load, kinematics):
         """The QuasiStatic under a load; UserError if there is none."""
-        try:
+        with naming(self.designation):
             return quasi_static(self.bearing, load, kinematics=kinematics)
-        except (ValueError, ArithmeticError) as problem:
-            raise UserError(f"{self.designation}: {problem}") from None

@@ -86,11 +86,8 @@ def balls(entry):
             break
         most = 1 + int(0.5 * LARGEST_FILL / math.asin(D / entry.d_m))
         for Z in range(5, most + 1):
-            deviations = (
-                math.log(dynamic_rating(Z, D, entry.d_m) / entry.C),
-                math.log(static_rating(Z, D, entry.d_m) / entry.C_0),
-            )
-            candidates.append((max(map(abs, deviations)), Z, D))
+            ratios = dynamic_rating(Z, D, entry.d_m) / entry.C, static_rating(Z, D, entry.d_m) / entry.C_0
+            candidates.append((max(abs(math.log(ratio)) for ratio in ratios), Z, D))
     if not candidates:
         least = 1e3 * (entry.bore + BALL_SIZES[0] / THICKEST_BALL)
         raise UserError(

@@ -12,7 +12,7 @@ The properties of a part go to the parameters of the FMU and to the geometry tha
 
 import math
 import tomllib
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 
@@ -95,10 +95,6 @@ class Material:
     sources: dict
     given: tuple = ()
     by_rule: tuple = ()
-
-    def with_density(self, density):
-        """The same with another density, which a given mass means [kg/m3]."""
-        return replace(self, values=self.values | {"density": density})
 
     def words(self):
         """The material on one line."""

@@ -22,7 +22,7 @@ from bearing_model.generated.variables import PARAMETERS
 from bearing_model.physics.temperature import oil_ratios
 from bearing_model.physics.viscosity import Oil
 
-from ..base.errors import UserError, refusal, unknown
+from ..base.errors import UserError, naming, refusal, unknown
 from ..base.units import rounded
 
 TABLE = files("riveted_bearing") / "data" / "oils.toml"
@@ -70,10 +70,8 @@ def check_given(where: Any, given: Any, written: Any, values: Any) -> Any:
     """UserError if a document's parameters (given, SI; written) have the viscosity twice, and differently; values: all oil.*."""
     if not {*POINTS} <= given.keys():
         return
-    try:
+    with naming(f"{where}: oil.nu_1, oil.nu_2"):
         found = of_points(values)
-    except ValueError as problem:
-        raise UserError(f"{where}: oil.nu_1, oil.nu_2: {problem}") from None
     for name, apart in AT_T_0.items():
         if name in given and not math.isclose(given[name], found[name], rel_tol=apart):
             unit, factor = ("mPa.s", 1e3) if name == "oil.eta" else ("1/K", 1.0)
@@ -127,13 +125,9 @@ def named(where: Any, written: Any, given: Any, start: Any) -> Any:
         **{key: value[0] if isinstance(value, list) else value for key, value in kinds()[kind].items()}
     )
     found = traction_of(entry) | density_of(entry, values["oil.T_0"])
-    try:
+    with naming(f"{where}: oil.nu_1, oil.nu_2"):
         found |= points_of(where, written, kind, grade, given, values | found | given)
         found |= pressure_of(entry, values | found | given)
-    except UserError:
-        raise
-    except ValueError as problem:  # of Oil
-        raise UserError(f"{where}: oil.nu_1, oil.nu_2: {problem}") from None
     return name, {key: rounded(value) for key, value in found.items() if key not in given}
 
 

@@ -59,18 +59,14 @@ def odd_materials(values: Any, materials: Any = ()) -> Iterator[Any]:
     for part, where in PARTS.items():
         material = dict(materials).get(part)
         own = {} if material is None else {key: material.values[key] for key in material.given}
-        named = {key: f"{part}.{key}" for key in own} or where.parameters
-        yield from odd_solid(part, named, own or {key: values.get(name) for key, name in where.parameters.items()})
-
-
-def odd_solid(part, names, properties):
-    """Sentences on properties of a part's material, by the names that the user has for them, 0 and None for none."""
-    kind, ranges = OF_RACES.get(part, ("solids", SOLIDS))
-    for key, (low, high, factor, unit) in (SOLIDS | ranges).items():
-        value = properties.get(key)
-        if value and not low <= value <= high:
-            usual = f"{factor * low:.3g} to {factor * high:.3g} {unit}"
-            yield f"{names[key]} = {factor * value:.3g} {unit}: {kind} have {usual}"
+        names = {key: f"{part}.{key}" for key in own} or where.parameters
+        properties = own or {key: values.get(name) for key, name in where.parameters.items()}
+        kind, ranges = OF_RACES.get(part, ("solids", SOLIDS))
+        for key, (low, high, factor, unit) in (SOLIDS | ranges).items():
+            value = properties.get(key)
+            if value and not low <= value <= high:
+                usual = f"{factor * low:.3g} to {factor * high:.3g} {unit}"
+                yield f"{names[key]} = {factor * value:.3g} {unit}: {kind} have {usual}"
 
 
 def fast(omega: Any, d_m: Any) -> Iterator[Any]:

@@ -10,7 +10,7 @@ from bearing_model.generated.limits import LIMITS
 from rivet_model.geometry import Geometry
 
 from ..base.errors import refusal
-from . import catalogue, limits, materials, ribbon, scaling
+from . import catalogue, limits, materials, oil, ribbon, scaling
 from .file_values import defaults, flat, is_number, shown
 
 # a bearing's own
@@ -28,11 +28,8 @@ def rules(Z, given, rivet, inputs, data, entry):
     shape = {name: given.get(name, scaling.start(name)) for name in SHAPE}
     if entry:
         rule_Z, rule_D = catalogue.balls(entry)
-        Z, shape["bearing.D"], shape["bearing.d_m"] = (
-            Z or rule_Z,
-            given.get("bearing.D", rule_D),
-            given.get("bearing.d_m", entry.d_m),
-        )
+        Z = Z or rule_Z
+        shape |= {"bearing.D": given.get("bearing.D", rule_D), "bearing.d_m": given.get("bearing.d_m", entry.d_m)}
     Z = Z or variables.Z
     D, d_m = shape["bearing.D"], shape["bearing.d_m"]
     own_shape = bool(entry) or ribbon.is_ribbon(given) or any(shape[name] != scaling.start(name) for name in SHAPE)
@@ -59,12 +56,12 @@ def rules(Z, given, rivet, inputs, data, entry):
     settle = scaling.settling((by_rule | inputs).get("shaft.omega", variables.INPUTS["shaft.omega"].start))
     if settle != scaling.start("start.settle"):
         parameters["start.settle"] = settle
-    return (
-        Z,
-        {name: value for name, value in parameters.items() if name not in given},
-        rivet_by_rule,
-        {name: value for name, value in (by_rule | scaling.parts_temperatures(inputs)).items() if name not in inputs},
+    by_rule |= dict.fromkeys(oil.PARTS_TEMPERATURES, inputs.get("oil.T", variables.INPUTS["oil.T"].start))
+    parameters, by_rule = (
+        {name: value for name, value in found.items() if name not in own}
+        for found, own in ((parameters, given), (by_rule, inputs))
     )
+    return Z, parameters, rivet_by_rule, by_rule
 
 
 def limited_values(Z, given, rivet, inputs, data, entry):

@@ -115,11 +115,6 @@ def oil_by_points(given):
     return {name: rounded(value) for name, value in oil.of_points(values).items()}
 
 
-def parts_temperatures(inputs):
-    """Temperatures of rings, balls and cage by rule [K]: that of the oil."""
-    return dict.fromkeys(oil.PARTS_TEMPERATURES, inputs.get("oil.T", variables.INPUTS["oil.T"].start))
-
-
 def shape_of(values, rivet):
     """What half_shape.py needs of a cage half: values by names of a bearing file, rivet's by those of Geometry."""
     cage = {name: values[parameter] for name, parameter in SHAPE.items()}

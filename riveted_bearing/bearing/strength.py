@@ -266,9 +266,7 @@ def damage_of_cycles(strength: Strength, span: Any, mean: Any, count: Any) -> An
 
 def damage_of_matrix(strength: Strength, matrix: Any, channels: Any) -> Any:
     """Miner's sum of each channel of a run's rainflow matrix."""
-    channel, span, mean, count = matrix
-    return (
-        np.bincount(channel, damage_of_cycles(strength, span, mean, count), minlength=channels)
-        if len(channel)
-        else np.zeros(channels)
-    )
+    channel, *cycles = matrix
+    if not len(channel):
+        return np.zeros(channels)
+    return np.bincount(channel, damage_of_cycles(strength, *cycles), minlength=channels)

@@ -35,7 +35,7 @@ from ..bearing.rules import RIVET
 from ..running.fmu import FMU_NAME, PACKAGE, Instance, Model
 from ..running.scene import Scene
 from ..running.summary import TABLE_TITLE
-from .compiler import alone_in, cmake, compile_target, compiler_platforms, execute, has_compiler, zig_version
+from .compiler import alone_in, cmake, compile_target, compiler_platforms, generate, has_compiler, zig_version
 from .core import Core, beside
 from .rivet import TABLES, geometry_of, read_table, rivet_case, table_of, table_text
 
@@ -83,13 +83,7 @@ def build_fmu(
         archives = [core.archive(say) for core in cores(document["modes"])]
         if generated:
             say("variables")
-            resolved = folder / "bearing.toml"
-            resolved.write_text("\n".join(to_toml(document)), encoding="utf-8")
-            execute(
-                [sys.executable, sources / "fmus" / "generate.py", "--bearing", resolved, "--out", generated],
-                folder,
-                say,
-            )
+            generate(sources, folder, "bearing.toml", "\n".join(to_toml(document)), say)
         binaries = [
             f"{platform}={cross_compile(sources, folder / platform, [*options, f'-DCORE={core}'], platform, say)}"
             for platform, core in zip(platforms, archives)

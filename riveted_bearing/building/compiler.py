@@ -10,6 +10,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import sysconfig
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -110,6 +111,14 @@ def configure(sources: Path, folder: Path, options: Sequence[str], platform: str
         say,
     )
     stamp.write_text(compiler, encoding="utf-8")
+
+
+def generate(sources: Path, folder: Path, name: str, text: str, say: Any) -> Path:
+    """Write what fmus/generate.py reads as a file of a build folder, and run it; the folder of its variables."""
+    (folder / name).write_text(text, encoding="utf-8")
+    generated, program = folder / "generated", sources / "fmus" / "generate.py"
+    execute([sys.executable, program, "--bearing", folder / name, "--out", generated], folder, say)
+    return generated
 
 
 def toolchain(sources: Path, platform: str | None) -> list[str]:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 from ..base.files import cache_folder, cache_path, make_folder, write_atomically
-from .compiler import alone_in, compile_command, configure, execute, finish, identity, start, stop
+from .compiler import alone_in, compile_command, configure, finish, generate, identity, start, stop
 
 MAKERS = (
     "fmus/generate.py",
@@ -68,14 +68,8 @@ class Core:
             if self.cached():
                 yield
                 return
-            key, generated = self.key, self.folder / "generated"
-            sizes = self.folder / "sizes.toml"
-            sizes.write_text(f"Z = {self.Z}\nmodes = {self.modes}\n", encoding="utf-8")
-            execute(
-                [sys.executable, self.sources / "fmus" / "generate.py", "--bearing", sizes, "--out", generated],
-                self.folder,
-                say,
-            )
+            key, sizes = self.key, f"Z = {self.Z}\nmodes = {self.modes}\n"
+            generated = generate(self.sources, self.folder, "sizes.toml", sizes, say)
             options = [f"-DGENERATED_DIR={generated}", f"-DPython_EXECUTABLE={sys.executable}", "-DPRECOMPILE=ON"]
             configure(self.sources, self.folder, options, self.platform, say)
             process = start(compile_command(self.folder, "core"))

@@ -22,7 +22,7 @@ from rivet_model.half_modes import check_count
 from rivet_model.load_cases import Joint
 from riveted_bearing.building import rivet_pictures
 
-from ..base.errors import UserError, refusal, refusing
+from ..base.errors import UserError, naming, refusal, refusing
 from ..base.files import cache_folder, cache_path, write_atomically
 from ..base.schema import Number
 from ..base.toml_files import read_toml
@@ -92,10 +92,8 @@ def read_geometry(path, bearing=None):
     keys = {name: key for key, name in CAGE_NAMES.items()}
     called = lambda name: keys.get(name, name.removeprefix("rivet."))
     check_limits(path, written, parts, called, in_cage(case.designation))
-    try:
+    with naming(path):
         return Geometry(**(case.joint | own))
-    except ValueError as problem:
-        raise UserError(f"{path}: {problem}") from None
 
 
 def rivet_case(path, bearing, fixed=True):
@@ -123,10 +121,8 @@ def cage_sizes(path, section):
 
 def geometry_of(case):
     """Geometry of a Case; UserError if it cannot be made."""
-    try:
+    with naming(case.designation):
         return Geometry(**case.joint)
-    except ValueError as problem:
-        raise UserError(f"{case.designation}: {problem}") from None
 
 
 def read_table(path, Z=None):
@@ -141,10 +137,8 @@ def read_table(path, Z=None):
 
 def condensed(geometry, path):
     """The Joint of a geometry; UserError if it cannot be meshed."""
-    try:
+    with naming(path):
         return Joint(geometry)
-    except (ValueError, ArithmeticError) as problem:
-        raise UserError(f"{path}: {problem}") from None
 
 
 def table_of(where, geometry, kind=None, say=lambda text, share=None: None, modes=None, meanwhile=None):
@@ -170,7 +164,7 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
     def progress(stage, done, total):
         say(f"rivet: {stage}", done / total)
 
-    try:
+    with naming(where, (ValueError, ArithmeticError, BrokenExecutor)):
         if modes is not None:
             check_count(modes, geometry.Z)
         if kind == "closed-form":
@@ -181,10 +175,6 @@ def table_of(where, geometry, kind=None, say=lambda text, share=None: None, mode
                     made = other_modes(rivet_table.read(rivet_table.DEFAULT_TABLE), modes, progress)
                 else:
                     made = make_table(geometry, kind == "coarse", progress=progress, modes=modes)
-    except UserError:  # of the context
-        raise
-    except (ValueError, ArithmeticError, np.linalg.LinAlgError, BrokenExecutor) as problem:
-        raise UserError(f"{where}: {problem}") from None
     write_atomically(target, lambda temporary: table.write(made, temporary))
     return target
 

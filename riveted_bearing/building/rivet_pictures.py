@@ -16,6 +16,8 @@ from rivet_model.load_cases import GROUPS
 SWELL = 4e-6  # m, default of joint.swell, of the 6207's rivets; that of others goes with Geometry.size
 FIT = -10e-6  # m, of the default joint
 HEAD, MIDDLE = "#c8442b", "#2a6f97"
+MAGNIFIED = 60.0  # displacements and gaps of the section as drawn
+SHAPES, LARGEST = 8, 2.5e-3  # of a cage half: how many, and as what length their largest displacement is drawn [m]
 
 
 @dataclass(frozen=True)
@@ -133,11 +135,16 @@ def micrometres(length):
     return f"{1e6 * length:.0f} µm".replace("-", "−")
 
 
-def plot_curves(data, title=""):
-    """Figure of the curves."""
+def blank(width, height):
+    """An empty figure [inch]; Matplotlib, which writes a list of fonts, is loaded for a picture only."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(13, 4.2), layout="constrained")
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def plot_curves(data, title=""):
+    """Figure of the curves."""
+    figure = blank(13, 4.2)
     axes = figure.subplots(1, 3)
     panel = {"preload": axes[0], "fit": axes[1], "transverse load": axes[2]}
     for c in data.values():
@@ -161,13 +168,11 @@ def plot_curves(data, title=""):
 # The drawing ----------------------------------------------------------------------------------------------------------
 
 
-def plot_geometry(geometry, title=""):
+def plot_geometry(geometry, title="Rivet joint to scale; dimensions in mm"):
     """Figure: the rivet in its two flanges, to scale, with the dimensions by their names in mm."""
-    from matplotlib.figure import Figure
-
     g = {name: 1e3 * getattr(geometry, name) for name in LENGTHS}
     a, top, out = 0.5 * g["shank_diameter"], g["flange_thickness"] + g["head_height"], g["patch_radius"]
-    figure = Figure(figsize=(10.5, 8), layout="constrained")
+    figure = blank(10.5, 8)
     ax = figure.subplots()
     for side in (-1.0, 1.0):
         for up in (-1.0, 1.0):
@@ -177,18 +182,12 @@ def plot_geometry(geometry, title=""):
     ax.axhline(0.0, color="0.5", linewidth=0.7, linestyle="-.")
     ax.axvline(0.0, color="0.5", linewidth=0.7, linestyle="-.")
     gap = 0.16 * (out + top)
-    across(
-        ax,
-        -0.5 * g["head_diameter"],
-        0.5 * g["head_diameter"],
-        top + gap,
-        f"head_diameter {g['head_diameter']:.4g}",
-        g["flange_thickness"],
-    )
-    across(ax, -a, a, -top - gap, f"shank_diameter {g['shank_diameter']:.4g}", -top)
-    across(ax, 0.0, out, -top - 2.2 * gap, f"patch_radius {out:.4g}", -g["flange_thickness"])
-    along(ax, g["flange_thickness"], top, out + gap, f"head_height {g['head_height']:.4g}", 0.5 * g["head_diameter"])
-    along(ax, 0.0, g["flange_thickness"], out + gap, f"flange_thickness {g['flange_thickness']:.4g}", out)
+    head, flange = 0.5 * g["head_diameter"], g["flange_thickness"]
+    across(ax, (-head, head), top + gap, f"head_diameter {g['head_diameter']:.4g}", flange)
+    across(ax, (-a, a), -top - gap, f"shank_diameter {g['shank_diameter']:.4g}", -top)
+    across(ax, (0.0, out), -top - 2.2 * gap, f"patch_radius {out:.4g}", -flange)
+    along(ax, (flange, top), out + gap, f"head_height {g['head_height']:.4g}", head)
+    along(ax, (0.0, flange), out + gap, f"flange_thickness {flange:.4g}", out)
     notes = (
         ("relief_depth", (-a - g["relief_radius"], g["flange_thickness"] - 0.5 * g["relief_depth"]), 0.7),
         ("relief_radius", (-a - 0.5 * g["relief_radius"], g["flange_thickness"] - g["relief_depth"]), 0.45),
@@ -206,7 +205,7 @@ def plot_geometry(geometry, title=""):
             arrowprops={"arrowstyle": "-|>", "color": HEAD, "lw": 0.8},
         )
     ax.set(
-        title=title or "Rivet joint to scale; dimensions in mm",
+        title=title,
         aspect="equal",
         xlim=(-2.3 * out - gap, 2.3 * out + gap),
         ylim=(-top - 3.0 * gap, top + 2.0 * gap),
@@ -241,13 +240,8 @@ def flange_outline(g):
 
 def rivet_outline(g):
     """Corners (r, x) of the rivet's section [mm] with rounded fillets."""
-    a, h, t, top, f = (
-        0.5 * g["shank_diameter"],
-        0.5 * g["head_diameter"],
-        g["flange_thickness"],
-        g["flange_thickness"] + g["head_height"],
-        g["fillet_radius"],
-    )
+    a, h, t, f = 0.5 * g["shank_diameter"], 0.5 * g["head_diameter"], g["flange_thickness"], g["fillet_radius"]
+    top = t + g["head_height"]
     turn = np.linspace(0.0, 0.5 * np.pi, 9)
     fillet = [(a + f * (1.0 - np.cos(s)), t - f * (1.0 - np.sin(s))) for s in turn]
     quarter = [*fillet, (h, t), (h, top)]
@@ -255,66 +249,48 @@ def rivet_outline(g):
     return [*right, *((-r, x) for r, x in reversed(right))]
 
 
-def across(ax, start, end, height, text, foot):
-    """A dimension across the axis, its lines from `foot` on."""
-    ax.annotate(
-        "",
-        (start, height),
-        (end, height),
-        arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0},
-    )
-    for r in (start, end):
-        ax.plot((r, r), (foot, height), color=MIDDLE, linewidth=0.5)
-    ax.text(
-        0.5 * (start + end),
-        height + 0.03 * abs(height),
-        text,
-        ha="center",
-        va="bottom",
-        color=MIDDLE,
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1.0},
-    )
+ARROW = {"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0}
 
 
-def along(ax, start, end, radius, text, foot):
-    """A dimension along the axis, its lines from `foot` on."""
-    ax.annotate(
-        "",
-        (radius, start),
-        (radius, end),
-        arrowprops={"arrowstyle": "<|-|>", "color": MIDDLE, "lw": 1.0, "shrinkA": 0, "shrinkB": 0},
-    )
-    for x in (start, end):
-        ax.plot((foot, radius), (x, x), color=MIDDLE, linewidth=0.5)
-    ax.text(1.04 * radius, 0.5 * (start + end), text, ha="left", va="center", color=MIDDLE)
+def across(ax, ends, height, text, foot):
+    """A dimension across the axis between two radii, its lines from `foot` on."""
+    ax.annotate("", (ends[0], height), (ends[1], height), arrowprops=ARROW)
+    ax.plot((ends, ends), (foot, height), color=MIDDLE, linewidth=0.5)
+    look = {"ha": "center", "va": "bottom", "bbox": {"facecolor": "white", "edgecolor": "none", "pad": 1.0}}
+    ax.text(0.5 * sum(ends), height + 0.03 * abs(height), text, color=MIDDLE, **look)
+
+
+def along(ax, ends, radius, text, foot):
+    """A dimension along the axis between two places, its lines from `foot` on."""
+    ax.annotate("", (radius, ends[0]), (radius, ends[1]), arrowprops=ARROW)
+    ax.plot((foot, radius), (ends, ends), color=MIDDLE, linewidth=0.5)
+    ax.text(1.04 * radius, 0.5 * sum(ends), text, ha="left", va="center", color=MIDDLE)
 
 
 # The section ----------------------------------------------------------------------------------------------------------
 
 
-def plot_section(joint, magnified=60.0):
+def plot_section(joint):
     """Figure: meshes; the joint under the reference loads in the plane of V, deformed, with its largest principal
     stress; the fillet that carries most.
 
     Gaps and displacements are magnified alike, so that bodies touch in the picture where they touch in the solution.
     """
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(13, 6.4), layout="constrained")
+    figure = blank(13, 6.4)
     left, middle, right = figure.subplots(1, 3, width_ratios=[0.75, 1.2, 1.0])
     for mesh in (joint.rivet.mesh, joint.flange.mesh):
         for ax in (left, right):
-            _draw_mesh(ax, mesh)
+            ax.plot(*(1e3 * mesh.p[:, np.concatenate([mesh.t, mesh.t[:1]])]), color="0.4", linewidth=0.3)
     left.set(title="mesh (lower flange: mirrored)", xlabel="r [mm]", ylabel="x [mm]", aspect="equal")
 
     load, fit = reference(joint.geometry.size), joint.geometry.size * (FIT + SWELL)
     forces, q, *_ = joint.solve(load.P, load.N, load.V, 0.0, 0.0, fit)
-    parts = [part for theta in (0.0, np.pi) for part in section(joint, forces, q, theta, load.P, fit, magnified)]
+    parts = [part for theta in (0.0, np.pi) for part in section(joint, forces, q, theta, load.P, fit)]
     limit = max(stress.max() for _, _, _, stress in parts) / 1e6
     shade = {"shading": "gouraud", "cmap": "viridis", "vmin": 0.0, "vmax": limit}
     for moved, _, triangles, stress in parts:
         filled = middle.tripcolor(*(1e3 * moved), triangles, stress / 1e6, **shade)
-    middle.set(title=f"displacements and gaps × {magnified:g}", xlabel="along V [mm]", aspect="equal")
+    middle.set(title=f"displacements and gaps × {MAGNIFIED:g}", xlabel="along V [mm]", aspect="equal")
 
     g = joint.geometry
     _, place, triangles, stress = max(parts, key=lambda part: part[3].max())
@@ -335,7 +311,7 @@ def plot_section(joint, magnified=60.0):
     return figure
 
 
-def section(joint, forces, q, theta, P, fit, magnified):
+def section(joint, forces, q, theta, P, fit):
     """Rivet, upper and lower flange in the half plane at theta = 0 or pi.
 
     forces, q: contact forces and rigid motions of a solution under the preload P.  Returns for each body the displaced
@@ -359,7 +335,9 @@ def section(joint, forces, q, theta, P, fit, magnified):
         place = np.stack([side * r, up * z])
         moved = np.stack([side * elastic[0], up * elastic[1]]) + shrink[:, None] * place
         moved += np.stack([motion[0] + motion[4] * place[1], motion[2] - motion[4] * place[0]])
-        yield place + magnified * moved, place, _triangles(body.mesh.t), stress
+        quads = body.mesh.t
+        triangles = np.concatenate([quads[[0, 1, 2]], quads[[0, 2, 3]]], axis=1).T
+        yield place + MAGNIFIED * moved, place, triangles, stress
 
 
 def _response(body, loads, amplitude, theta):
@@ -380,40 +358,26 @@ def _response(body, loads, amplitude, theta):
     return moved, np.bincount(mesh.t.ravel(), np.tile(largest, 4), minlength=mesh.nvertices) / count
 
 
-def _triangles(quads):
-    return np.concatenate([quads[[0, 1, 2]], quads[[0, 2, 3]]], axis=1).T
-
-
-def _draw_mesh(ax, mesh):
-    x, y = 1e3 * mesh.p[:, np.concatenate([mesh.t, mesh.t[:1]])]
-    ax.plot(x, y, color="0.4", linewidth=0.3)
-
-
-def plot_modes(g, count=8, largest=2.5e-3):
-    """Figure: the first shapes in which a free cage half vibrates, one of each pair, by coarse elements without the
-    rivets' mass (2 % off in frequency).
-
-    largest: length as which the largest displacement of each shape is drawn [m].
+def plot_modes(g):
+    """Figure: the first SHAPES in which a free cage half vibrates, one of each pair, by coarse elements without the rivets'
+    mass (2 % off in frequency).
     """
-    from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     solid = CyclicSolid(half.pitch_mesh(g, half.COARSE), g.Z, g.E_flange, g.nu_flange)
     M = (g.rho_flange * solid.M).tocsc()
     found = []
-    for n in range(min(g.Z // 2, count) + 1):
+    for n in range(min(g.Z // 2, SHAPES) + 1):
         square, shapes = half_modes.wave_modes(solid, M, n, 4)
         found += [(np.sqrt(w) / (2.0 * np.pi), n, shape) for w, shape in zip(square, shapes.T, strict=True)]
     found.sort(key=lambda mode: mode[0])
-    figure = Figure(figsize=(13, 7), layout="constrained")
-    rows = 2
-    for i, (frequency, n, shape) in enumerate(found[:count]):
-        ax = figure.add_subplot(rows, -(-count // rows), i + 1, projection="3d")
+    figure = blank(13, 7)
+    for i, (frequency, n, shape) in enumerate(found[:SHAPES]):
+        ax = figure.add_subplot(2, SHAPES // 2, i + 1, projection="3d")
         quads, moved = half_surface(solid, n, shape)
         size = np.linalg.norm(moved, axis=-1)
-        skin = Poly3DCollection(
-            1e3 * (quads + largest / size.max() * moved)[..., [1, 2, 0]], cmap="viridis", edgecolor="0.3", linewidth=0.1
-        )
+        drawn = 1e3 * (quads + LARGEST / size.max() * moved)[..., [1, 2, 0]]
+        skin = Poly3DCollection(drawn, cmap="viridis", edgecolor="0.3", linewidth=0.1)
         skin.set_array(size.mean(axis=1))
         ax.add_collection3d(skin)
         R = 0.62e3 * g.cage_outer_diameter / 1.15
@@ -422,7 +386,7 @@ def plot_modes(g, count=8, largest=2.5e-3):
         ax.set_axis_off()
         ax.view_init(elev=38, azim=-60)
         ax.set_title(f"{frequency / 1e3:.2f} kHz, {n} wave{'s' * (n != 1)}", y=0.96)
-    figure.suptitle(f"shapes of a free cage half, displacements drawn up to {1e3 * largest:g} mm", x=0.01, ha="left")
+    figure.suptitle(f"shapes of a free cage half, displacements drawn up to {1e3 * LARGEST:g} mm", x=0.01, ha="left")
     return figure
 
 

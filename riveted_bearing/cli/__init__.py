@@ -1,11 +1,11 @@
 """The command line, `riveted-bearing`: each command is a module of this folder, imported when it is called or shown.
 
-For a further command write its module here and add the module's name to COMMANDS, whose order is that of the help.  What
-the command computes belongs into another room.  Slow imports (NumPy, fmpy, matplotlib, SciPy) stand inside the command's
-function, because the help imports all modules of this list.
+For a further command write its module here.  What the command computes belongs into another room.  Slow imports (NumPy,
+fmpy, matplotlib, SciPy) stand inside the command's function, because the help imports all modules of commands.
 """
 
 from importlib import import_module
+from pkgutil import iter_modules
 
 from typer.core import TyperGroup
 from typer.main import get_command_from_info
@@ -14,28 +14,8 @@ from .terminal import main, program
 
 __all__ = ["COMMANDS", "program"]
 
-COMMANDS = (
-    "build",
-    "causes",
-    "compare",
-    "compare_designs",
-    "cookbook",
-    "dataset",
-    "identify",
-    "info",
-    "life",
-    "matrices",
-    "optimize",
-    "report",
-    "rivet",
-    "run",
-    "schema",
-    "sensitivity",
-    "spectrum",
-    "summary",
-    "sweep",
-    "variables",
-)
+SHARED = ("info_tables", "options", "printing", "terminal")  # modules that are no command
+COMMANDS = tuple(module.name for module in iter_modules(__path__) if module.name not in SHARED)
 
 
 class Commands(TyperGroup):

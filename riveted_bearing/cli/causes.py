@@ -9,7 +9,7 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import make_folder
 from ..base.toml_files import read_toml
-from .options import FMU, OUT, SCHEDULER, WORKERS
+from .options import FMU, OUT, SCHEDULER, WORKERS, file_argument
 from .printing import print_basis, print_paths, table
 from .terminal import command, console, design_runs
 
@@ -17,10 +17,7 @@ from .terminal import command, console, design_runs
 @command
 def causes(
     findings: Annotated[
-        Path,
-        typer.Argument(
-            help="findings (TOML): broken rivets, hours, marks; see docs/failure.md", metavar="FINDINGS.toml"
-        ),
+        Path, file_argument("FINDINGS.toml", "findings (TOML): broken rivets, hours, marks; see docs/failure.md")
     ],
     order: Annotated[
         bool, typer.Option("--order", help="what breaks next, from the broken rivets on, and no causes")

@@ -53,32 +53,24 @@ def compare_designs(
     print_paths(("results", write_record(found, folder)), ("page", write_page(found, folder / PAGE)))
 
 
-def other_figures(found):
-    """Static stress and swing where the first rivet fails, and the raceways' life, design by design."""
-    from ..duty.designs_page import parts_text
-    from ..duty.raceways import card
-
-    rows = ((outcome.design.name, parts_text(outcome), *card(outcome.raceways)) for outcome in found.outcomes)
-    return table(("design", "where it fails: static + swing", "raceways", ""), rows, left=1)
-
-
 def print_comparison(found):
     """Lives, ratios and what differs."""
     from ..base.units import hours_text
     from ..duty.designs import ends_of
-    from ..duty.designs_page import ratio_text, verdict
+    from ..duty.designs_page import parts_text, ratio_text, verdict
     from ..duty.page import interval_text
+    from ..duty.raceways import card
     from ..running.budget import digits, in_line
 
-    names = [outcome.design.name for outcome in found.outcomes]
-    rows = []
-    for outcome in found.outcomes:
+    names, lives, others = [outcome.design.name for outcome in found.outcomes], [], []
+    for name, outcome in zip(names, found.outcomes, strict=True):
         few = digits(outcome.budgets)
         life = hours_text(outcome.estimate.life, few), interval_text(*ends_of(outcome), few=few)
-        rows.append((outcome.design.name, *life, outcome.place, ratio_text(outcome.life), verdict(outcome)))
+        lives.append((name, *life, outcome.place, ratio_text(outcome.life), verdict(outcome)))
+        others.append((name, parts_text(outcome), *card(outcome.raceways)))
     heads = "design", "life", f"{100 * found.confidence:g} % interval", "fails first", "life/first", ""
-    console.print(table(heads, rows))
-    console.print(other_figures(found))
+    console.print(table(heads, lives))
+    console.print(table(("design", "where it fails: static + swing", "raceways", ""), others))
     for outcome in found.outcomes:
         for budget in outcome.budgets.values():
             console.print(f"[dim]{escape(outcome.design.name)}: {escape(in_line(budget))}[/]")

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..base.files import make_folder
-from .options import FMU, OUT, SCHEDULER, WORKERS
+from .options import FMU, OUT, SCHEDULER, WORKERS, file_argument
 from .printing import print_runs
 from .terminal import STOPPED, command, design_runs
 
@@ -14,10 +14,7 @@ from .terminal import STOPPED, command, design_runs
 @command
 def dataset(
     study: Annotated[
-        Path,
-        typer.Argument(
-            help="dataset file (TOML): a sweep file with \\[dataset]; see docs/surfaces.md", metavar="STUDY.toml"
-        ),
+        Path, file_argument("STUDY.toml", "dataset file (TOML): a sweep file with \\[dataset]; see docs/surfaces.md")
     ],
     fmu: FMU = None,
     out: OUT = None,

@@ -10,6 +10,10 @@ from .options import CAGE, CLEANLINESS, FMU
 from .printing import note, print_basis
 from .terminal import chosen_cleanliness, command, console
 
+OF_BEARING = (
+    "With a line `Z = ...` or `designation = ...` the file is a bearing's: cage, rivets and masses follow by rule"
+)
+
 
 @command
 def info(
@@ -50,20 +54,12 @@ def info(
     for text in doubts(case):
         note(text, to=console)
     if case.alone:
-        note(read_as_scene(case.alone), to=console)
+        words = f"read as a scene, which sets {', '.join(case.alone)}; all else is the FMU's. {OF_BEARING}"
+        note(words, to=console)
     for text in too_little_load(case):
         note(text, to=console)
-    tables = info_tables(case)
-    for title, table in tables:
+    for title, table in info_tables(case):
         console.print(f"\n[bold]{title}[/]")
         console.print(table)
     if idle := without_effect(case, given_values(case, scene, model)):
         console.print(f"\nwithout effect here: {escape(', '.join(idle))}")
-
-
-def read_as_scene(names):
-    """What to say of a scene that sets a bearing's shape."""
-    return (
-        f"read as a scene, which sets {', '.join(names)}; all else is the FMU's. "
-        "With a line `Z = ...` or `designation = ...` the file is a bearing's: cage, rivets and masses follow by rule"
-    )

@@ -260,11 +260,9 @@ def rating_lives(case):
 def life(L_10r, load):
     """A life in 10^6 revolutions as text and unit, with its hours if the bearing turns."""
     turns, omega = f"{L_10r:.4g}", load.omega - load.omega_e
-    return (
-        (f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(omega) / 3600.0:.4g}", "1e6 turns, h")
-        if omega
-        else (turns, "1e6 turns")
-    )
+    if not omega:
+        return turns, "1e6 turns"
+    return f"{turns}, {L_10r * 1e6 * 2.0 * math.pi / abs(omega) / 3600.0:.4g}", "1e6 turns, h"
 
 
 def balls(state):

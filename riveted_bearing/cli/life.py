@@ -3,11 +3,10 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
-from .options import FMU, OUT, SCHEDULER, WORKERS
+from .options import FMU, OUT, SCHEDULER, WORKERS, file_argument
 from .printing import print_basis, print_budgets, print_paths, print_warnings, table
 from .terminal import command, console, design_runs, messages, screen
 
@@ -17,10 +16,7 @@ SHEET = "summary.html"  # of the command `summary`, in the same folder
 @command
 def life(
     mission: Annotated[
-        Path,
-        typer.Argument(
-            help="mission file (TOML): operating points, hours, events; see docs/life.md", metavar="MISSION.toml"
-        ),
+        Path, file_argument("MISSION.toml", "mission file (TOML): operating points, hours, events; see docs/life.md")
     ],
     fmu: FMU = None,
     out: OUT = None,

@@ -3,12 +3,11 @@
 from pathlib import Path
 from typing import Annotated
 
-import typer
 from rich.markup import escape
 
 from ..base.files import make_folder
 from ..base.toml_files import read_toml
-from .options import FMU, OUT, SCHEDULER, WORKERS
+from .options import FMU, OUT, SCHEDULER, WORKERS, file_argument
 from .printing import note, print_basis, print_budgets, print_paths, table
 from .terminal import command, console, design_runs, screen
 
@@ -16,8 +15,7 @@ from .terminal import command, console, design_runs, screen
 @command
 def optimize(
     study: Annotated[
-        Path,
-        typer.Argument(help="study file (TOML): variables, limits, objectives; see docs/life.md", metavar="STUDY.toml"),
+        Path, file_argument("STUDY.toml", "study file (TOML): variables, limits, objectives; see docs/life.md")
     ],
     fmu: FMU = None,
     out: OUT = None,

@@ -1,9 +1,15 @@
 """Options that several commands have."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
+
+
+def file_argument(metavar: str, words: str) -> Any:
+    """The argument of a command that names a file of the user's."""
+    return typer.Argument(metavar=metavar, help=words)
+
 
 FMU = Annotated[
     Path | None,

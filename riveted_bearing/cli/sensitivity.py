@@ -10,7 +10,7 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import make_folder
 from ..base.toml_files import read_toml
-from .options import FMU, OUT, SCHEDULER, WORKERS
+from .options import FMU, OUT, SCHEDULER, WORKERS, file_argument
 from .printing import print_basis, print_paths, table
 from .terminal import command, console, design_runs, screen
 
@@ -19,9 +19,9 @@ from .terminal import command, console, design_runs, screen
 def sensitivity(
     study: Annotated[
         Path | None,
-        typer.Argument(
-            help="study file (TOML): factors with ranges, responses; see docs/life.md; with --quick only its [between]",
-            metavar="STUDY.toml",
+        file_argument(
+            "STUDY.toml",
+            "study file (TOML): factors with ranges, responses; see docs/life.md; with --quick only its [between]",
         ),
     ] = None,
     fmu: FMU = None,

@@ -9,7 +9,7 @@ from rich.markup import escape
 from ..base.errors import UserError
 from ..base.files import FORMATS, make_folder
 from .life import SHEET, write_life
-from .options import CLEANLINESS, FMU, SCHEDULER, SENSITIVITY, WORKERS
+from .options import CLEANLINESS, FMU, SCHEDULER, SENSITIVITY, WORKERS, file_argument
 from .printing import print_paths, print_warnings
 from .terminal import chosen_cleanliness, command, console, design_runs, option_value, screen
 
@@ -17,10 +17,7 @@ from .terminal import chosen_cleanliness, command, console, design_runs, option_
 @command
 def summary(
     source: Annotated[
-        Path,
-        typer.Argument(
-            help="mission file (TOML, see docs/life.md) or a result file of `run`", metavar="MISSION|RESULT"
-        ),
+        Path, file_argument("MISSION|RESULT", "mission file (TOML, see docs/life.md) or a result file of `run`")
     ],
     fmu: FMU = None,
     target: Annotated[str | None, typer.Option(help='life that is wanted, e.g. "10000 h"')] = None,

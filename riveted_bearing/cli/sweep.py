@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..base.files import make_folder
-from .options import FMU, OUT, SCHEDULER, WORKERS
+from .options import FMU, OUT, SCHEDULER, WORKERS, file_argument
 from .printing import note, print_basis, print_paths, print_runs
 from .printing import table as grid
 from .terminal import STOPPED, command, console, design_runs, messages
@@ -15,10 +15,7 @@ from .terminal import STOPPED, command, console, design_runs, messages
 @command
 def sweep(
     study: Annotated[
-        Path,
-        typer.Argument(
-            help="sweep file (TOML): scene, what varies, repeats; see docs/running.md", metavar="STUDY.toml"
-        ),
+        Path, file_argument("STUDY.toml", "sweep file (TOML): scene, what varies, repeats; see docs/running.md")
     ],
     fmu: FMU = None,
     out: OUT = None,

@@ -13,7 +13,7 @@ from rich.markup import escape
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from ..base.errors import UserError, extra, refusal, unknown
+from ..base.errors import UserError, extra, naming, refusal, unknown
 
 BAD_INPUT, STOPPED, INTERRUPTED = 2, 3, 130  # exit codes; 130: shells' own for Ctrl-C
 # Libraries of the extra "full": a run needs none of them.
@@ -53,10 +53,8 @@ def chosen_cleanliness(value):
 
 def option_value(option, text, read):
     """What an option's text means by read(its number or text); UserError naming both."""
-    try:
+    with naming(f"{option} {text}", (UserError,)):
         return read(number_or_text(text))
-    except UserError as problem:
-        raise UserError(f"{option} {text}: {problem}") from None
 
 
 def print_version(wanted: bool):
@@ -86,16 +84,12 @@ def guarded(function):
         try:
             return function(*arguments, **options)
         except UserError as problem:
-            messages.print(f"[bold red]error:[/] {escape(str(problem))}")
-            raise typer.Exit(BAD_INPUT) from None
+            fault = str(problem)
         except ModuleNotFoundError as problem:
             library = (problem.name or "").partition(".")[0]
             if library not in FULL:
                 raise
-            messages.print(
-                f"[bold red]error:[/] this command needs {library}, which an installation to simulate does not have: {escape(extra('full'))}"
-            )
-            raise typer.Exit(BAD_INPUT) from None
+            fault = f"this command needs {library}, which an installation to simulate does not have: {extra('full')}"
         except KeyboardInterrupt:
             messages.print("interrupted: no file has changed")
             raise typer.Exit(INTERRUPTED) from None
@@ -104,9 +98,9 @@ def guarded(function):
         except OSError as problem:  # disk full, no permission, no more files or memory
             if problem.strerror is None:
                 raise
-            place = f"{problem.filename}: " if problem.filename else ""
-            messages.print(f"[bold red]error:[/] {escape(place + problem.strerror)}")
-            raise typer.Exit(BAD_INPUT) from None
+            fault = (f"{problem.filename}: " if problem.filename else "") + problem.strerror
+        messages.print(f"[bold red]error:[/] {escape(fault)}")
+        raise typer.Exit(BAD_INPUT)
 
     return called
 

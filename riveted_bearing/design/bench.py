@@ -18,10 +18,9 @@ from ..base.toml_files import leaves
 from ..duty.mission import curves
 from ..running.basis import basis
 from ..running.responses import COLUMNS, response, shown
-from ..running.scene import load_scene
 from ..studies.rows import of_keys
 from ..studies.sweep import run_sweep, schema_of
-from ..studies.sweep_file import Settings, Sweep, beside, box_of, key_of, known_names, sections_of
+from ..studies.sweep_file import Settings, Sweep, box_of, key_of, known_names, scene_of, sections_of, settings_of
 
 OUTPUTS = ["cage.dislocation", "bearing.friction_torque", "event.joint_open"]
 
@@ -71,10 +70,10 @@ class Bench:
         self.client, self.progress = client, progress
         shared = {key: value for key, value in document.items() if key in Seeded.model_fields}
         file = checked(Seeded, shared, path)
-        common = {"inputs": file.inputs, "simulation": {"outputs": OUTPUTS} | file.simulation}
-        common["parameters"] = {"scene.stress": "fatigue"} | file.parameters
-        self.common, self.source = common, beside(path, file.scene)
-        self.scene = load_scene(self.source, model, (str(path), common))
+        self.common, self.source = settings_of(file), file.scene
+        self.common["simulation"] = {"outputs": OUTPUTS} | file.simulation
+        self.common["parameters"] = {"scene.stress": "fatigue"} | file.parameters
+        self.scene = scene_of(path, self.source, model, self.common)
         self.seeds, self.first = file.seeds, file.seed
         self.description, self.fingerprint, self.further = file.description, model.digest, further
         self.scenes, self.rows, self.known = {}, {}, set()  # rows: those read so far; known: their keys
@@ -103,8 +102,7 @@ class Bench:
     def scene_at(self, names, point):
         """The scene of one point."""
         settings = {name: self.plain(name, value) for name, value in zip(names, point, strict=True)}
-        changes = (str(self.path), self.common), (str(self.path), sections_of(settings, self.model))
-        return load_scene(self.source, self.model, *changes)
+        return scene_of(self.path, self.source, self.model, self.common, sections_of(settings, self.model))
 
     def plain(self, name, value):
         """A value as the scene takes it: whole numbers for integer parameters."""

@@ -198,7 +198,8 @@ def compare_designs(
         return Outcome(designs[k], of_life, place, life, responses, deciding, mission.raceways(), budgets)
 
     outcomes = tuple(map(outcome, range(len(designs))))
-    rests_on = rested_on(missions)
+    lines = [dict(mission.basis) for mission in missions]
+    rests_on = {key: [own.get(key, "–") for own in lines] for key in LINES if any(key in own for own in lines)}
     differ = [row for key, texts in rests_on.items() for row in differing(key, texts)]
     differ += differences(designs, common_parameters(path, designs[0].model))
     basis = {key: texts[0] for key, texts in rests_on.items() if len(set(texts)) == 1}
@@ -217,12 +218,6 @@ def warnings_of(all_runs, outcomes):
             found.setdefault(text, []).append(outcome.design.name)
     for text, names in found.items():
         yield f"{'all designs' if len(names) == len(outcomes) else '; '.join(names)}: {text}"
-
-
-def rested_on(missions):
-    """{line of the basis: its text in each mission}, of the lines that any mission has."""
-    lines = [dict(mission.basis) for mission in missions]
-    return {key: [own.get(key, "–") for own in lines] for key in LINES if any(key in own for own in lines)}
 
 
 def life_ratio(samples, found, confidence):

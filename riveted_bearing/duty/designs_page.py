@@ -71,11 +71,8 @@ def verdict(outcome: Any) -> str:
         return "the same"
     if not ratio.differs:
         return "no difference that the runs show"
-    both = (
-        f", both {hours_text(outcome.estimate.life)}"
-        if min(outcome.estimate.life, outcome.estimate.life / ratio.ratio) > LONGEST
-        else ""
-    )
+    life = outcome.estimate.life
+    both = f", both {hours_text(life)}" if min(life, life / ratio.ratio) > LONGEST else ""
     return ("lives longer" if ratio.ratio > 1.0 else "lives shorter") + both + against_stress(outcome)
 
 

@@ -117,23 +117,21 @@ def idle_settings(model, parts):
     tried = sorted((part for part in parts if part.scene is not None), key=lambda part: -part.weight)[:MOST_TRIED]
     idle = {name: True for part in tried for name in own_names(part.scene, model) if name not in FORCED}
 
+    def stress_and_damage(result):
+        return result.data | {name: value for name, value in result.summary.items() if ".damage_" in name}
+
     def prepared(scene):  # seeds are the life's own
         return replace(scene, accuracy=None, outputs=outputs_of(model), parameters=scene.parameters | {"start.seed": 1})
 
     for part in tried:
         names = [name for name in own_names(part.scene, model) if idle.get(name)]
-        left, _ = without_effect(model, part.scene, names, stress_figures, prepared)
+        left, _ = without_effect(model, part.scene, names, stress_and_damage, prepared)
         if left and not part.event:
             rated_at = partial(raceway_figures, model)
             reference = rated_at(part.scene)
             left = [name for name in left if not acts(name, part.scene, rated_at, reference)]
         idle |= {name: name in left for name in names}
     return tuple(name for name, still in idle.items() if still)
-
-
-def stress_figures(result):
-    """Stress and damage of a Result."""
-    return result.data | {name: value for name, value in result.summary.items() if ".damage_" in name}
 
 
 def raceway_figures(model, scene):

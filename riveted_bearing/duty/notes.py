@@ -100,11 +100,8 @@ def notes(life: Life, runs: Runs, scatter: Any = None) -> Any:
     if scatter:
         law = scatter.law
         low, high = law.b10_interval
-        noise = (
-            ""
-            if math.isnan(scatter.noise)
-            else f" The seeds have {100 * min(scatter.noise, 1.0):.3g} % of the scatter."
-        )
+        share = f" The seeds have {100 * min(scatter.noise, 1.0):.3g} % of the scatter."
+        noise = "" if math.isnan(scatter.noise) else share
         sentences.append(
             f"Over {len(scatter.lives)} bearings within their tolerances: B10 {hours_text(law.b10)} ({hours_text(low)} to {hours_text(high)} at "
             f"{100 * law.confidence:g} %), Weibull shape {law.beta:.3g}, characteristic life {hours_text(law.eta)}.{noise}"

@@ -161,8 +161,10 @@ def rate_at_place(life, i):
 def life_chart(fig, life):
     """How likely each life is by the scatter of the runs, the interval shaded."""
     ax, found = fig.subplots(), life.estimate
-    if found.life > LONGEST:
-        ax.text(0.5, 0.5, endless_text(found.life), ha="center", transform=ax.transAxes)
+    if found.life > LONGEST:  # no scatter to draw
+        why = "the S–N curve is not known\nfor so many cycles, so that its scatter says nothing"
+        text = f"{hours_text(found.life)}: {why}" if math.isfinite(found.life) else "no damage"
+        ax.text(0.5, 0.5, text, ha="center", transform=ax.transAxes)
         ax.set(xticks=[], yticks=[])
         return
     beyond = min(max(BEYOND * found.half_width, math.log(found.life / life.low)), BEYOND * math.log(OPEN)) or 0.1
@@ -176,13 +178,6 @@ def life_chart(fig, life):
     if hours[-1] < 10.0 * hours[0]:
         few_ticks(ax, np.geomspace(hours[0], hours[-1], 5)[1:-1])
     ax.legend(ncols=3, loc="lower right", bbox_to_anchor=(1.0, 1.0))
-
-
-def endless_text(life):
-    """Why there is no scatter to draw of a life beyond LONGEST [h]."""
-    if not math.isfinite(life):
-        return "no damage"
-    return f"{hours_text(life)}: the S–N curve is not known\nfor so many cycles, so that its scatter says nothing"
 
 
 def life_density(found, beyond):

@@ -8,7 +8,7 @@ from ..base.errors import UserError, refusal
 from ..base.toml_files import leaves
 from ..running.basis import loads, speeds
 from ..running.scene import Scene, load_scene
-from ..studies.sweep_file import beside
+from ..studies.sweep_file import beside, settings_of
 
 FORCED = {"scene.stress": "fatigue", "scene.statistics": "on", "scene.breakage": "off", "fatigue.acceleration": 1.0}
 
@@ -54,11 +54,6 @@ def part_of(path, file, model, label, name, block, weight):
     simulated = None if getattr(block, "interpolate", False) else scene
     words = loads(model, [scene]), speeds(model, [scene])
     return Part(name, False, weight, simulated, block.preload_factor, values_of(scene, model), *words)
-
-
-def settings_of(block):
-    """The settings of a block as a document like a scene file's."""
-    return {"simulation": block.simulation, "parameters": block.parameters, "inputs": block.inputs}
 
 
 def values_of(scene, model):

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.errors import UserError, refusal, refusing, unknown
-from ..base.tables import Wanted, read
+from ..base.tables import Table, Wanted
 from ..base.toml_files import leaves
 from ..base.units import SECONDS, scale
 from ..studies.sweep_file import count_of
@@ -117,9 +117,10 @@ def table_points(path, file, model):
         return
     table = path.parent / section.file
     columns = columns_of(path, "table", section, model)
-    hours, *values = read(table, Wanted(section.hours, HOURS), *(column for _, column, _ in columns.values()))
-    for i, row in enumerate(np.column_stack([hours, *values]), 1):
-        label = f"{table.name} line {i}"
+    wanted = Wanted(section.hours, HOURS), *(column for _, column, _ in columns.values())
+    lines, *values = Table(table).rows_and_columns(*wanted)
+    for line, row in zip(lines, np.column_stack(values), strict=True):
+        label = f"{table.name} line {line}"
         if row[0] < 0.0:
             raise refusal(path, f"{label}: {section.hours}", float(row[0]), "must not be negative")
         yield part_of(path, file, model, label, label, block_of(columns, row[1:]), float(row[0]))

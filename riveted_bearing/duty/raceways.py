@@ -19,6 +19,7 @@ import numpy as np
 from ..base.errors import UserError, shortlist
 from ..base.units import hours_text
 from ..bearing.case import Case
+from ..running.inputs import histories_of
 from ..running.scene_case import scene_case
 
 MINIMUM_LOAD = 0.01  # of C: the usual rule of makers for ball bearings
@@ -202,15 +203,10 @@ def of_parts(model, parts, cleanliness=None):
 
 def of_result(model, result, cleanliness=None):
     """The Raceways under a Result that goes on as it did; model: its FMU, None if it is not there."""
-    from ..running.inputs import History
-
     if model is None:
         return Raceways((), None, "the run's FMU is not there, which has the load ratings")
     begin, end = result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])
-    inputs = {
-        name: History(np.array(of["t"]), np.array(of["value"]), of["hold"])
-        for name, of in result.about.get("inputs", {}).items()
-    }
+    inputs = histories_of(result.about)
     varying = {name: history for name, history in inputs.items() if len(history.t) > 1}
     constant = {name: float(history(0.0)) for name, history in inputs.items() if name not in varying}
     values = {name: value for name, value in result.parameters.items() if not isinstance(value, bool)}

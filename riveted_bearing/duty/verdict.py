@@ -142,17 +142,12 @@ def raceway_checks(evidence, target):
         limits = f"at least {hours_text(target)}", target / min(found.lives), raceways_judged(found, target)
     yield Check("Raceways", life_text(found), *limits)
     if math.isfinite(least := found.least_load):
-        slips = [slip for result in evidence.results.values() if (slip := mean_slip(result)) is not None]
+        recorded = [result for result in evidence.results.values() if "cage.slip_ratio" in result.data]
+        slips = [abs(float(result.data["cage.slip_ratio"][settled(result)].mean())) for result in recorded]
         slip = f", cage slip up to {100.0 * max(slips):.2g} %" if slips else ""
         state = "good" if least >= 1.0 and max(slips, default=0.0) <= SLIP else "open"
         allowed = f"minimum load; slip {100.0 * SLIP:.0f} %"
         yield Check("Load, slip", f"{least:.3g} times the minimum load{slip}", allowed, None, state)
-
-
-def mean_slip(result):
-    """Mean slip of the cage after settling, None if it was not recorded."""
-    slip = result.data.get("cage.slip_ratio")
-    return None if slip is None else abs(float(slip[settled(result)].mean()))
 
 
 def pressure_checks(results):

@@ -138,8 +138,10 @@ def range_of(where, name, spec, model, scene):
     if len(kinds) != 1 or not set(table) <= {"from", "to", "times", "of", "plus", "spacing"}:
         reason = "[lowest, highest], { times = [a, b] }, { plus = [a, b] } or { from, to } is needed"
         raise refusal(where, name, spec, reason)
-    if kinds == ["from"]:
-        low, high = pair_of(where, name, (table["from"], table["to"]), model)
+    if kinds == ["from"] and name in OWN:
+        low, high = (to_si(value, scales_of("1", {})) for value in (table["from"], table["to"]))
+    elif kinds == ["from"]:
+        low, high = bounds(where, name.replace("[*]", "[1]"), (table["from"], table["to"]), model)
     elif kinds == ["times"]:
         own = own_value(where, table.get("of", name), model, scene)
         low, high = sorted(float(x) * own for x in table["times"])
@@ -154,13 +156,6 @@ def range_of(where, name, spec, model, scene):
 def is_pair(value):
     """Whether a value is a list of two."""
     return isinstance(value, list) and len(value) == 2
-
-
-def pair_of(where, name, pair, model):
-    """Two SI values."""
-    if name in OWN:
-        return tuple(to_si(value, scales_of("1", {})) for value in pair)
-    return bounds(where, name.replace("[*]", "[1]"), pair, model)
 
 
 def own_value(where, name, model, scene):

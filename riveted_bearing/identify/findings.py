@@ -127,7 +127,11 @@ class Study:
 
 def plan_causes(path: Path, document: dict[str, Any], model: Model, scene: Scene) -> Study:
     """The Study of a document; UserError naming what cannot be used.  scene: the mission's, from which multiples are."""
-    file = checked_findings(path, document)
+    for key, way in CASCADE.items():
+        if key in document:
+            raise UserError(f"{path}: {key}: {way}")
+    check_keys(path, document, FindingsFile.model_fields, "file of findings")
+    file = checked(FindingsFile, document, path)
     causes, quantities = candidates(path, file, model, scene)
     for name in file.prior:
         if name not in (allowed := [cause.name for cause in causes] + [NONE]):
@@ -137,15 +141,6 @@ def plan_causes(path: Path, document: dict[str, Any], model: Model, scene: Scene
         raise refusal(path, "prior", file.prior, "one cause at least must be possible")
     Z = model.Z
     return Study(path, file, findings_of(path, file, Z, quantities, model), causes, quantities, prior / prior.sum(), Z)
-
-
-def checked_findings(path: Path, document: dict[str, Any]) -> FindingsFile:
-    """The document by its schema."""
-    for key, way in CASCADE.items():
-        if key in document:
-            raise UserError(f"{path}: {key}: {way}")
-    check_keys(path, document, FindingsFile.model_fields, "file of findings")
-    return checked(FindingsFile, document, path)
 
 
 def findings_of(path, file, Z, quantities, model):

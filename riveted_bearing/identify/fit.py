@@ -92,7 +92,8 @@ class Objective:
         """Figures whose squares add up to J, at points [m, d]: deviations, the variances' logarithms, priors."""
         mean, variance = self.parts(u)
         total = self.variance + variance
-        prior = [np.sqrt(p.penalty(u[:, j])) for j, p in enumerate(self.study.parameters) if p.mean is not None]
+        known = [(p, u[:, j]) for j, p in enumerate(self.study.parameters) if p.mean is not None]
+        prior = [np.abs(p.value(share) - p.mean) / p.sd for p, share in known]
         return np.hstack(
             [(mean - self.value) / np.sqrt(total), np.sqrt(np.log(total / self.variance)), *(x[:, None] for x in prior)]
         )
@@ -154,13 +155,8 @@ def quotients(figures, u, free):
     return found[0], ((found[1:] - found[0]) / h[:, None]).T
 
 
+@threadpool_limits.wrap(limits=1)  # small matrices, on which threads wait longer than they compute
 def identify(study: Any, evaluate: Any, start: Any) -> Any:
-    """found_by on one thread: on small matrices the threads of the linear algebra wait longer than they compute."""
-    with threadpool_limits(1):
-        return found_by(study, evaluate, start)
-
-
-def found_by(study, evaluate, start):
     """The Found; evaluate(points [n, d], seeds) gives [n, seeds, targets]; start: SI values before the fit [d]."""
     seeds = range(study.settings["seed"], study.settings["seed"] + study.settings["seeds"])
     rng = np.random.default_rng(study.settings["seed"])

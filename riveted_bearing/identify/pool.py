@@ -20,9 +20,9 @@ from fmpy.fmi1 import FMICallException
 
 from ..base.errors import UserError
 from ..running.fmu import Instance, Model
-from ..running.scene import Scene, load_scene
+from ..running.scene import Scene
 from ..studies.sweep import run_sweep, unpacked
-from ..studies.sweep_file import Sweep, beside, key_of, sections_of
+from ..studies.sweep_file import Sweep, key_of, scene_of, sections_of, settings_of
 from .candidates import OWN, designs
 from .findings import Study
 from .order import next_break
@@ -172,14 +172,12 @@ class Sample:
 def mission_scene(path: Any, document: dict[str, Any], model: Model) -> Scene:
     """The Scene of a file of findings, without findings."""
     common = {key: document.get(key, {}) for key in ("parameters", "inputs", "simulation")}
-    return load_scene(beside(path, document.get("scene")), model, (str(path), common))
+    return scene_of(path, document.get("scene"), model, common)
 
 
 def sampled(study: Study, model: Model, document: Any, count: int | None = None, seed: int | None = None) -> list[Any]:
     """(number of the cause, number of the design, design, strengths, Followed) of all designs; count, seed: those of the file by default."""
     file, found = study.file, []
-    common = {"parameters": file.parameters, "inputs": file.inputs, "simulation": file.simulation}
-    source = beside(study.path, file.scene)
     seed = file.seed if seed is None else seed
     for number, cause in enumerate(study.causes):
         for i, design in enumerate(designs(cause, count or file.samples, seed, model)):
@@ -189,8 +187,7 @@ def sampled(study: Study, model: Model, document: Any, count: int | None = None,
             strengths[:, 0] *= min(1.0, design.get("model.formed", 1.0))
             settings = {name: value for name, value in design.items() if name not in OWN}
             settings["start.seed"] = int(rng.integers(1, 2**31))
-            changes = (common, sections_of(settings, model))
-            scene = load_scene(source, model, *((str(study.path), document) for document in changes))
+            scene = scene_of(study.path, file.scene, model, settings_of(file), sections_of(settings, model))
             scene = replace(followed(scene, model, file.breaks, strengths.tolist()), name=cause.name)
             found.append((number, i, design, strengths, scene))
     return found

@@ -9,9 +9,8 @@ from ..base.errors import unknown
 from ..base.toml_files import section_of
 from ..design.bench import Bench
 from ..running.basis import basis
-from ..running.scene import load_scene
 from ..studies.sweep import schema_of
-from ..studies.sweep_file import sections_of
+from ..studies.sweep_file import scene_of, sections_of
 from .measures import of_result
 
 
@@ -50,8 +49,7 @@ class Rig(Bench):
         changes = {} if point is None else self.study.points[point][1]
         settings = sections_of({name: float(value) for name, value in zip(names, values, strict=True)}, self.model)
         outputs = {"simulation": {"outputs": self.common["simulation"]["outputs"]}}
-        documents = self.common, changes, settings, outputs
-        return load_scene(self.source, self.model, *((str(self.path), document) for document in documents))
+        return scene_of(self.path, self.source, self.model, self.common, changes, settings, outputs)
 
     def start(self):
         """Values of the parameters in the scene itself, [d]."""

@@ -17,8 +17,7 @@ from ..base.schema import Choice, Count, Named, Number, Section, checked, holds
 from ..base.toml_files import leaves
 from ..design.sensitivity import EVEN
 from ..running.fmu import Model
-from ..running.scene import load_scene
-from ..studies.sweep_file import Settings, beside, bounds, known_names
+from ..studies.sweep_file import Settings, bounds, known_names, scene_of, settings_of
 from .targets import Reader, SeriesBlock, TargetBlock, quantity, spread
 
 PARAMETER = ("low", "high", "scale", "mean", "sd")
@@ -98,10 +97,6 @@ class Parameter:
             return np.log(np.asarray(value, float) / self.low) / np.log(self.high / self.low)
         return (np.asarray(value, float) - self.low) / (self.high - self.low)
 
-    def penalty(self, u):
-        """-2 ln of the prior's density but for a constant."""
-        return 0.0 * u if self.mean is None else ((self.value(u) - self.mean) / self.sd) ** 2
-
     def known(self, confidence):
         """Ends of the prior's own interval, as shares of the range."""
         half = 0.5 * confidence
@@ -149,9 +144,7 @@ def plan_identify(path: str | Path, document: dict[str, Any], model: Model) -> A
     settings |= {"screen": dict(file.screen), "search": dict(file.search)}
     points = points_of(path, file)
     parameters = parameters_of(path, file.parameter, model, points)
-    common = {"simulation": file.simulation, "parameters": file.parameters, "inputs": file.inputs}
-    source = beside(path, file.scene)
-    scenes = [load_scene(source, model, (str(path), common), (str(path), changes)) for _, changes in points]
+    scenes = [scene_of(path, file.scene, model, settings_of(file), changes) for _, changes in points]
     reader = Reader(path, model, points, scenes, file.held_out)
     for i, block in enumerate(file.target, 1):
         reader.target(f"target {i}", block)
@@ -174,7 +167,7 @@ def points_of(path, file):
         name = block.name or f"point {i}"
         if name in [other for other, _ in found]:
             raise refusal(path, f"point {i}: name", name, "a text is needed, another one for each point")
-        found.append((name, {key: getattr(block, key) for key in ("inputs", "parameters", "simulation")}))
+        found.append((name, settings_of(block)))
     return found or [("", {})]
 
 

@@ -252,14 +252,13 @@ class Reader:
         if not np.isfinite(value) or not np.isfinite(scatter):
             raise UserError(f'{file}: column "{column}": no {measure.kind}: the times are not equally spaced')
         if block.uncertainty is not None:  # of the sensor
-            scales = {"log10": (1.0, 0.0)} if measure.kind == "band" else self.model.units[unit]
             relative = isinstance(block.uncertainty, str) and block.uncertainty.strip().endswith("%")
             if measure.kind == "band" and relative:  # a share of the amplitude
                 sensor = spread(where, "uncertainty", block.uncertainty, scales_of("1", {}), 1.0) / np.log(10.0)
             elif measure.kind == "band":
                 sensor = 0.0  # a shift of the zero is in no band
             else:
-                sensor = spread(where, "uncertainty", block.uncertainty, scales, value)
+                sensor = spread(where, "uncertainty", block.uncertainty, self.model.units[unit], value)
             scatter = float(np.hypot(scatter, sensor))
         if not scatter > 0.0:
             words = f"{measure.column} does not scatter, its uncertainty is 0: give one"

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..base.errors import UserError, shortlist
+from ..base.errors import naming, shortlist
 from ..base.units import rounded
 from ..bearing import oil as oils
 from ..bearing.plausible import fast
@@ -121,10 +121,8 @@ def extremes(numbers):
 def viscosity(model, scene, T):
     """Viscosity of a scene's oil [Pa.s] at T [K]; UserError if its two points make no oil."""
     start = {name: model.default(v) for name, v in model.parameters.items() if name.startswith("oil.")}
-    try:
+    with naming(f"{scene.source or model.path}: oil.nu_1, oil.nu_2"):
         return oils.viscosity(start | {name: scene.parameters.get(name, v) for name, v in start.items()}, start, T)
-    except ValueError as problem:
-        raise UserError(f"{scene.source or model.path}: oil.nu_1, oil.nu_2: {problem}") from None
 
 
 def preload(model, scenes):

@@ -212,11 +212,9 @@ def shown(row: Row, value: float, share: float) -> str:
     """A figure of a summary's Row with the digits that it has: of a stress those that its computed share leaves, else three."""
     if abs(value) <= ROUNDING:
         return "0"
-    return (
-        certain(value, share * abs(value))
-        if row.unit == "MPa" and share and row.every_step
-        else figure(float(f"{value:.3g}"))
-    )
+    if row.unit == "MPa" and share and row.every_step:
+        return certain(value, share * abs(value))
+    return figure(float(f"{value:.3g}"))
 
 
 # In words -------------------------------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 
 import reprlib
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -39,6 +40,12 @@ class History:
         first = int(np.argmax(self.value != self.value[0]))
         last = len(self.t) - 1 - int(np.argmax(self.value[::-1] != self.value[-1]))
         return float(self.t[first if self.hold else first - 1]), float(self.t[last + 1])
+
+
+def histories_of(about: dict[str, Any]) -> dict[str, History]:
+    """The inputs of a run by name, of what a Result says of it."""
+    found = about.get("inputs", {}).items()
+    return {name: History(np.array(of["t"]), np.array(of["value"]), of["hold"]) for name, of in found}
 
 
 def unit_of(value):

@@ -94,12 +94,8 @@ class Result:
 def write_result(result: Result, path: str | Path) -> Path:
     """Write a result whole or not at all; the suffix of `path` (.parquet, .csv, .mat) is the format."""
     path = Path(path)
-    write_atomically(
-        path,
-        lambda temporary: WRITERS[format_of(path)](
-            result, result.metadata() | {"digest": digest_of(result)}, temporary
-        ),
-    )
+    write, metadata = WRITERS[format_of(path)], result.metadata() | {"digest": digest_of(result)}
+    write_atomically(path, lambda temporary: write(result, metadata, temporary))
     return path
 
 
@@ -207,9 +203,8 @@ def write_parquet(result, metadata, path):
 def read_parquet(path):
     """Data and metadata of write_parquet."""
     table = read_table(path)
-    return {name: table[name].to_numpy() for name in table.column_names}, json.loads(
-        table.schema.metadata[KEY.encode()]
-    )
+    metadata = json.loads(table.schema.metadata[KEY.encode()])
+    return {name: table[name].to_numpy() for name in table.column_names}, metadata
 
 
 def write_csv(result, metadata, path):

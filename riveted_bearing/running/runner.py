@@ -15,7 +15,7 @@ from fmpy.fmi2 import fmi2Discard
 from ..base.errors import UserError
 from ..base.interrupts import held_interrupts
 from ..base.version import __version__
-from ..bearing.assumed import TEMPERATURES, given_names, is_example, ruled_names
+from ..bearing.assumed import TEMPERATURES, given_names, is_example
 from ..bearing.origin import not_given
 from .basis import basis, values
 from .fmu import Instance, Model
@@ -191,7 +191,7 @@ def origin_of(model: Model, scene: Scene) -> dict[str, Any]:
     return {
         "fmu": str(model.path),
         "given": sorted(given_names(model, scene)),
-        "ruled": sorted(ruled_names(model)),
+        "ruled": sorted(name for name, origin in model.origin.items() if origin == "rule"),
         "example": is_example(model),
         "screening": known(model) or {},
         "ranges": {name: ends for name, ends in model.ranges.items() if name not in {*scene.parameters, *scene.inputs}},

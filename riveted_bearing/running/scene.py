@@ -176,6 +176,10 @@ def apply(scene, where, document, model, folder):
     oil, of_oil = named(where, file.oil, parameters, own | scene.parameters)
     parameters = of_oil | parameters
     check_given(where, parameters, texts, own | scene.parameters | parameters)
+    simulation = {key: getattr(file.simulation, key) for key in file.simulation.model_fields_set}
+    if "outputs" in simulation:
+        with refusing(where, "simulation.outputs", simulation["outputs"]):
+            simulation["outputs"] = select(simulation["outputs"], model)
     return replace(
         scene,
         description=file.description if "description" in document else scene.description,
@@ -184,7 +188,7 @@ def apply(scene, where, document, model, folder):
         oil=oil or scene.oil,
         changes=read_changes(where, file.change, model) if "change" in document else scene.changes,
         units={name: symbol for name, symbol in (scene.units | written).items() if symbol},
-        **read_simulation(where, file.simulation, model),
+        **simulation,
     )
 
 
@@ -269,15 +273,6 @@ def profile_waves(race, profile, model, folder):
         model.check_range(a, model.parameters[f"{race}.waviness[{n}]"])
         found |= {f"{race}.waviness[{n}]": float(a), f"{race}.waviness_phase[{n}]": float(b)}
     return found
-
-
-def read_simulation(where, simulation, model):
-    """The settings of [simulation] that are given."""
-    settings = {key: getattr(simulation, key) for key in simulation.model_fields_set}
-    if "outputs" in settings:
-        with refusing(where, "simulation.outputs", settings["outputs"]):
-            settings["outputs"] = select(settings["outputs"], model)
-    return settings
 
 
 def select(patterns, model):

@@ -53,13 +53,6 @@ def screened(model: Model, say: Any = lambda done, total: None, further: Any = N
 # The runs -------------------------------------------------------------------------------------------------------------
 
 
-def base_scene(model):
-    """The FMU's own working point, as long as a screening needs."""
-    settle = model.default(model.parameters["start.settle"])
-    simulation = {"t_end": settle + max(SPAN, settle), "outputs": list(CHANNELS)}
-    return load_scene(None, model, ("screening", {"simulation": simulation}))
-
-
 def own_sources(model):
     """The Range of each value of an FMU that nobody gave."""
     parameters = {name: model.default(variable) for name, variable in model.parameters.items()}
@@ -87,7 +80,9 @@ def changed_scenes(model, scene, further):
 
 def measured(model, say, further):
     """The record of a screening."""
-    begun, scene = time.perf_counter(), base_scene(model)
+    begun, settle = time.perf_counter(), model.default(model.parameters["start.settle"])
+    simulation = {"t_end": settle + max(SPAN, settle), "outputs": list(CHANNELS)}
+    scene = load_scene(None, model, ("screening", {"simulation": simulation}))
     scenes = changed_scenes(model, scene, further)
     base = [sample(model, seeded(scene, model, 1, s)) for s in range(SEEDS)]
     entries, not_covered = {}, {}

@@ -46,17 +46,18 @@ def summary_rows(result: Result) -> Any:
 
 def channels(result):
     """Channel, unit shown, factor, outputs and how they combine, of what communication points alone tell."""
+    over = " / pocket clearance" if is_guided_by_balls(result.parameters) else ""
     return [
-        ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), largest_of),
-        ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), largest_of),
-        ("largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), largest_of),
+        ("largest inner contact load", "N", 1.0, columns(result, "ball[", "].Q_i"), np.max),
+        ("largest outer contact load", "N", 1.0, columns(result, "ball[", "].Q_e"), np.max),
+        ("largest inner pressure", "MPa", 1e-6, columns(result, "ball[", "].p_i"), np.max),
         ("cage speed", "rev/min", RPM, ["cage.omega"], None),
         ("cage slip ratio", "%", 100.0, ["cage.slip_ratio"], None),
-        (eccentricity_title(result.parameters), "1", 1.0, ["cage.eccentricity"], None),
+        (f"cage eccentricity{over}", "1", 1.0, ["cage.eccentricity"], None),
         ("cage dislocation", "um", 1e6, ["cage.dislocation"], None),
-        ("ring displacement, radial", "um", 1e6, ["ring.y", "ring.z"], length_of),
+        ("ring displacement, radial", "um", 1e6, ["ring.y", "ring.z"], np.linalg.norm),
         ("ring displacement, axial", "um", 1e6, ["ring.x"], None),
-        ("ring tilt", "deg", DEG, ["ring.tilt_y", "ring.tilt_z"], length_of),
+        ("ring tilt", "deg", DEG, ["ring.tilt_y", "ring.tilt_z"], np.linalg.norm),
         ("friction torque", "N.m", 1.0, ["bearing.friction_torque"], None),
         ("power loss", "W", 1.0, ["bearing.power_loss"], None),
     ]
@@ -160,12 +161,6 @@ def clearance_of_cage(parameters: dict[str, Any]) -> str:
     return "pocket" if is_guided_by_balls(parameters) else "guide"
 
 
-def eccentricity_title(parameters):
-    """Title of cage.eccentricity; of a cage that balls guide it names the clearance."""
-    title = "cage eccentricity"
-    return f"{title} / pocket clearance" if is_guided_by_balls(parameters) else title
-
-
 def life_is_known(result: Result) -> bool:
     """Whether the stress is good enough to speak of a life: not from closed forms."""
     return result.summary.get("rivet.table_kind", 0) != 3
@@ -226,9 +221,9 @@ def sampled(result, channel, unit, factor, names, combine):
 
 
 def combined(result, names, combine):
-    """One column of several."""
+    """One column of several by a function of NumPy."""
     values = np.column_stack([result.data[name] for name in names])
-    return combine(values) if combine else values[:, 0]
+    return combine(values, axis=1) if combine else values[:, 0]
 
 
 def settled(result: Result) -> np.ndarray:
@@ -267,13 +262,3 @@ def accelerated(result: Result) -> str:
 def columns(result: Result, head: Any, tail: Any) -> Any:
     """Recorded channels of one quantity of all balls or rivets."""
     return [name for name in result.data if name.startswith(head) and name.endswith(tail)]
-
-
-def largest_of(values):
-    """Largest of the columns at each time."""
-    return values.max(axis=1)
-
-
-def length_of(values):
-    """Length of the vector of the columns at each time."""
-    return np.sqrt((values**2).sum(axis=1))

@@ -3,6 +3,7 @@
 import base64
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from ..bearing.ribbon import is_guided_by_balls
 from ..running.runner import is_peak
@@ -61,7 +62,9 @@ def frames(result):
             channels[f"stress{j}"] = data[name]
     forms, widening = bent(result, Z) if bends else ({}, 0.0)
     channels |= {name.replace("rivet[", "").replace("].", "_"): values for name, values in forms.items()}
-    turned = {"psi": psi, "shaft": angle(data["time"], data["shaft.omega"]) if "shaft.omega" in data else psi}
+    turned = {"psi": psi, "shaft": psi}
+    if "shaft.omega" in data:
+        turned["shaft"] = cumulative_trapezoid(data["shaft.omega"], data["time"], initial=0.0)
     p = result.parameters
     return {
         "Z": Z,
@@ -91,11 +94,6 @@ def thinned(values, stride):
     """Largest of the values since the frame before."""
     last = np.arange(0, len(values), stride)
     return np.maximum.reduceat(values, np.concatenate([[0], last[:-1] + 1])) if len(last) > 1 else values[:1]
-
-
-def angle(t, omega):
-    """Rotation [rad] at a speed omega [rad/s]."""
-    return np.concatenate([[0.0], np.cumsum(0.5 * np.diff(t) * (omega[1:] + omega[:-1]))])
 
 
 def exaggeration(p):

@@ -60,15 +60,10 @@ def wanted(result, names):
 
 
 def mark_settling(ax, result):
-    """Shade the time that the statistics leave out."""
+    """Shade the time that the statistics leave out; a line where a rivet broke, of its place's colour, or parameters changed."""
     end = 1e3 * min(result.parameters.get("start.settle", 0.0), result.data["time"][-1])
     ax.axvspan(0.0, end, color="#f3f4f6", zorder=0)
     ax.margins(x=0.0)
-    mark_events(ax, result)
-
-
-def mark_events(ax, result):
-    """A line at the time at which each rivet broke, in the colour of its place, a dotted one where parameters changed."""
     for _, place, t in breaks(result):
         ax.axvline(1e3 * t, color=HEAD if place == "head" else MIDDLE, lw=0.9, ls="--", label=MARK)
     for t, _ in changes(result):

@@ -17,22 +17,20 @@ from ..base.variable_list import variable_of
 from ..bearing.assumed import assumed_as_bronze, assumed_rows, measured_in
 from ..bearing.ribbon import is_guided_by_balls
 from ..bearing.strength import Strength, assumed, in_words
+from ..running import in_run, summary
 from ..running.budget import computed_share, shown
-from ..running.in_run import change_lines, later_values, notes, unit_of
+from ..running.in_run import later_values, unit_of
 from ..running.rainflow import fatigue_law, rivet_life
 from ..running.responses import display_of
 from ..running.results import Result, read_result
 from ..running.summary import (
     DEG,
-    accelerated,
     breaks,
-    clearance_of_cage,
     columns,
     early_rows,
     flag_note,
     has_statistics,
     life_is_known,
-    no_statistics,
     settled,
     summary_rows,
     table_note,
@@ -105,6 +103,8 @@ def render(result, decides=None, measured=()):
         "page.html",
         about=NOT_SAID | result.about,
         result=result,
+        summary=summary,
+        in_run=in_run,
         script="".join((PARTS / name).read_text(encoding="utf-8") for name in ("drawing.js", "animation.js")),
         film=film,
         missing=missing,
@@ -113,7 +113,6 @@ def render(result, decides=None, measured=()):
         settings=list(setting_rows(result)),
         rows=[replace(row, unit=row.unit.replace("um", "µm")) for row in summary_rows(result)],
         early=[] if has_statistics(result) else list(early_rows(result)),
-        no_statistics=no_statistics(result),
         curve=curve(result) if lives else "",
         balls=list(ball_rows(result)),
         settle=min(result.parameters.get("start.settle", 0.0), float(result.data["time"][-1])),
@@ -123,20 +122,13 @@ def render(result, decides=None, measured=()):
         elastic=elastic,
         vibrates=charts.vibrates(result),
         loaded=charts.loaded_rivet(result),
-        clearance=clearance_of_cage(result.parameters),
-        table_note=table_note(result),
         assumed=(rows := assumed_rows(result)),
         **wrong(result),
         measured_in=measured_in(rows),
         as_bronze=assumed_as_bronze(result),
-        notes=notes(result),
         decides=decides,
         measured=views(measured),
         display_of=display_of,
-        life_is_known=life_is_known(result),
-        breaks=breaks(result),
-        changes=change_lines(result),
-        accelerated=accelerated(result),
         onsets={
             name.split(".")[1].removesuffix("_onsets"): result.data[name][-1]
             for name in columns(result, "event.", "_onsets")

@@ -26,7 +26,7 @@ from ..base.errors import UserError, unknown
 from ..base.files import write_atomically
 from ..running.effects import without_effect
 from ..running.fmu import Model
-from ..running.inputs import History
+from ..running.inputs import histories_of
 from ..running.results import Result
 from ..running.scene import ALWAYS, Scene
 from ..running.summary import settled
@@ -111,8 +111,8 @@ def spectra(result: Result, channel: str | None = None, band: Any = None) -> Any
             f"band = {band[0]:g} to {band[1]:g} {axis}: at least {NARROWEST * frequency[1]:.3g} {axis} wide is allowed, {NARROWEST} "
             "times the resolution of this run"
         )
-    envelope = envelope_of(x, rate, band)
-    envelope_frequency, of_envelope = amplitude_spectrum(envelope, rate)
+    envelope = np.abs(hilbert(sosfiltfilt(butter(4, band, btype="bandpass", fs=rate, output="sos"), x))) ** 2
+    envelope_frequency, of_envelope = amplitude_spectrum(envelope - envelope.mean(), rate)
     kinematic = kinematic_frequencies(result, speeds, orders)
     within = envelope_frequency <= width  # an envelope has no higher frequencies than its band is wide
     lines = tuple(line_at(envelope_frequency[within], of_envelope[within], *line) for line in expected_lines(kinematic))
@@ -127,8 +127,7 @@ def idle_settings(result: Result, found: Any) -> Any:
     if not names or about.get("changes") or not path.is_file() or Model(path).description.guid != about.get("guid"):
         return [], math.inf
     model = Model(path)
-    inputs = {n: History(np.asarray(of["t"]), np.asarray(of["value"]), of["hold"]) for n, of in about["inputs"].items()}
-    own = {n: model.default(v) for n, v in model.parameters.items()}
+    inputs, own = histories_of(about), {n: model.default(v) for n, v in model.parameters.items()}
     parameters = {n: value for n, value in result.parameters.items() if n in own and (value != own[n] or n in names)}
     if set(names) - {*inputs, *parameters}:
         return [], math.inf
@@ -213,13 +212,6 @@ def kurtosis_band(x, rate):
         if kurtosis[k] > best:
             best, found = kurtosis[k], (low[k], high[k])
     return tuple(float(f) for f in found)
-
-
-def envelope_of(x, rate, band):
-    """Squared envelope of the band without its mean."""
-    sections = butter(4, band, btype="bandpass", fs=rate, output="sos")
-    squared = np.abs(hilbert(sosfiltfilt(sections, x))) ** 2
-    return squared - squared.mean()
 
 
 def kinematic_frequencies(result: Result, speeds: Any, orders: Any) -> Any:

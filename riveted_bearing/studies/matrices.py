@@ -19,7 +19,7 @@ from fmpy.fmi1 import FMICallException
 
 from bearing_model.quasi_static import quasi_static
 
-from ..base.errors import UserError
+from ..base.errors import UserError, naming
 from ..base.files import write_text
 from ..bearing.case import Case
 from ..running.effects import acts, all_figures, without_effect
@@ -119,11 +119,9 @@ def equilibrium(case, load, omega):
     """Place of the ring [5] and stiffness [5, 5] under the case's loads times a factor at a speed [rad/s]."""
     given = case.load
     scaled = {name: load * getattr(given, name) for name in LOADS}
-    try:
+    with naming(f"{case.designation} at {omega:g} rad/s, load factor {load:g}"):
         azimuths = 2.0 * math.pi / case.bearing.Z * np.arange(AZIMUTHS) / AZIMUTHS
         states = [quasi_static(case.bearing, replace(given, omega=omega, **scaled), psi) for psi in azimuths]
-    except (ValueError, ArithmeticError) as problem:
-        raise UserError(f"{case.designation} at {omega:g} rad/s, load factor {load:g}: {problem}") from None
     housing = np.array([case.value(f"housing.{name}") for name in DIRECTIONS])  # the equilibrium is relative to it
     places = [[state.x, state.y, state.z, state.tilt_y, state.tilt_z] for state in states]
     return np.mean(places, axis=0) + housing, np.mean([state.K for state in states], axis=0)

@@ -94,7 +94,9 @@ def plan_sweep(name, document, model, path):
     """The Sweep of a document; path: of its file, for messages and to find scenes beside it."""
     check_keys(path, document, SweepFile.model_fields, "sweep")
     file = checked(SweepFile, document, path)
-    axes = [*vary_axes(path, file.vary, model), *sample_axes(path, file.sample, model)]
+    if not all(file.vary):
+        raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
+    axes = [*(vary_axis(path, block, model) for block in file.vary), *sample_axes(path, file.sample, model)]
     if file.repeats is not None:
         limit_runs(path, f"repeats = {file.repeats}", file.repeats)
         axes.insert(0, [{"start.seed": seed} for seed in range(1, file.repeats + 1)])
@@ -102,14 +104,13 @@ def plan_sweep(name, document, model, path):
     factors = tuple(name for axis in axes for name in axis[0])
     if twice := {name for name in factors if factors.count(name) > 1}:
         raise UserError(f"{path}: {', '.join(sorted(twice))} varies in more than one place")
-    common = {"parameters": file.parameters, "inputs": file.inputs}
+    common = settings_of(file)
     common["simulation"] = {"outputs": list(SAMPLED)} | file.simulation
     scenes = {}
     for point in itertools.product(*axes):
         settings = {name: value for part in point for name, value in part.items()}
         source = settings.pop("scene", file.scene)
-        changes = (str(path), common), (str(path), sections_of(settings, model))
-        scene = load_scene(beside(path, source), model, *changes)
+        scene = scene_of(path, source, model, common, sections_of(settings, model))
         key = key_of(scene, model.digest)
         if key in scenes:
             raise UserError(f"{path}: the same run occurs twice: {settings}")
@@ -117,15 +118,8 @@ def plan_sweep(name, document, model, path):
     return Sweep(name, file.description, model, document, factors, scenes)
 
 
-def vary_axes(path, blocks, model):
-    """The axes of [[vary]]: for each block a list of points, {name: value as in a scene file}."""
-    if not all(blocks):
-        raise UserError(f"{path}: vary: write [[vary]] with a name and a list below it")
-    return [vary_axis(path, block, model) for block in blocks]
-
-
 def vary_axis(path, block, model):
-    """One axis: the entries of its names go together."""
+    """One axis: a list of points, {name: value as in a scene file}; the entries of its names go together."""
     values = {name: values_of(path, name, value, model) for name, value in leaves(block, known_names(model))}
     lengths = {name: len(value) for name, value in values.items()}
     if len(set(lengths.values())) != 1:
@@ -235,6 +229,16 @@ def beside(path: str | Path, source: Any) -> Any:
             raise unknown(f"{path}: scene", "name", source, shipped_scenes())
         raise UserError(f"{path}: scene: {file}: no such scene file")
     return file
+
+
+def scene_of(path: str | Path, source: Any, model: Model, *documents: Any) -> Scene:
+    """The Scene of a study's file, by shipped name or beside it, with changes by documents like a scene file's."""
+    return load_scene(beside(path, source), model, *((str(path), document) for document in documents))
+
+
+def settings_of(block: Any) -> dict[str, Any]:
+    """The settings of a file or of one of its blocks as a document like a scene file's."""
+    return {"simulation": block.simulation, "parameters": block.parameters, "inputs": block.inputs}
 
 
 def sections_of(settings: Any, model: Model) -> Any:

@@ -18,6 +18,7 @@ from .sweep_file import Sweep
 
 CONFIDENCE = 0.95
 SEED = "start.seed"
+COLUMNS = {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}  # of factors
 LEGEND_LINE = 0.085  # height of a line of the legend, of that of the panel
 MOST_LINES = 5
 LARGEST = 60  # lines of the table on a terminal
@@ -54,7 +55,7 @@ class SweepTable:
 def sweep_table(sweep: Sweep, rows: Any) -> Any:
     """The SweepTable of a sweep's rows; runs that failed or were stopped do not count."""
     names = [name for name in sweep.factors if name != SEED]
-    found = [shown(sweep.model, name, rows[column_of(name)]) for name in names]
+    found = [shown(sweep.model, name, rows[COLUMNS.get(name, name)]) for name in names]
     units, columns = zip(*found, strict=True) if found else ((), ())
     done = rows["status"] == "done"
     groups = {}
@@ -79,12 +80,6 @@ def shown(model, name, values):
         return "", values
     symbol, (factor, offset) = model.display(variable)
     return suffix(symbol).strip(), factor * values + offset
-
-
-def column_of(name):
-    """Column of the rows that holds a factor."""
-    others = {"simulation.t_end": "t_end", "simulation.step": "step", "simulation.tolerance": "solver.tol"}
-    return others.get(name, name)
 
 
 def averaged(values, groups):
