@@ -70,6 +70,14 @@ def test_response_of_the_fmu(case, record_property):
     assert np.abs(H.imag / scale).max() < 0.05
 
 
+def test_the_response_has_the_scenes_tolerance(case):
+    """A response at the FMU's own tolerance and at the scene's of 1e-5 differ by the errors of the steps."""
+    model, bearing_case, scene = case
+    q, w = equilibrium(bearing_case, 1.0, OMEGA)[0], 2.0 * np.pi * 300.0
+    own, finer = (response(model, replace(scene, tolerance=tol), OMEGA, q, 1, 0.5e-6, w) for tol in (None, 1e-5))
+    assert not np.array_equal(own, finer) and own[1] == pytest.approx(finer[1], rel=0.1)
+
+
 def test_files(case, tmp_path):
     """The table has all entries in their order; ROSS' axes (x, y lateral, z axial) are our (Y, Z, X)."""
     K = np.arange(25.0).reshape(5, 5)
@@ -114,7 +122,7 @@ def test_ross_table_over_speed_and_whirl(tmp_path):
 
 def test_the_command(fmu, tmp_path):
     """Speeds with units, load factors, a picture and a file for ROSS; a wrong unit is refused by name."""
-    line = 'matrices demo --static --speed "6000 rev/min" --load 0.5 --load 1'
+    line = 'matrices demo --static --speed "6000 rev/min" --load 0.5 --load 1 --load 1'
     result = typed(line, "--fmu", fmu, "--out", tmp_path)
     assert result.exit_code == 0, result.output
     assert {path.name for path in tmp_path.iterdir()} == {

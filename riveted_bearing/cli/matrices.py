@@ -71,7 +71,8 @@ def matrices(
 
     omegas = [option_value("--speed", text, speed_of) for text in speeds or ()]
     omegas = omegas or [case.load.omega * (i + 1) / SPEEDS for i in range(SPEEDS)]
-    balanced = quasi_static_matrices(case, sorted(set(omegas)), loads or [1.0])  # refuses before anything is written
+    loads = list(dict.fromkeys(loads or [1.0]))
+    balanced = quasi_static_matrices(case, sorted(set(omegas)), loads)  # refuses before anything is written
     make_folder(out)
     with progress_bar() as bar:
         task, found = bar.add_task("matrices", total=1.0), balanced if static else []
@@ -94,7 +95,7 @@ def matrices(
     console.print(diagonals(found))
     paths = [write_table(found, out / f"{stem}_matrices.csv", rows), plot_matrices(found, out / f"{stem}_matrices.png")]
     for load in dict.fromkeys(point.load for point in found):
-        name = f"{stem}_ross.toml" if len(loads or [1.0]) == 1 else f"{stem}_ross_{load:g}.toml"
+        name = f"{stem}_ross.toml" if len(loads) == 1 else f"{stem}_ross_{load:g}.toml"
         of_load = [point for point in found if point.load == load]
         paths.append(write_ross(of_load, out / name, tag=stem, basis=rows))
         if len(whirls) < 2:

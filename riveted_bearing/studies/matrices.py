@@ -148,18 +148,16 @@ def shaken(model, scene, omega, q, direction, amplitude, w):
         velocity[direction] = amplitude * w * math.cos(w * t)
         return [*place, *velocity]
 
+    first = {
+        name: History([0.0], [value])
+        for name, value in zip((*names, "shaft.omega"), (*motion(0.0), omega), strict=True)
+    }
+    t_end = (settle + periods + 1) * period
+    begun = replace(scene, t_end=t_end, parameters=scene.parameters | FORCED, inputs=scene.inputs | first)
     with Instance(model) as instance:
+        instance.initialize(begun)
         fmu = instance.fmu
         try:
-            for name, value in (scene.parameters | FORCED).items():
-                instance.set_parameter(model.parameters[name], value)
-            others = {name: float(history(0.0)) for name, history in scene.inputs.items() if name not in names}
-            for name, value in (others | {"shaft.omega": omega}).items():
-                fmu.setReal([model.inputs[name].valueReference], [value])
-            fmu.setReal(references, motion(0.0))
-            fmu.setupExperiment(startTime=0.0)
-            fmu.enterInitializationMode()
-            fmu.exitInitializationMode()
             read, sums = instance.reader(REACTIONS), np.zeros(5, complex)
             for n in range((settle + periods) * count):
                 fmu.setReal(references, motion(n * h))
