@@ -407,7 +407,8 @@ static void leave_arrivals(const Model *model, Work *w, int h, int j, const Sphe
     const wide slack = wide_load(&s->slack[j]), side = wide_set(h == 0 ? -1.0 : 1.0);
     wide sphere;
     const wide delta = sphere_nearest(s, slack, gap, &sphere);
-    const bits comes = wide_above(delta + ahead, 0.0) & wide_above(-delta, 0.0);
+    const bits within_reach = wide_above(delta + ahead, 0.0), apart = wide_above(-delta, 0.0),
+               comes = within_reach & apart;
     if (!wide_any(comes)) return;
     const SphereContact would = sphere_contact(s, slack + (delta - TOUCHES), gap->x, gap->r, gap->t);
     const double inv_law = 1.0 / (TOUCHES * sqrt(TOUCHES));
