@@ -149,8 +149,9 @@ def elastic_end(model, halves, step, start, end, error, w):
     by_films = rim_modes(model, memory.films.force - step.rim_before)
     add_rates(model, gamma * (slow_rates(model, f) - step.modes + by_films), y)
 
-    # History and errors.  Where pockets hold oil the foreseen loads count as errors: oil takes the velocities of the ends, without the
-    # turns that these loads make between them.
+    # History and errors.  Where pockets hold oil the foreseen loads count as errors: films in pockets change with the velocities that
+    # these loads change, which nothing else in the error shows.  Without them full pockets at 24,144 r/min have a 1.5 % too large RMS
+    # force.
     change = unforeseen + gamma * step.halves
     halves_remember(model, w, halves, start, change, unforeseen if model.d.squeeze is None else change, end, error)
     remember_modes(model, halves.h, step.modes, start, end, error)

@@ -58,7 +58,7 @@ void halves_slide(const Model *model, const JointStiffness *k, const double *T, 
                   double *y, JointStep *joints, Work *w);
 
 // Accelerations, mean rates of the friction states, their history and their errors; the films at the end.  change: v_{n+1} - v_n - h a_n;
-// unforeseen: without the part that the substeps foresaw.
+// unforeseen: without the part that the substeps foresaw, where that is no error.
 void halves_remember(const Model *model, const Work *w, const HalvesStep *step, const StepFrom *from,
                      const double change[N_STATES], const double unforeseen[N_STATES], const StepTo *to,
                      LandFilm film[2]);

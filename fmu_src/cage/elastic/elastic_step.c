@@ -183,8 +183,9 @@ double elastic_end(const Model *model, HalvesStep *halves, const ElasticStep *st
     elastic_slide(model, y, &halves->joints, w);
     correct_modes(model, gamma, step, bent, f, &memory->films, y);
 
-    // History and errors.  Where pockets hold oil the foreseen loads count as errors: oil takes the velocities of the ends, without
-    // the turns that these loads make between them.  The evaluations behind foresee no films.
+    // History and errors.  Where pockets hold oil the foreseen loads count as errors: films in pockets change with the velocities that
+    // these loads change, which nothing else in the error shows.  Without them full pockets at 24,144 r/min have a 1.5 % too large RMS
+    // force.  The evaluations behind foresee no films.
     memset(w->squeeze_by, 0, sizeof w->squeeze_by);
     memset(w->squeeze_from, 0, sizeof w->squeeze_from);
     halves_remember(model, w, halves, from, change, model->d->squeeze.filled ? change : unforeseen, to,
